@@ -1,0 +1,48 @@
+# How every target of hapsim is made: one place for the flags.
+
+# hapsim_flags(<target>): the warnings every file must pass. g++ 12 warns falsely of overlapping copies
+# (-Wrestrict) where a literal is joined to a string.
+function(hapsim_flags target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-restrict
+    -Wno-missing-field-initializers)
+endfunction()
+
+# hapsim_layer(<name> SOURCES a.cpp ... USES layer ... [LINKS foreign ...]): a library layer.
+function(hapsim_layer name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES;LINKS" ${ARGN})
+  add_library(hapsim_${name} STATIC ${arg_SOURCES})
+  target_include_directories(hapsim_${name} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
+  list(TRANSFORM arg_USES PREPEND hapsim_)
+  target_link_libraries(hapsim_${name} PUBLIC ${arg_USES} PRIVATE ${arg_LINKS})
+  hapsim_flags(hapsim_${name})
+endfunction()
+
+# hapsim_tool(<name> USES layer ...): a command in tools/<name>.cpp, installed with its man page.
+function(hapsim_tool name)
+  cmake_parse_arguments(arg "" "" "USES" ${ARGN})
+  add_executable(${name} ${PROJECT_SOURCE_DIR}/tools/${name}.cpp)
+  list(TRANSFORM arg_USES PREPEND hapsim_)
+  target_link_libraries(${name} PRIVATE hapsim_cli ${arg_USES})
+  hapsim_flags(${name})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set(page ${PROJECT_BINARY_DIR}/man/${name}.1)
+  add_custom_command(OUTPUT ${page}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man
+    COMMAND ${name} --man > ${page} DEPENDS ${name} VERBATIM)
+  add_custom_target(man_${name} ALL DEPENDS ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endfunction()
+
+# hapsim_test(<name> SOURCES x_test.cpp ... USES layer ...): one GoogleTest program, one ctest entry.
+function(hapsim_test name)
+  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  add_executable(test_${name} ${arg_SOURCES})
+  list(TRANSFORM arg_USES PREPEND hapsim_)
+  target_link_libraries(test_${name} PRIVATE ${arg_USES} GTest::gtest_main)
+  target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_compile_definitions(test_${name} PRIVATE
+    HAPSIM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" HAPSIM_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
+  hapsim_flags(test_${name})
+  add_test(NAME ${name} COMMAND test_${name})
+endfunction()

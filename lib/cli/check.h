@@ -1,0 +1,14 @@
+// Values of flags against their specification.
+#pragma once
+
+#include <string>
+
+#include "cli/tool.h"
+
+namespace hapsim {
+
+// Throws Error(kUsage) when `text` is no value of the option: not a finite number, not whole, out
+// of bounds, not a choice, empty.
+void check_value(const Option& option, const std::string& text);
+
+}  // namespace hapsim

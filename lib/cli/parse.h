@@ -1,0 +1,19 @@
+// From argv to Arguments, checked against the specification.
+#pragma once
+
+#include "cli/tool.h"
+
+namespace hapsim {
+
+enum class Request { kRun, kHelp, kMan, kVersion };
+
+struct CommandLine {
+  Request request = Request::kRun;
+  Arguments arguments;
+};
+
+// Throws Error(kUsage): unknown flag (with the nearest), missing or repeated value, number out of
+// bounds, unknown choice, more than one input. --help, --man and --version win over all of these.
+CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv);
+
+}  // namespace hapsim

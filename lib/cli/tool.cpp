@@ -1,0 +1,142 @@
+#include "cli/tool.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "base/error.h"
+#include "cli/help.h"
+#include "cli/parse.h"
+#include "io/number.h"
+#include "io/stream.h"
+#include "io/temp_files.h"
+
+namespace hapsim {
+namespace {
+
+// A file opened later must not become standard output because that was closed.
+void occupy_standard_streams() {
+  for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(fd, F_GETFD) < 0) open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+// Text out of files may hold what would steer a terminal.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = c == '\n' ? ' ' : '?';
+  return text;
+}
+
+bool colourful() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && (no_color == nullptr || *no_color == '\0') &&
+         term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
+int report(const ToolSpec& spec, ExitCode code, const std::string& message) {
+  const bool colour = colourful();
+  std::fprintf(stderr, "%s%s:%s %s\n", colour ? "\033[1;31m" : "", spec.name.c_str(),
+               colour ? "\033[0m" : "", printable(message).c_str());
+  return static_cast<int>(code);
+}
+
+int print(const std::string& text) {
+  Output out("-");
+  out.write(text);
+  out.commit();
+  return static_cast<int>(ExitCode::kDone);
+}
+
+int parse_and_run(const ToolSpec& spec, int argc, char** argv,
+                  const std::function<int(const Arguments&)>& run) {
+  const CommandLine line = parse_command_line(spec, argc, argv);
+  switch (line.request) {
+    case Request::kHelp:
+      return print(help_text(spec));
+    case Request::kMan:
+      return print(man_page(spec));
+    case Request::kVersion:
+      return print(spec.name + " (hapsim) " + version() + "\n");
+    case Request::kRun:
+      break;
+  }
+  const bool reads_stdin = !spec.input.empty() && !spec.input_optional;
+  if (reads_stdin && !line.arguments.input_given() && isatty(STDIN_FILENO) == 1)
+    fail_usage("there is no input", "name a file or pipe data in; " + spec.name + " --help");
+  return run(line.arguments);
+}
+
+}  // namespace
+
+std::string version() {
+  return HAPSIM_VERSION;
+}
+
+const Arguments::Value& Arguments::value(const std::string& flag) const {
+  for (const Value& v : values_)
+    if (v.flag == flag) return v;
+  throw std::logic_error("the specification has no flag " + flag);
+}
+
+bool Arguments::given(const std::string& flag) const {
+  return value(flag).given;
+}
+bool Arguments::has(const std::string& flag) const {
+  return !value(flag).texts.empty();
+}
+
+std::string Arguments::text(const std::string& flag) const {
+  const Value& v = value(flag);
+  return v.texts.empty() ? "" : v.texts.front();
+}
+
+double Arguments::number(const std::string& flag) const {
+  double result;
+  if (!parse_number(text(flag), result))
+    throw std::logic_error(flag + " is read as a number and has no value");
+  return result;
+}
+
+long Arguments::integer(const std::string& flag) const {
+  return static_cast<long>(number(flag));
+}
+
+std::vector<std::string> Arguments::list(const std::string& flag) const {
+  return value(flag).texts;
+}
+
+void say(const Arguments& arguments, const std::string& tool, const std::string& text) {
+  if (!arguments.quiet()) std::fprintf(stderr, "%s: %s\n", tool.c_str(), text.c_str());
+}
+
+int run_tool(const ToolSpec& spec, int argc, char** argv,
+             const std::function<int(const Arguments&)>& run) {
+  occupy_standard_streams();
+  clean_up_on_signals();
+  try {
+    return parse_and_run(spec, argc, argv, run);
+  } catch (const Error& error) {
+    return report(spec, error.code(), error.what());
+  } catch (const ClosedPipe&) {
+    return static_cast<int>(ExitCode::kIo);
+  } catch (const std::bad_alloc&) {
+    return report(spec, ExitCode::kNoConvergence,
+                  "there is not enough memory; use a coarser mesh or a smaller file");
+  } catch (const std::system_error& error) {  // of std::filesystem and of threads
+    return report(spec, ExitCode::kIo, error.what());
+  } catch (const std::exception& error) {
+    return report(spec, ExitCode::kNoConvergence,
+                  std::string("internal error: ") + error.what() + "; please report it");
+  } catch (...) {  // foreign libraries throw what is no std::exception
+    return report(spec, ExitCode::kNoConvergence, "internal error; please report it");
+  }
+}
+
+}  // namespace hapsim

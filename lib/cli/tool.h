@@ -1,0 +1,113 @@
+// A command: its specification as data, from which parsing, --help and the man page all come.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace hapsim {
+
+enum class OptionKind { kSwitch, kText, kNumber, kInteger, kChoice, kFile };
+
+// One long flag. Every tool also has -o/--output, -q/--quiet, -v/--verbose, -h/--help,
+// -V/--version, which run_tool adds.
+struct Option {
+  std::string flag = {};  // "--unit"
+  OptionKind kind = OptionKind::kText;
+  std::string value = {};                 // name of the value in the help: "UNIT"
+  std::string help = {};                  // one or two sentences
+  std::string default_text = {};          // value when not given, "" for none
+  std::vector<std::string> choices = {};  // kChoice
+  double minimum = -1e300;                // kNumber, kInteger: checked bounds
+  double maximum = 1e300;
+  bool required = false;
+  // Values gathered in order; also split at commas (kFile is not: names may hold commas).
+  bool repeatable = false;
+};
+
+struct Example {
+  std::string command = {};
+  std::string explanation = {};
+};
+
+struct ToolSpec {
+  std::string name = {};     // "hs-identify"
+  std::string summary = {};  // one line
+  std::string input = {};    // what the positional argument is; "" when there is none
+  std::vector<std::string> description = {};  // paragraphs; plain text
+  std::vector<Option> options = {};
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> tables =
+      {};  // documented columns: title, then (column, meaning)
+  std::vector<Example> examples = {};
+  std::vector<std::string> see_also = {};  // "hs-compare(1)"
+  bool input_optional = false;  // without the positional argument, standard input is not read
+};
+
+// The parsed command line. Asking for a flag that the specification lacks is our own bug
+// (std::logic_error).
+class Arguments {
+ public:
+  bool input_given() const { return input_given_; }
+  const std::string& input() const { return input_; }    // "-" when absent
+  const std::string& output() const { return output_; }  // "-" when absent
+  bool quiet() const { return quiet_; }
+  bool verbose() const { return verbose_; }
+  bool given(const std::string& flag) const;  // on the command line
+  bool has(const std::string& flag) const;    // given, or has a default
+  // The value, or the default; "" when there is neither.
+  std::string text(const std::string& flag) const;
+  // Checked finite and within bounds; a default is needed unless has().
+  double number(const std::string& flag) const;
+  long integer(const std::string& flag) const;
+  std::vector<std::string> list(const std::string& flag) const;
+
+  struct Value {
+    std::string flag;
+    std::vector<std::string> texts;
+    bool given = false;
+  };
+  std::string input_ = "-";
+  std::string output_ = "-";
+  bool input_given_ = false;
+  bool quiet_ = false;
+  bool verbose_ = false;
+  std::vector<Value> values_;
+
+ private:
+  const Value& value(const std::string& flag) const;
+};
+
+// A line of summary for people on standard error, unless --quiet: "hs-identify: text".
+void say(const Arguments& arguments, const std::string& tool, const std::string& text);
+
+// Version of hapsim, "0.1.0".
+std::string version();
+
+// Progress on standard error, only when that is a terminal and not --quiet; thread-safe.
+class Progress {
+ public:
+  Progress(const Arguments& arguments, const std::string& what, std::size_t total);
+  ~Progress();  // clears the line
+  void step(std::size_t done = 1);
+
+ private:
+  void draw();
+
+  std::string what_;
+  std::size_t total_;  // 0: not known
+  std::size_t done_ = 0;
+  bool shown_;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point start_;
+  std::chrono::steady_clock::time_point drawn_;
+};
+
+// main() of every tool: parses, runs, catches, maps to the exit code. `--man` prints the man page.
+// A closed pipe ends it silently; signals leave no temporary file behind.
+int run_tool(const ToolSpec& spec, int argc, char** argv,
+             const std::function<int(const Arguments&)>& run);
+
+}  // namespace hapsim

@@ -1,0 +1,160 @@
+#include "diagnose/candidate.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <map>
+
+#include "effects/catalogue.h"
+
+namespace hapsim {
+namespace {
+
+FitOptions fit_options(const Workspace& w) {
+  return {w.noise.value, w.floor, false};
+}
+
+ExtendOptions extend_options(const Workspace& w) {
+  ExtendOptions options;
+  options.noise = w.noise.value;
+  options.floor = w.floor;
+  return options;
+}
+
+// The model without its location-based effects, which must be rebuilt from training data alone.
+Model without_locations(const Model& model, std::vector<std::string>& rebuilt) {
+  Model plain = model;
+  for (const std::string& name : model.effects())
+    if (require_effect(name).card().from_locations) {
+      std::erase_if(plain.parameters, [&](const Parameter& p) { return p.effect == name; });
+      rebuilt.push_back(name);
+    }
+  if (!rebuilt.empty())
+    std::erase_if(plain.parameters, [](const Parameter& p) { return p.region > 0; });
+  return plain;
+}
+
+// Refits in a fold start from the fit on all data; regions are built anew from the training
+// positions.
+HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
+  std::vector<std::string> rebuilt;
+  const Model plain = without_locations(fitted, rebuilt);
+  const auto builder = [&](const Selection& training) -> std::vector<Model> {
+    Model model = plain;
+    for (const std::string& name : rebuilt) {
+      model = fit(model, w.dataset, training, *w.body, fit_options(w)).model;
+      model = with_effect(model, name, w.dataset, training, *w.body, extend_options(w)).front();
+    }
+    return {model};
+  };
+  return held_out_error(builder, w.dataset, folds, *w.body, fit_options(w));
+}
+
+// Columns of the new parameters at the candidate's fit; for effects made from locations one gain a
+// position, of which any regions are sums.
+Eigen::MatrixXd new_columns(const Effect& effect, const FitResult& fitted, const Baseline& base,
+                            const Workspace& w) {
+  const Selection all = all_episodes(w.dataset);
+  if (effect.card().from_locations) {
+    const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+    Eigen::MatrixXd columns =
+        Eigen::MatrixXd::Zero(f.size(), static_cast<Eigen::Index>(w.dataset.positions.size()));
+    Eigen::Index at = 0;
+    for (const int e : all) {
+      const Eigen::Index n = 3 * static_cast<Eigen::Index>(w.dataset.episodes[e].rows.size());
+      columns.col(w.dataset.episodes[e].position).segment(at, n) = f.segment(at, n);
+      at += n;
+    }
+    return columns;
+  }
+  const Signal signal = model_forces(fitted.model, w.dataset, all, *w.body, true);
+  const std::vector<int> free = fitted.model.free_parameters();
+  std::vector<int> chosen;
+  for (std::size_t c = 0; c < free.size(); ++c)
+    if (fitted.model.parameters[free[c]].effect == effect.card().name)
+      chosen.push_back(static_cast<int>(c));
+  return signal.df(Eigen::all, chosen);
+}
+
+// Scores by press of the columns with what the baseline's own parameters can do taken out.
+CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const Workspace& w) {
+  y.weights.whiten(columns);
+  if (y.jacobian.cols() > 0) {
+    const auto qr = y.jacobian.colPivHouseholderQr();
+    columns -= y.jacobian * qr.solve(columns);
+  }
+  CandidateScores scores;
+  scores.information = columns.transpose() * columns;
+  scores.by_group =
+      Eigen::MatrixXd::Zero(columns.cols(), static_cast<Eigen::Index>(w.dataset.episodes.size()));
+  Eigen::Index at = 0;
+  for (const int e : all_episodes(w.dataset)) {
+    const Eigen::Index n = 3 * static_cast<Eigen::Index>(w.dataset.episodes[e].rows.size());
+    scores.by_group.col(e) = columns.middleRows(at, n).transpose() * y.residual.segment(at, n);
+    at += n;
+  }
+  return scores;
+}
+
+}  // namespace
+
+Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
+  Baseline base;
+  const Selection all = all_episodes(w.dataset);
+  base.fitted = fit(model, w.dataset, all, *w.body, fit_options(w));
+  if (!folds.held_out.empty()) base.held_out = held_out_of(base.fitted.model, w, folds);
+  return base;
+}
+
+std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, Workspace& w,
+                                    const Folds& folds, std::string& lack) {
+  const EffectCard& card = effect.card();
+  lack = lacking_for(card, w.dataset);
+  if (!lack.empty()) return std::nullopt;
+  const Selection all = all_episodes(w.dataset);
+  const Model& model = base.fitted.model;
+  Candidate candidate;
+  candidate.effect = &effect;
+  candidate.one_more_term = model.has(card.name);
+  candidate.fitted =
+      fit_best(with_effect(model, card.name, w.dataset, all, *w.body, extend_options(w)), w.dataset,
+               all, *w.body, fit_options(w));
+  if (!folds.held_out.empty()) candidate.held_out = held_out_of(candidate.fitted.model, w, folds);
+  return candidate;
+}
+
+Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& candidates,
+                         const Workspace& w) {
+  double best = base.fitted.rmse;
+  for (const Candidate& c : candidates) best = std::min(best, c.fitted.rmse);
+  const double noise = std::max(w.noise.value, best);
+  const Selection all = all_episodes(w.dataset);
+  const Signal signal = model_forces(base.fitted.model, w.dataset, all, *w.body, true);
+  Yardstick y{Weights(w.dataset, all, signal.f, noise, w.floor), noise,
+              measured_forces(w.dataset, all) - signal.f, signal.df};
+  y.weights.whiten(y.residual);
+  y.weights.whiten(y.jacobian);
+  return y;
+}
+
+Measured measure(const Candidate& candidate, const Baseline& base, const Yardstick& y,
+                 const Workspace& w) {
+  const Selection all = all_episodes(w.dataset);
+  Eigen::VectorXd residual = measured_forces(w.dataset, all) -
+                             model_forces(candidate.fitted.model, w.dataset, all, *w.body, false).f;
+  y.weights.whiten(residual);
+  Measured m;
+  m.sum_of_squares = residual.squaredNorm();
+  // Which region each position belongs to is chosen by the data as well, and is paid for.
+  const double extra = candidate.effect->card().from_locations
+                           ? static_cast<double>(w.dataset.positions.size()) - 1
+                           : static_cast<double>(candidate.fitted.model.free_parameters().size()) -
+                                 static_cast<double>(base.fitted.model.free_parameters().size());
+  m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
+  m.scores = press_scores(new_columns(*candidate.effect, candidate.fitted, base, w), y, w);
+  m.scores.penalty = m.penalty;
+  const double information = m.scores.information(0, 0);
+  if (information > 0) m.smallest_seen = std::sqrt((m.penalty + 10) / information);
+  return m;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,50 @@
+// One candidate effect: fitted, scored, and judged on unseen positions.
+#pragma once
+
+#include <optional>
+
+#include "diagnose/diagnose.h"
+#include "estimate/sign_flip.h"
+
+namespace hapsim {
+
+// A fitted model that candidates are compared against.
+struct Baseline {
+  FitResult fitted;
+  HeldOut held_out;
+};
+
+struct Candidate {
+  const Effect* effect = nullptr;
+  FitResult fitted;
+  HeldOut held_out;
+  bool one_more_term = false;
+};
+
+// All candidates of a round are measured with the same weights. Their noise is the sensor's, or the
+// error of the best candidate where that is larger: what nobody explains must not decide the
+// ranking.
+struct Yardstick {
+  Weights weights;
+  double noise = 0;          // [N]
+  Eigen::VectorXd residual;  // of the baseline, whitened
+  Eigen::MatrixXd jacobian;  // of the baseline, whitened
+};
+
+struct Measured {
+  double sum_of_squares = 0;  // of the candidate's whitened residuals
+  double penalty = 0;         // extra parameters times log n
+  CandidateScores scores;
+  double smallest_seen = 0;  // size of the first parameter that would show
+};
+
+Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
+// Nothing when the data cannot test it (`lack` says why).
+std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
+                                    Workspace& workspace, const Folds& folds, std::string& lack);
+Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
+                         const Workspace& workspace);
+Measured measure(const Candidate& candidate, const Baseline& baseline, const Yardstick& yardstick,
+                 const Workspace& workspace);
+
+}  // namespace hapsim

@@ -1,0 +1,276 @@
+#include "diagnose/diagnose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "diagnose/candidate.h"
+#include "diagnose/wording.h"
+#include "effects/catalogue.h"
+
+namespace hapsim {
+namespace {
+
+bool contains(const Effect& effect, const std::string& other) {
+  const auto& list = effect.card().contains;
+  return std::find(list.begin(), list.end(), other) != list.end();
+}
+
+// Effects worth trying on top of a model: those it lacks, and one more term of those with terms.
+std::vector<const Effect*> untried(const Model& model) {
+  std::vector<const Effect*> effects;
+  for (const Effect* effect : catalogue()) {
+    const EffectCard& card = effect->card();
+    if (card.name == "elastic") continue;
+    if (model.has(card.name) && (!card.terms || card.from_locations)) continue;
+    const bool included =
+        std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
+          return model.has(other->card().name) && contains(*other, card.name);
+        });
+    if (!included) effects.push_back(effect);
+  }
+  return effects;
+}
+
+struct Round {
+  std::vector<Candidate> candidates;
+  std::vector<Finding> findings;  // one a candidate, same order
+  std::vector<Finding> untestable;
+};
+
+double held_out_fall(const Finding& f) {
+  return f.held_out_now > 0 ? 1 - f.held_out_after / f.held_out_now : 0;
+}
+
+// With fewer presses their signs have too few arrangements to tell chance from cause.
+constexpr std::size_t kLeastPresses = 6;
+
+// Without positions or presses to hold out, the other gates decide.
+bool passes(const Finding& f, const Gates& gates, bool can_hold_out) {
+  return f.criterion_gain > gates.criterion_gain && f.p_value < gates.p_value &&
+         f.share >= gates.share && (!can_hold_out || held_out_fall(f) >= gates.held_out_fall);
+}
+
+Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
+              const DiagnoseOptions& options, Random& random) {
+  Round round;
+  for (const Effect* effect : untried(base.fitted.model)) {
+    if (options.progress) options.progress(effect->card().name);
+    std::string lack;
+    if (auto candidate = try_effect(*effect, base, w, folds, lack)) {
+      round.candidates.push_back(std::move(*candidate));
+      continue;
+    }
+    Finding finding;
+    finding.effect = effect->card().name;
+    finding.verdict = Verdict::kNotTestable;
+    finding.evidence = lack;
+    finding.next_measurement = lack;
+    round.untestable.push_back(finding);
+  }
+  const Yardstick yardstick = make_yardstick(base, round.candidates, w);
+  std::vector<Measured> measured;
+  std::vector<CandidateScores> scores;
+  for (const Candidate& c : round.candidates) {
+    measured.push_back(measure(c, base, yardstick, w));
+    scores.push_back(measured.back().scores);
+  }
+  const std::vector<double> p = sign_flip_p_values(scores, options.flips, random);
+  const double before = yardstick.residual.squaredNorm();
+  const double noise = w.noise.value * w.noise.value;
+  const double beyond_noise = base.fitted.rmse * base.fitted.rmse - noise;
+  for (std::size_t k = 0; k < round.candidates.size(); ++k) {
+    const Candidate& c = round.candidates[k];
+    const Measured& m = measured[k];
+    Finding f;
+    f.effect = c.effect->card().name;
+    f.one_more_term = c.one_more_term;
+    f.rmse_now = base.fitted.rmse;
+    f.rmse_after = c.fitted.rmse;
+    f.held_out_now = base.held_out.rmse;
+    f.held_out_after = c.held_out.rmse;
+    f.p_value = p[k];
+    f.criterion_gain = before - m.sum_of_squares - m.penalty;
+    if (beyond_noise > 0.01 * noise)
+      f.share = std::clamp(
+          (base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse) / beyond_noise, 0.0,
+          1.0);
+    f.where = describe_where(c, w);
+    f.evidence = describe_evidence(c, m, f);
+    f.next_measurement = c.effect->card().separated_by;
+    round.findings.push_back(f);
+  }
+  return round;
+}
+
+// Rivals that do as well as the best: another effect that passes the gates too and reaches nearly
+// the same fall, unless one of the two includes the other.
+std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const Gates& gates,
+                                   bool can_hold_out) {
+  std::vector<std::size_t> rivals;
+  const Finding& winner = round.findings[best];
+  for (std::size_t k = 0; k < round.findings.size(); ++k) {
+    const Finding& f = round.findings[k];
+    if (k == best || !passes(f, gates, can_hold_out)) continue;
+    if (contains(*round.candidates[best].effect, f.effect) ||
+        contains(*round.candidates[k].effect, winner.effect))
+      continue;
+    const bool as_good = can_hold_out ? held_out_fall(f) >= gates.rival_fall * held_out_fall(winner)
+                                      : f.share >= gates.rival_fall * winner.share;
+    if (as_good || winner.criterion_gain - f.criterion_gain < gates.criterion_gain)
+      rivals.push_back(k);
+  }
+  return rivals;
+}
+
+// A structure that noise does not have: neighbouring whitened residuals that go together.
+double neighbour_correlation(const Eigen::VectorXd& residual, const Workspace& w) {
+  double product = 0, square = 0;
+  Eigen::Index at = 0;
+  for (const Episode& e : w.dataset.episodes) {
+    for (std::size_t i = 0; i < e.rows.size(); ++i, ++at) {
+      square += residual.segment<3>(3 * at).squaredNorm();
+      if (i > 0) product += residual.segment<3>(3 * at).dot(residual.segment<3>(3 * at - 3));
+    }
+  }
+  return square > 0 ? product / square : 0;
+}
+
+}  // namespace
+
+std::string verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kMissing:
+      return "missing";
+    case Verdict::kPossible:
+      return "possible";
+    case Verdict::kIndistinguishable:
+      return "indistinguishable";
+    case Verdict::kAbsent:
+      return "absent";
+    default:
+      return "not testable";
+  }
+}
+
+std::string verdict_name(ModelVerdict verdict) {
+  switch (verdict) {
+    case ModelVerdict::kComplete:
+      return "complete";
+    case ModelVerdict::kIncomplete:
+      return "incomplete";
+    case ModelVerdict::kAmbiguous:
+      return "ambiguous";
+    default:
+      return "unexplained";
+  }
+}
+
+Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& options) {
+  Random random(options.seed);
+  const Folds folds = make_folds(w.dataset, options.folds);
+  const bool can_hold_out = !folds.held_out.empty();
+  Baseline base = make_baseline(model, w, folds);
+  if (!base.fitted.converged)
+    fail_numerics(w.dataset.recording.name, "the model does not fit: " + base.fitted.message,
+                  "identify it again with hs-identify");
+  Diagnosis d;
+  d.noise = w.noise.value;
+  d.noise_measured = w.noise.measured;
+  d.floor = w.floor;
+  d.mesh_uncertainty = w.body->mesh_uncertainty();
+  d.rmse = base.fitted.rmse;
+  d.held_out = base.held_out.rmse;
+  d.held_out_by = folds.by;
+  const Eigen::VectorXd measured = measured_forces(w.dataset, all_episodes(w.dataset));
+  d.force_rms = std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
+
+  const bool few_presses = w.dataset.episodes.size() < kLeastPresses;
+  Round last;
+  bool ambiguous = false;
+  for (int step = 0; step < options.gates.most_effects; ++step) {
+    Round round = try_all(base, w, folds, options, random);
+    std::size_t best = round.findings.size();
+    for (std::size_t k = 0; k < round.findings.size(); ++k)
+      if (passes(round.findings[k], options.gates, can_hold_out) &&
+          (best == round.findings.size() ||
+           round.findings[k].criterion_gain > round.findings[best].criterion_gain))
+        best = k;
+    last = std::move(round);
+    if (best == last.findings.size()) break;
+    std::vector<std::size_t> rivals = rivals_of(best, last, options.gates, can_hold_out);
+    if (!rivals.empty()) {
+      ambiguous = true;
+      rivals.insert(rivals.begin(), best);
+      for (const std::size_t k : rivals) {
+        Finding finding = last.findings[k];
+        finding.verdict = Verdict::kIndistinguishable;
+        for (const std::size_t other : rivals)
+          if (other != k) finding.confused_with.push_back(last.findings[other].effect);
+        d.findings.push_back(finding);
+      }
+      for (Finding& f : last.findings)
+        if (std::any_of(rivals.begin(), rivals.end(),
+                        [&](std::size_t k) { return last.findings[k].effect == f.effect; }))
+          f.effect.clear();
+      break;
+    }
+    Finding finding = last.findings[best];
+    finding.verdict = Verdict::kMissing;
+    for (std::size_t k = 0; k < last.findings.size(); ++k)
+      if (k != best && passes(last.findings[k], options.gates, can_hold_out))
+        finding.confused_with.push_back(last.findings[k].effect);
+    d.findings.push_back(finding);
+    base = make_baseline(last.candidates[best].fitted.model, w, folds);
+    last.findings[best].effect.clear();
+  }
+  for (const Finding& f : last.findings) {
+    if (f.effect.empty()) continue;
+    const bool known = std::any_of(d.findings.begin(), d.findings.end(),
+                                   [&](const Finding& g) { return g.effect == f.effect; });
+    if (known) continue;
+    Finding finding = f;
+    const bool by_chance = !few_presses && f.p_value >= options.gates.p_value;
+    finding.verdict = f.criterion_gain > options.gates.criterion_gain && !by_chance &&
+                              f.share >= options.gates.share
+                          ? Verdict::kPossible
+                          : Verdict::kAbsent;
+    d.findings.push_back(finding);
+  }
+  const auto settled = [](const Finding& f) {
+    return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
+  };
+  std::stable_sort(d.findings.begin(), d.findings.end(), [&](const Finding& a, const Finding& b) {
+    if (settled(a) || settled(b)) return settled(a) && !settled(b);
+    return a.criterion_gain > b.criterion_gain;
+  });
+  d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
+
+  d.rmse_end = base.fitted.rmse;
+  d.held_out_end = base.held_out.rmse;
+  const Selection all = all_episodes(w.dataset);
+  const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  Eigen::VectorXd left = measured - f;
+  Weights(w.dataset, all, f, w.noise.value, w.floor).whiten(left);
+  d.reduced_chi_square_end = left.squaredNorm() / static_cast<double>(left.size());
+  const double correlation = neighbour_correlation(left, w);
+  const bool structure = d.reduced_chi_square_end > 1.5 && correlation > 0.2;
+  const bool missing =
+      std::any_of(d.findings.begin(), d.findings.end(),
+                  [](const Finding& finding) { return finding.verdict == Verdict::kMissing; });
+  d.verdict = ambiguous   ? ModelVerdict::kAmbiguous
+              : missing   ? ModelVerdict::kIncomplete
+              : structure ? ModelVerdict::kUnexplained
+                          : ModelVerdict::kComplete;
+  d.explanation = describe_verdict(d, structure && !ambiguous);
+  if (few_presses && d.verdict == ModelVerdict::kUnexplained)
+    d.explanation = fmt::format(
+        "the model fails by {:.2g} x noise, but {} presses are too few to name the cause with a "
+        "false-alarm rate; the possible effects stand below, the best first. Record {} or more.",
+        d.rmse_end / d.noise, w.dataset.episodes.size(), kLeastPresses);
+  return d;
+}
+
+}  // namespace hapsim

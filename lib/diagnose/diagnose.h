@@ -1,0 +1,67 @@
+// Which physical effect a fitted model lacks.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/extend.h"
+#include "model/workspace.h"
+
+namespace hapsim {
+
+enum class Verdict { kMissing, kPossible, kIndistinguishable, kAbsent, kNotTestable };
+enum class ModelVerdict { kComplete, kIncomplete, kAmbiguous, kUnexplained };
+std::string verdict_name(Verdict verdict);
+std::string verdict_name(ModelVerdict verdict);
+
+// What must hold before an effect is called missing.
+struct Gates {
+  double criterion_gain = 10;   // fall of the information criterion
+  double held_out_fall = 0.02;  // relative fall of the error on unseen positions
+  double p_value = 0.05;        // family-wise, sign flips of whole presses
+  double share = 0.15;          // of the squared misfit beyond noise that the effect takes away
+  double rival_fall = 0.9;      // a rival with this share of the best held-out fall is as good
+  int most_effects = 4;
+};
+
+struct DiagnoseOptions {
+  Gates gates;
+  int folds = 6;
+  int flips = 999;
+  std::uint64_t seed = 1;
+  std::function<void(const std::string&)> progress;  // what is being tried
+};
+
+// One effect of the catalogue, tried on top of the model (and of the effects found before it).
+struct Finding {
+  std::string effect;
+  Verdict verdict = Verdict::kAbsent;
+  double rmse_now = 0, rmse_after = 0;          // [N] per component
+  double held_out_now = 0, held_out_after = 0;  // [N]
+  double p_value = 1;
+  double criterion_gain = 0;
+  double share = 0;  // of the misfit beyond noise
+  std::vector<std::string> confused_with;
+  std::string where, evidence, next_measurement;
+  bool one_more_term = false;
+};
+
+struct Diagnosis {
+  ModelVerdict verdict = ModelVerdict::kComplete;
+  std::vector<Finding> findings;  // best first
+  double noise = 0, floor = 0, mesh_uncertainty = 0;
+  bool noise_measured = false;
+  double rmse = 0, held_out = 0, force_rms = 0;  // of the model as given, refitted [N]
+  double rmse_end = 0, held_out_end = 0;         // with all missing effects added [N]
+  double reduced_chi_square_end = 1;             // whitened
+  std::string held_out_by;
+  std::string explanation;  // of the verdict, in words
+};
+
+// Refits the model, tries every effect of the catalogue on top of it, and goes on while one is
+// found missing. Ranking is by the information criterion of true refits; acceptance by the gates.
+Diagnosis diagnose(const Model& model, Workspace& workspace, const DiagnoseOptions& options);
+
+}  // namespace hapsim

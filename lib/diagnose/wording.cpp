@@ -1,0 +1,97 @@
+#include "diagnose/wording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hapsim {
+namespace {
+
+std::string with_error(double value, double error, const std::string& unit) {
+  const std::string number = std::isnan(error) ? fmt::format("{:.3g}", value)
+                                               : fmt::format("{:.3g} ± {:.1g}", value, error);
+  return unit == "1" ? number : number + " " + unit;
+}
+
+}  // namespace
+
+std::string describe_where(const Candidate& candidate, const Workspace& w) {
+  const EffectCard& card = candidate.effect->card();
+  if (!card.from_locations) return card.signature;
+  const MaterialSpec material = material_of(candidate.fitted.model);
+  const auto stiffest = std::max_element(material.modulus.begin(), material.modulus.end());
+  const auto softest = std::min_element(material.modulus.begin(), material.modulus.end());
+  const auto places = [&](long region) {
+    std::string text;
+    int named = 0, all = 0;
+    for (std::size_t k = 0; k < material.key_point.size(); ++k) {
+      if (material.key_region[k] != region) continue;
+      ++all;
+      if (named == 3) continue;
+      text += fmt::format("{}({:.0f}, {:.0f})", named++ > 0 ? " " : "",
+                          1e3 * material.key_point[k].x(), 1e3 * material.key_point[k].y());
+    }
+    return fmt::format("{} mm{}", text,
+                       all > named ? fmt::format(" and {} more", all - named) : "");
+  };
+  (void)w;
+  return fmt::format("stiffest near {}; softest near {}; ratio {:.2g}",
+                     places(stiffest - material.modulus.begin()),
+                     places(softest - material.modulus.begin()), *stiffest / *softest);
+}
+
+std::string describe_evidence(const Candidate& candidate, const Measured& measured,
+                              const Finding& finding) {
+  std::string text =
+      fmt::format("takes away {:.0f} % of the squared misfit beyond noise", 100 * finding.share);
+  const EffectCard& card = candidate.effect->card();
+  if (card.from_locations) {
+    const MaterialSpec material = material_of(candidate.fitted.model);
+    text += fmt::format("; {} regions, E from {:.3g} to {:.3g} Pa", material.modulus.size(),
+                        *std::min_element(material.modulus.begin(), material.modulus.end()),
+                        *std::max_element(material.modulus.begin(), material.modulus.end()));
+    return text;
+  }
+  int named = 0;
+  for (const Parameter& p : candidate.fitted.model.parameters)
+    if (p.effect == card.name && p.state == ParameterState::kFree && named++ < 6)
+      text += fmt::format("; {} = {}", p.name, with_error(p.value, p.std_error, p.unit));
+  const ParameterCard& first = card.parameters.front();
+  if (measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
+    text += fmt::format("; would show from {} = {}", first.name,
+                        with_error(measured.smallest_seen, std::nan(""), first.unit));
+  return text;
+}
+
+std::string describe_verdict(const Diagnosis& d, bool structure_left) {
+  std::string missing, rivals;
+  for (const Finding& f : d.findings) {
+    if (f.verdict == Verdict::kMissing) missing += (missing.empty() ? "" : ", then ") + f.effect;
+    if (f.verdict == Verdict::kIndistinguishable)
+      rivals += (rivals.empty() ? "" : " or ") + f.effect;
+  }
+  const std::string left = structure_left
+                               ? fmt::format(
+                                     " After that {:.3g} N ({:.2g} x noise) with structure is left "
+                                     "that no known effect takes away.",
+                                     d.rmse_end, d.rmse_end / d.noise)
+                               : "";
+  switch (d.verdict) {
+    case ModelVerdict::kIncomplete:
+      return "missing: " + missing + "." + left;
+    case ModelVerdict::kAmbiguous:
+      return (missing.empty() ? "" : "missing: " + missing + "; beyond that ") +
+             "the data cannot tell " + rivals + " apart; see the next measurement.";
+    case ModelVerdict::kUnexplained:
+      return fmt::format(
+          "the model fails with structure ({:.2g} x noise) that none of the effects "
+          "it knows takes away.",
+          d.rmse_end / d.noise);
+    default:
+      return "nothing is missing that these data could show above the sizes named with each "
+             "effect.";
+  }
+}
+
+}  // namespace hapsim

@@ -1,0 +1,17 @@
+// The diagnosis in words that a tired engineer understands.
+#pragma once
+
+#include <string>
+
+#include "diagnose/candidate.h"
+
+namespace hapsim {
+
+// Where the effect acts: the stiff and the soft places, or what its card says of its signature.
+std::string describe_where(const Candidate& candidate, const Workspace& workspace);
+// How much of the misfit it takes away, and its fitted size with uncertainty.
+std::string describe_evidence(const Candidate& candidate, const Measured& measured,
+                              const Finding& finding);
+std::string describe_verdict(const Diagnosis& diagnosis, bool structure_left);
+
+}  // namespace hapsim

@@ -1,0 +1,19 @@
+// All effects that hapsim knows, in the order in which a force passes through them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "effects/effect.h"
+
+namespace hapsim {
+
+const std::vector<const Effect*>& catalogue();
+
+// Null when the name is unknown.
+const Effect* find_effect(const std::string& name);
+
+// Error(kUsage) that names the nearest effect and lists all.
+const Effect& require_effect(const std::string& name);
+
+}  // namespace hapsim

@@ -1,0 +1,119 @@
+// A physical effect: its card, what it does to the force at its stage, and the derivative of that.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/vec3.h"
+
+namespace hapsim {
+
+// In the order in which a force passes through them.
+enum class Stage { kBody, kSupport, kContact, kSensor };
+
+// One parameter of an effect. `identity` is the value at which the effect does nothing.
+struct ParameterCard {
+  std::string name;  // "E1": effects with terms number them, the card names the first
+  std::string unit;  // SI; "1" for a pure number
+  std::string meaning;
+  double identity = 0;
+  double start = 0;
+  double lower = 0;
+  double upper = 0;
+  double scale = 1;                                             // size of a typical change
+  bool logarithmic = false;                                     // stepped in its logarithm
+  double log_limit = std::numeric_limits<double>::quiet_NaN();  // stepped in log(limit - value)
+};
+
+// Constant data on an effect; man pages, diagnoses and generic tests derive from it.
+struct EffectCard {
+  std::string name;  // as in models, flags and files
+  Stage stage = Stage::kBody;
+  std::string title;  // plain words: "the material relaxes with time"
+  std::string equation;
+  std::string source;
+  std::string assumptions;
+  std::vector<ParameterCard> parameters;
+  bool terms = false;            // may be repeated: E1, tau1, E2, tau2, ...
+  bool needs_time = false;       // not testable without a t column
+  bool needs_positions = false;  // not testable with a single contact position
+  bool from_locations = false;   // built from each position's own modulus (from_locations())
+  std::string signature;         // what its absence looks like in the residuals
+  std::vector<std::string> confounders;
+  std::string separated_by;           // the measurement that tells it from them
+  std::vector<std::string> contains;  // effects that this one includes as a special case
+};
+
+// A parameter's value as the model hands it to an effect. `column` is its column in the derivative
+// matrix, -1 when it is not free.
+struct ParameterValue {
+  int region = 0;
+  std::string name;
+  double value = 0;
+  int column = -1;
+};
+using Values = std::vector<ParameterValue>;
+
+// One press as effects see it, n samples.
+struct PressView {
+  std::vector<double> t;        // [s] since the press began; empty without time
+  std::vector<double> session;  // [s] since the recording began; empty without time
+  std::vector<Vec3> u;          // displacement of the tool [m]
+  std::vector<char> in_air;     // 1: no contact
+  Vec3 normal = Vec3::UnitZ();  // outward, at the contact
+  double radius = 0;            // of the tool [m]
+  double modulus = 0;           // E of region 0 [Pa]
+  int modulus_column = -1;
+  std::size_t size() const { return u.size(); }
+};
+
+// Force on the tool of one press and its derivatives by the free parameters.
+struct Signal {
+  Eigen::VectorXd f;   // 3 n: fx, fy, fz of sample 0, then of sample 1 ... [N]
+  Eigen::MatrixXd df;  // 3 n x parameters; no columns when derivatives are not wanted
+};
+
+// What body effects say of the material.
+struct MaterialSpec {
+  double nu = 0.3;
+  int nu_column = -1;
+  std::vector<double> modulus;  // E [Pa] by region
+  std::vector<int> modulus_column;
+  std::vector<Vec3> key_point;  // region of a point: that of its nearest key point, in plan view
+  std::vector<int> key_region;
+  bool local =
+      false;  // a contact feels its own region's modulus alone, as if the whole body had it
+};
+
+// What a data set offers, from which starts are chosen.
+struct DataSummary {
+  bool has_time = false;
+  double sample_step = 0;     // median time step [s]
+  double press_duration = 0;  // median [s]
+  double session = 0;         // [s]
+  double modulus = 1e4;       // E of the model at hand [Pa]
+  double peak_force = 1;      // [N]
+  double peak_stiffness = 1;  // [N/m]
+};
+
+class Effect {
+ public:
+  virtual ~Effect() = default;
+  virtual const EffectCard& card() const = 0;
+
+  // Body effects: fills in what the stiffness solutions need.
+  virtual void describe(const Values& values, MaterialSpec& material) const;
+  // Other effects: changes the force and carries all columns of the derivative through; adds its
+  // own.
+  virtual void apply(const PressView& press, const Values& values, Signal& signal) const;
+  // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
+  // card's.
+  virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;
+};
+
+// The value of a parameter by name; assert when absent.
+const ParameterValue& find_value(const Values& values, const std::string& name);
+
+}  // namespace hapsim

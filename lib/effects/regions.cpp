@@ -1,0 +1,61 @@
+// Plan-view regions of different stiffness on one mesh.
+#include <map>
+
+#include "effects/effects.h"
+
+namespace hapsim {
+namespace {
+
+class Regions : public Effect {
+ public:
+  const EffectCard& card() const override {
+    static const EffectCard card{
+        .name = "regions",
+        .stage = Stage::kBody,
+        .title = "the stiffness differs from place to place",
+        .equation = "E(x, y) = E_r, r the region of the key point nearest to (x, y)",
+        .source =
+            "after thesis 3.5 (regions on one mesh) and 5.2 (regions from location samples); "
+            "nearest-neighbour classification: Cover and Hart, 1967",
+        .assumptions =
+            "regions reach through the whole depth; boundaries half-way between pressed "
+            "positions of different regions",
+        .parameters = {{"x", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
+                       {"y", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
+                       {"local", "1",
+                        "1: each contact feels its own region alone (location samples, "
+                        "thesis 5.2.1); 0 or absent: regions act on each other through the body",
+                        0, 0, 0, 1, 1, false}},
+        .terms = true,
+        .needs_positions = true,
+        .from_locations = true,
+        .signature = "too stiff at some positions and too soft at others, at all depths and rates",
+        .confounders = {"layer", "inclusion", "base", "shift"},
+        .separated_by = "new positions between the pressed ones, and a tool of another radius"};
+    return card;
+  }
+  void describe(const Values& values, MaterialSpec& material) const override {
+    std::map<std::pair<int, std::string>, Vec3> points;  // by region and number, in file order
+    for (const ParameterValue& v : values) {
+      if (v.name == "local") {
+        material.local = v.value > 0.5;
+        continue;
+      }
+      Vec3& point = points.try_emplace({v.region, v.name.substr(1)}, Vec3::Zero()).first->second;
+      point[v.name[0] == 'x' ? 0 : 1] = v.value;
+    }
+    for (const auto& [key, point] : points) {
+      material.key_point.push_back(point);
+      material.key_region.push_back(key.first);
+    }
+  }
+};
+
+}  // namespace
+
+const Effect& regions_effect() {
+  static const Regions effect;
+  return effect;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,81 @@
+// The stiffness of a body at all its contact positions, prepared in parallel and cached.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "fem/contact_cache.h"
+#include "fem/contact_stiffness.h"
+
+namespace hapsim {
+
+// Stiffness per unit Young's modulus of a homogeneous body at one position, as a smooth function of
+// Poisson's ratio: Hermite interpolation of K/mu through solved values and derivatives, in
+// (1 - 2 nu)^(1/3), the power of it in which three nodes from 0 to 0.499 err least (about 1e-4).
+class UnitStiffness {
+ public:
+  void add(double nu, const Eigen::Matrix3d& K, const Eigen::Matrix3d& dK_dnu);
+  // K and its derivative by nu [m]. Exact at the solved values.
+  void evaluate(double nu, Eigen::Matrix3d& K, Eigen::Matrix3d& dK_dnu) const;
+
+ private:
+  struct Node {
+    double nu;
+    Eigen::Matrix3d K, dK_dnu;
+  };
+  std::vector<Node> nodes_;
+};
+
+struct PreparedContact {
+  Vec3 point, normal;  // on the surface; outward unit normal
+  UnitStiffness stiffness;
+  double mesh_uncertainty = 0;    // relative, of the normal stiffness
+  std::vector<float> plan_share;  // share of the strain energy by plan-view cell
+};
+
+struct ContactLibraryOptions {
+  int threads = 0;             // 0: as many as the machine has
+  std::string cache;           // directory, "" for none
+  double rim_edge = kRimEdge;  // edge length at the tool's rim over its radius
+  std::function<void()> step;  // called once a position is ready (from any thread)
+};
+
+class ContactLibrary {
+ public:
+  ContactLibrary(const TetMesh& body, double tool_radius, const ContactLibraryOptions& options);
+
+  // Prepares positions for Poisson's ratios in [nu_low, nu_high] (equal: that one only).
+  // Error(kBadInput) names the position that is off the surface or cannot be meshed.
+  std::vector<PreparedContact> prepare(const std::vector<Vec3>& positions, double nu_low,
+                                       double nu_high) const;
+  // One solution a position for an inhomogeneous material, corrected to the homogeneous stiffnesses
+  // of `contacts` (of the same positions). `description` must determine `material.group_of` (it
+  // names the cache entry).
+  std::vector<StiffnessSolution> solve(const std::vector<Vec3>& positions,
+                                       const std::vector<PreparedContact>& contacts,
+                                       const Material& material,
+                                       const std::string& description) const;
+
+  const PlanGrid& grid() const { return grid_; }
+
+ private:
+  using Solver = std::function<StiffnessSolution(ContactBodies&, std::size_t position)>;
+  struct Task {
+    ContentHash key;  // beyond the position's
+    Solver solve;
+  };
+  // All tasks at all positions, in parallel; [position * tasks + task].
+  std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
+                                           const std::vector<Task>& tasks) const;
+  ContentHash key_of(const Material& material, const std::string& description) const;
+
+  ContactBase base_;
+  PlanGrid grid_;
+  double radius_;
+  ContactLibraryOptions options_;
+  ContactCache cache_;
+  ContentHash base_hash_;
+};
+
+}  // namespace hapsim

@@ -1,0 +1,51 @@
+// A linear elastic body whose nodes are free, held, or moved by rigid handles.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "fem/elasticity.h"
+#include "linalg/sparse_cholesky.h"
+
+namespace hapsim {
+
+// Node classes: a handle's nodes translate together (the bonded flat tool), its reaction is the
+// resultant of its nodes.
+constexpr int kFreeNode = -1;
+constexpr int kHeldNode = -2;  // displacement zero
+
+class ElasticBody {
+ public:
+  // `handle`: one a node, kFreeNode, kHeldNode or a handle's number 0..n-1. Nodes that no element
+  // uses are held. The mesh must outlive the body. Cost: the analysis of the sparsity, once.
+  ElasticBody(const TetMesh& mesh, const std::vector<int>& handle);
+
+  // Assembles and factorises for one pair of Lame's constants an element [Pa].
+  // Error(kNoConvergence) when the stiffness is not positive definite (body not held, nu >= 0.5).
+  void factorise(const std::vector<Lame>& lame_of_tet);
+
+  struct Response {
+    Eigen::MatrixXd reaction;  // 3 handles x m: force that moves the handles [N]
+    Eigen::MatrixXd field;     // 3 nodes x m: displacements [m]
+  };
+  // For prescribed handle displacements (3 handles x m) [m]. With the identity, the reaction is the
+  // body's stiffness condensed to its handles.
+  Response solve(const Eigen::MatrixXd& prescribed) const;
+
+  int handles() const { return handles_; }
+  int unknowns() const { return matrix_.size; }
+
+ private:
+  void build_pattern();
+
+  const TetMesh& mesh_;
+  std::vector<int> handle_;
+  std::vector<int> block_of_node_;  // free block number, or -1
+  int handles_ = 0;
+  SymmetricSparse matrix_;
+  std::unique_ptr<SparseCholesky> cholesky_;
+  std::vector<Lame> lame_;
+};
+
+}  // namespace hapsim

@@ -1,0 +1,40 @@
+// One second-order mesh for one contact position, graded to the rim of the tool's flat patch.
+#pragma once
+
+#include "geometry/tetmesh.h"
+
+namespace hapsim {
+
+// What stays the same for all contact positions of a body: its closed outer surface, coarsened
+// where that does not change its shape, with the faces that are bonded to the support marked.
+struct ContactBase {
+  Surface surface;                       // closed, outward
+  std::vector<std::uint8_t> fixed_face;  // one a face: bonded
+  Surface fine;                          // the boundary before coarsening: contacts are laid on it
+};
+
+// From the body's own boundary: edge collapse (Lindstrom-Turk) to about `edge` [m] (0: a ninth of
+// the cube root of three times the volume), finer where the surface bends, never moving the outline
+// of the bonded part except where it runs straight; longer edges are split. The volume stays within
+// 0.5 %.
+ContactBase make_contact_base(const TetMesh& body, double edge = 0);
+
+struct ContactMesh {
+  TetMesh mesh;                  // order 2
+  std::vector<int> patch_nodes;  // all nodes (corners and middles) under the flat patch
+  Vec3 point;                    // contact point projected on the surface
+  Vec3 normal;                   // outward unit normal of the patch
+  double patch_area = 0;         // [m^2], close to pi radius^2
+};
+
+// Imprints the disc of `radius` (a regular polygon of its area) about the surface point nearest to
+// `contact` into the surface, with rim edges of length `rim_edge`, grades the surface and the
+// volume away from the rim (element size = rim_edge + growth * distance) and meshes the inside.
+// Same input, same bytes; thread-safe. Error(kBadInput) when the contact lies farther than 3 radii
+// (at least 10 mm) from the surface or the patch meets the bonded part. With growth 0.4 and
+// rim_edge radius/8 (4,500 to 5,500 tetrahedra) the normal stiffness comes out 2 % too high at nu
+// 0.4; extrapolated with rim_edge radius/4 (2,500 to 3,300), 0.5 %, scatter 0.05 %.
+ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, double radius,
+                              double rim_edge, double growth = 0.4);
+
+}  // namespace hapsim

@@ -1,0 +1,164 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "geometry/crease.h"
+#include "geometry/normals.h"
+#include "geometry/poisson.h"
+#include "geometry/reconstruct_parts.h"
+#include "geometry/remesh.h"
+#include "geometry/surface_fit.h"
+#include "geometry/surface_tree.h"
+#include "geometry/tetgen.h"
+
+namespace hapsim {
+namespace {
+
+int root(std::vector<int>& parent, int v) {
+  while (parent[v] != v) v = parent[v] = parent[parent[v]];
+  return v;
+}
+
+// The part that holds the largest volume, with compact vertices.
+Surface largest_part(const Surface& surface) {
+  std::vector<int> parent(surface.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  for (const Triangle& f : surface.faces) {
+    parent[root(parent, f[1])] = root(parent, f[0]);
+    parent[root(parent, f[2])] = root(parent, f[0]);
+  }
+  std::vector<double> volume(surface.vertices.size(), 0);
+  for (const Triangle& f : surface.faces) {
+    Surface one{{surface.vertices[f[0]], surface.vertices[f[1]], surface.vertices[f[2]]}, {}};
+    const Vec3 o = surface.vertices.front();
+    volume[root(parent, f[0])] +=
+        (one.vertices[0] - o).dot((one.vertices[1] - o).cross(one.vertices[2] - o));
+  }
+  const int best =
+      static_cast<int>(std::max_element(volume.begin(), volume.end()) - volume.begin());
+  Surface part;
+  std::vector<int> number(surface.vertices.size(), -1);
+  for (const Triangle& f : surface.faces) {
+    if (root(parent, f[0]) != best) continue;
+    Triangle g;
+    for (int k = 0; k < 3; ++k) {
+      if (number[f[k]] < 0) {
+        number[f[k]] = static_cast<int>(part.vertices.size());
+        part.vertices.push_back(surface.vertices[f[k]]);
+      }
+      g[k] = number[f[k]];
+    }
+    part.faces.push_back(g);
+  }
+  return part;
+}
+
+// The points above the base, wall points from the lowest ones down to it where there is a gap, and
+// all of that again below it: the closed surface then crosses the base upright.
+PointCloud mirrored(const PointCloud& cloud, const BodyFrame& frame) {
+  PointCloud both;
+  const auto add = [&](const Vec3& p, const Vec3& n) {
+    both.points.push_back(p);
+    both.normals.push_back(n);
+    both.points.emplace_back(p.x(), p.y(), 2 * frame.base - p.z());
+    both.normals.emplace_back(n.x(), n.y(), -n.z());
+  };
+  double low = 1e300;
+  for (const Vec3& p : cloud.points) low = std::min(low, std::max(p.z(), frame.base));
+  const bool gap = low - frame.base > 3 * frame.spacing;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Vec3& p = cloud.points[i];
+    const Vec3& n = cloud.normals[i];
+    if (p.z() <= frame.base) continue;
+    add(p, n);
+    const double side = std::hypot(n.x(), n.y());
+    if (!gap || side < 0.5 || p.z() > low + 2 * frame.spacing) continue;
+    for (double z = low - frame.spacing; z > frame.base; z -= frame.spacing) {
+      add({p.x(), p.y(), z}, Vec3(n.x(), n.y(), 0) / side);
+    }
+  }
+  return both;
+}
+
+// Each pass brings more of the rounded edge within reach.
+constexpr int kCreasePasses = 2;
+constexpr double kThinAngle = 3;  // [deg]
+
+double smallest_angle_deg(const Surface& surface) {
+  double largest = -1;
+  for (const Triangle& f : surface.faces) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 u = surface.vertices[f[(k + 1) % 3]] - surface.vertices[f[k]];
+      const Vec3 v = surface.vertices[f[(k + 2) % 3]] - surface.vertices[f[k]];
+      largest = std::max(largest, u.dot(v) / (u.norm() * v.norm()));
+    }
+  }
+  return std::acos(std::min(1.0, largest)) * 180 / M_PI;
+}
+
+double trimmed_rms(const Surface& surface, const std::vector<Vec3>& points) {
+  const SurfaceTree tree(surface);
+  std::vector<double> square;
+  for (const Vec3& p : points) square.push_back(std::pow(tree.nearest(p).distance, 2));
+  std::sort(square.begin(), square.end());
+  // Gross outliers that cleaning left must not decide.
+  const auto kept = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(square.size()));
+  return std::sqrt(std::accumulate(square.begin(), square.begin() + kept, 0.0) /
+                   static_cast<double>(std::max<std::ptrdiff_t>(kept, 1)));
+}
+
+// The surface with creases where the points have them: taken when they then lie clearly nearer to
+// it and it is still sound, else the surface as it was.
+Surface sharper(const Surface& smooth, const PointCloud& cloud, const BodyFrame& frame,
+                RemeshOptions even, SurfaceFitOptions fit) {
+  Surface sharp = smooth;
+  CreaseOptions crease;
+  crease.edge = frame.edge;
+  crease.spacing = frame.spacing;
+  crease.base = even.base;
+  even.crease_deg = 40;
+  even.rounds = 3;
+  fit.rounds = 2;
+  try {
+    for (int pass = 0; pass < kCreasePasses; ++pass) {
+      if (snap_to_creases(sharp, cloud, crease) == 0) return smooth;
+      sharp = remesh(sharp, even);
+      fit_surface(sharp, cloud.points, fit);
+    }
+    if (smallest_angle_deg(sharp) < kThinAngle) return smooth;
+    check_self_intersection(sharp, "");
+  } catch (const Error&) {
+    return smooth;
+  }
+  return trimmed_rms(sharp, cloud.points) < 0.9 * trimmed_rms(smooth, cloud.points) ? sharp
+                                                                                    : smooth;
+}
+
+}  // namespace
+
+Surface reconstruct_poisson(const PointCloud& scan, const BodyFrame& frame) {
+  // Planes through neighbours round the normals off at sharp edges, and with them the surface.
+  PointCloud cloud = scan;
+  sharpen_normals(cloud, 2.5 * frame.spacing, 30, 5);
+  const double cell = frame.edge / 2;
+  RemeshOptions even;
+  even.edge = frame.edge;
+  SurfaceFitOptions fit;
+  Surface surface;
+  if (frame.has_base) {
+    surface = largest_part(
+        poisson_surface(frame.all_round ? cloud : mirrored(cloud, frame), cell, frame.seed));
+    surface = largest_part(cut_flat(surface, frame.base));
+    even.base = frame.base;
+    fit.base = frame.base;
+  } else {
+    surface = largest_part(poisson_surface(cloud, cell, frame.seed));
+  }
+  surface = remesh(surface, even);
+  fit_surface(surface, cloud.points, fit);
+  return sharper(surface, cloud, frame, even, fit);
+}
+
+}  // namespace hapsim

@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "geometry/clean_points.h"
+#include "geometry/reconstruct_parts.h"
+
+namespace hapsim {
+namespace {
+
+double quantile(std::vector<double> v, double share) {
+  const auto at =
+      v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+  std::nth_element(v.begin(), at, v.end());
+  return *at;
+}
+
+}  // namespace
+
+ScanView view_scan(const PointCloud& cloud) {
+  ScanView view;
+  view.spacing = point_spacing(cloud.points);
+  std::vector<double> heights;
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : cloud.points) {
+    heights.push_back(p.z());
+    centre += p;
+  }
+  centre /= static_cast<double>(cloud.points.size());
+  view.low = quantile(heights, 0.005);
+  view.high = quantile(heights, 0.995);
+
+  // Cells of the plan view seen from above, and which of them from below.
+  const double cell = 2 * view.spacing;
+  std::set<std::array<long, 2>> above, below;
+  constexpr int kDirections = 36;
+  std::array<bool, kDirections> reached{};
+  const double band = view.low + std::max(3 * view.spacing, 0.12 * (view.high - view.low));
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Vec3& p = cloud.points[i];
+    const std::array<long, 2> at{std::lround(p.x() / cell), std::lround(p.y() / cell)};
+    if (cloud.normals[i].z() > 0.2) above.insert(at);
+    if (cloud.normals[i].z() < -0.6) below.insert(at);
+    if (p.z() < band && cloud.normals[i].z() < 0.6) {
+      const double turn = std::atan2(p.y() - centre.y(), p.x() - centre.x()) / (2 * M_PI) + 0.5;
+      reached[std::min(kDirections - 1, static_cast<int>(turn * kDirections))] = true;
+    }
+  }
+  view.area = view.spacing * view.spacing * static_cast<double>(cloud.points.size());
+  double both = 0;
+  for (const auto& at : above) both += below.count(at) > 0 ? 1 : 0;
+  if (!above.empty()) view.under_cover = both / static_cast<double>(above.size());
+  view.ring_cover =
+      static_cast<double>(std::count(reached.begin(), reached.end(), true)) / kDirections;
+  return view;
+}
+
+PointCloud even_points(const PointCloud& cloud, double spacing, double edge) {
+  return spacing < edge / 3 ? thin_points(cloud, edge / 3) : cloud;
+}
+
+}  // namespace hapsim

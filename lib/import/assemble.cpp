@@ -1,0 +1,243 @@
+#include "import/assemble.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "import/block.h"
+#include "import/force_noise.h"
+#include "io/number.h"
+
+namespace hapsim {
+namespace {
+
+std::size_t at(int row) {
+  return static_cast<std::size_t>(row);
+}
+
+// Numbers of the presses: those of the table where it has distinct whole ones, else 1, 2, ...
+std::vector<int> press_ids(const RawTable& table, const ColumnMap& map,
+                           const std::vector<PressTrack>& tracks) {
+  std::vector<int> ids;
+  std::set<int> seen;
+  for (const PressTrack& track : tracks) {
+    int id = 0;
+    const std::string text = map.press.size() == 1
+                                 ? table.columns[at(map.press[0])][at(track.segment.rows.front())]
+                                 : "";
+    double value = 0;
+    if (parse_number(text, value) && value == std::floor(value) && std::abs(value) < 1e9)
+      id = static_cast<int>(value);
+    if (text.empty() || !parse_number(text, value) || value != id || !seen.insert(id).second) {
+      for (std::size_t i = 0; i < tracks.size(); ++i)
+        (i < ids.size() ? ids[i] : ids.emplace_back()) = static_cast<int>(i) + 1;
+      return ids;
+    }
+    ids.push_back(id);
+  }
+  return ids;
+}
+
+// Samples in which the tip is above the undeformed surface and feels nothing.
+std::vector<char> contact_flags(const Samples& samples, const PressTrack& track, double noise) {
+  const auto& rows = track.segment.rows;
+  const auto& told = samples[ScalarRole::kContactFlag];
+  const double top = *std::max_element(track.force.begin(), track.force.end());
+  // Rounded coordinates do not lift the tip off the surface.
+  const double lift =
+      -std::max(5e-6, 0.005 * *std::max_element(track.travel.begin(), track.travel.end()));
+  std::vector<double> air;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (track.travel[i] < lift) air.push_back(track.force[i]);
+  std::sort(air.begin(), air.end());
+  const double rest = air.empty() ? 0 : air[air.size() / 2];
+  std::vector<char> flags;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool feels = std::abs(track.force[i] - rest) > 6 * noise + 0.02 * top;
+    const bool touches = told.empty() ? track.travel[i] >= lift || feels : told[at(rows[i])] > 0;
+    flags.push_back(touches ? 1 : 0);
+  }
+  return flags;
+}
+
+// A sensor at its limit repeats one largest value while the tip goes on.
+std::vector<bool> saturated(const PressTrack& track, double limit) {
+  std::vector<bool> marks(track.force.size(), false);
+  for (std::size_t i = 0; i < marks.size();) {
+    std::size_t end = i;
+    while (end < marks.size() && track.force[end] >= limit - 1e-12) ++end;
+    if (end - i >= 5) {
+      const auto [low, high] =
+          std::minmax_element(track.travel.begin() + static_cast<std::ptrdiff_t>(i),
+                              track.travel.begin() + static_cast<std::ptrdiff_t>(end));
+      const double reach = *std::max_element(track.travel.begin(), track.travel.end());
+      if (*high - *low > 0.02 * reach)
+        for (std::size_t k = i; k < end; ++k) marks[k] = true;
+    }
+    i = std::max(end, i + 1);
+  }
+  return marks;
+}
+
+// Columns without a role, and the names of presses that are no numbers.
+std::vector<std::size_t> carried_columns(const RawTable& table, const ColumnMap& map,
+                                         bool numbers_kept) {
+  std::vector<std::size_t> columns;
+  for (std::size_t c = 0; c < table.header.size(); ++c) {
+    const auto& cells = table.columns[c];
+    const bool empty =
+        std::all_of(cells.begin(), cells.end(), [](const auto& cell) { return cell.empty(); });
+    if (!empty && (map.meaning[c].empty() || (map.meaning[c] == "press" && !numbers_kept)))
+      columns.push_back(c);
+  }
+  return columns;
+}
+
+std::string carried_name(const std::string& name) {
+  static const std::set<std::string> kOwn{"press", "t",  "x",  "y",  "z",    "ux",      "uy",
+                                          "uz",    "fx", "fy", "fz", "temp", "contact", "sx",
+                                          "sy",    "sz", "rx", "ry", "rz"};
+  return kOwn.count(name) ? "source " + name : name;
+}
+
+// Differences of decimal numbers are written as decimal numbers again; -0 becomes 0.
+Vec3 rounded(const Vec3& v, double per_unit) {
+  return ((v * per_unit).array().round() / per_unit + 0.0).matrix();
+}
+
+class Assembler {
+ public:
+  Assembler(const RawTable& table, const ColumnMap& map, const Samples& samples,
+            const ImportOptions& options, ImportResult& result)
+      : table_(table), map_(map), samples_(samples), options_(options), result_(result) {}
+
+  void assemble(const std::vector<PressTrack>& tracks) {
+    Recording& out = result_.recording;
+    out.name = table_.name;
+    set_metadata();
+    const NoiseEstimate noise = estimate_noise(tracks, samples_[VectorRole::kForce].empty());
+    note_noise(noise);
+    const std::vector<int> ids = press_ids(table_, map_, tracks);
+    carried_ =
+        carried_columns(table_, map_, map_.press.size() == 1 && ids_are_table_ids(tracks, ids));
+    for (const std::size_t c : carried_) out.extra_header.push_back(carried_name(table_.header[c]));
+    out.extra.resize(carried_.size());
+    double limit = 0;
+    for (const PressTrack& track : tracks)
+      limit = std::max(limit, *std::max_element(track.force.begin(), track.force.end()));
+    for (std::size_t p = 0; p < tracks.size(); ++p) add(tracks[p], ids[p], noise.sigma, limit);
+    if (std::all_of(out.contact.begin(), out.contact.end(), [](char c) { return c != 0; }))
+      out.contact.clear();
+    if (dropped_)
+      result_.notes.warnings.push_back(fmt::format(
+          "{} samples at the sensor's limit ({:.4g} N) while the tip went on are left out",
+          dropped_, limit));
+    check_sizes();
+  }
+
+ private:
+  bool ids_are_table_ids(const std::vector<PressTrack>& tracks, const std::vector<int>& ids) const {
+    double value = 0;
+    for (std::size_t p = 0; p < tracks.size(); ++p)
+      if (!parse_number(table_.columns[at(map_.press[0])][at(tracks[p].segment.rows.front())],
+                        value) ||
+          value != ids[p])
+        return false;
+    return true;
+  }
+
+  void set_metadata() {
+    Metadata& metadata = result_.recording.metadata;
+    metadata = table_.metadata;
+    metadata.set("source", table_.name);
+    // "tool_radius: 3 mm" is not hapsim's number of metres.
+    const auto radius = metadata.find("tool_radius");
+    double value;
+    if (radius && !parse_number(*radius, value))
+      metadata.set("tool_radius", format_number(parse_length(*radius, "tool_radius of the table")));
+    if (options_.tool_radius) metadata.set("tool_radius", format_number(*options_.tool_radius));
+    if (!options_.tool.empty()) metadata.set("tool", options_.tool);
+  }
+
+  void note_noise(const NoiseEstimate& noise) {
+    if (options_.noise == "off" || (noise.sigma <= 0 && options_.noise == "auto")) return;
+    Metadata& metadata = result_.recording.metadata;
+    if (metadata.find("force_noise") && options_.noise == "auto") return;
+    if (noise.sigma <= 0)
+      return result_.notes.warnings.push_back(
+          "there are too few samples to estimate the noise of the force");
+    metadata.set("force_noise", fmt::format("{:.3g}", noise.sigma));
+    metadata.add_comment(
+        "force_noise is the standard deviation per component [N], estimated from " + noise.how);
+    result_.notes.facts.push_back(
+        fmt::format("force noise {:.3g} N, from {}", noise.sigma, noise.how));
+  }
+
+  void add(const PressTrack& track, int id, double noise, double limit) {
+    Recording& out = result_.recording;
+    const auto& t = samples_[ScalarRole::kTime];
+    const auto& temp = samples_[ScalarRole::kTemperature];
+    const std::vector<char> flags = contact_flags(samples_, track, noise);
+    const std::vector<bool> full = saturated(track, limit);
+    double next = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < track.segment.rows.size(); ++i) {
+      const std::size_t row = at(track.segment.rows[i]);
+      if (full[i]) ++dropped_;
+      if (full[i] || (options_.drop_air && !flags[i])) continue;
+      if (!t.empty() && options_.rate) {
+        if (t[row] < next) continue;
+        next = std::max(next + 1 / *options_.rate, t[row] + 0.5 / *options_.rate);
+      }
+      out.line.push_back(table_.line[row]);
+      out.press.push_back(id);
+      if (!t.empty()) out.t.push_back(t[row]);
+      out.position.push_back(rounded(track.contact, 1e10));
+      out.u.push_back(rounded(track.u[i], 1e10));
+      out.f.push_back(rounded(track.f[i], 1e9));
+      if (!temp.empty()) out.temp.push_back(temp[row]);
+      out.contact.push_back(flags[i]);
+      for (std::size_t c = 0; c < carried_.size(); ++c)
+        out.extra[c].push_back(table_.columns[carried_[c]][row]);
+    }
+    result_.touched.push_back({rounded(track.contact, 1e10), map_.has(VectorRole::kNormal)
+                                                                 ? rounded(track.outward, 1e9)
+                                                                 : Vec3(Vec3::Zero())});
+  }
+
+  void check_sizes() {
+    const Recording& out = result_.recording;
+    double depth = 0, force = 0;
+    for (std::size_t i = 0; i < out.rows(); ++i) {
+      if (!out.in_air(i)) depth = std::max(depth, out.u[i].norm());
+      force = std::max(force, out.f[i].norm());
+    }
+    const auto warn = [this](const std::string& text) { result_.notes.warnings.push_back(text); };
+    if (depth > 0.1)
+      warn(fmt::format("the deepest press is {:.3g} m: is the unit of length right?", depth));
+    if (depth < 1e-5)
+      warn(fmt::format("the deepest press is {:.3g} m: is the unit of length right?", depth));
+    if (force > 2000 || force < 1e-4)
+      warn(fmt::format("the largest force is {:.3g} N: is its unit right?", force));
+  }
+
+  const RawTable& table_;
+  const ColumnMap& map_;
+  const Samples& samples_;
+  const ImportOptions& options_;
+  ImportResult& result_;
+  std::vector<std::size_t> carried_;
+  std::size_t dropped_ = 0;
+};
+
+}  // namespace
+
+void assemble(const RawTable& table, const ColumnMap& map, const Samples& samples,
+              const ImportOptions& options, const std::vector<PressTrack>& tracks,
+              ImportResult& result) {
+  Assembler(table, map, samples, options, result).assemble(tracks);
+}
+
+}  // namespace hapsim

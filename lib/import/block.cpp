@@ -1,0 +1,74 @@
+#include "import/block.h"
+
+#include <array>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "io/number.h"
+
+namespace hapsim {
+
+double parse_length(const std::string& text, const std::string& flag) {
+  const std::string_view all = trim(text);
+  const std::size_t letters = std::min(all.find_first_not_of("+-.0123456789eE"), all.size());
+  double value;
+  if (!parse_number(all.substr(0, letters), value))
+    fail_usage(flag + ": '" + text + "' is no length", "write for example 4mm or 0.004");
+  const std::string unit(trim(all.substr(letters)));
+  return value * (unit.empty() ? 1 : unit_factor(Quantity::kLength, unit));
+}
+
+Vec3 parse_block(const std::string& text) {
+  // A unit at the end holds for all three: 120x80x40mm.
+  const std::size_t digits = text.find_last_of("0123456789.");
+  const std::string unit = digits == text.npos ? "" : text.substr(digits + 1);
+  Vec3 size;
+  std::size_t from = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const std::size_t to = std::min(text.find_first_of("xX,", from), text.size());
+    std::string part = text.substr(from, to - from);
+    if (part.find_first_of("mcui") == part.npos) part += unit;
+    size[i] = parse_length(part, "--block");
+    if (!(size[i] > 0) || (to == text.size()) != (i == 2))
+      fail_usage("--block: '" + text + "' is not three positive lengths",
+                 "write for example 120x80x40mm");
+    from = to + 1;
+  }
+  return size;
+}
+
+PlyFile block_surface(const Vec3& size) {
+  PlyFile file;
+  file.comments = {"block " + format_number(size.x()) + " x " + format_number(size.y()) + " x " +
+                   format_number(size.z()) + " m"};
+  PlyElement vertices{"vertex", 8, {}};
+  for (const char* name : {"x", "y", "z"})
+    vertices.properties.push_back({name, PlyType::kFloat64, false, PlyType::kUint8, {}, {}});
+  for (int corner = 0; corner < 8; ++corner) {
+    vertices.properties[0].values.push_back((corner & 1 ? 0.5 : -0.5) * size.x());
+    vertices.properties[1].values.push_back((corner & 2 ? 0.5 : -0.5) * size.y());
+    vertices.properties[2].values.push_back(corner & 4 ? size.z() : 0);
+  }
+  constexpr std::array<std::array<int, 3>, 12> kFaces{{{0, 2, 1},
+                                                       {1, 2, 3},
+                                                       {4, 5, 6},
+                                                       {5, 7, 6},
+                                                       {0, 1, 4},
+                                                       {1, 5, 4},
+                                                       {2, 6, 3},
+                                                       {3, 6, 7},
+                                                       {0, 4, 2},
+                                                       {2, 4, 6},
+                                                       {1, 3, 5},
+                                                       {3, 7, 5}}};
+  PlyElement faces{
+      "face", kFaces.size(), {{"vertex_indices", PlyType::kInt32, true, PlyType::kUint8, {}, {0}}}};
+  for (const auto& face : kFaces) {
+    for (const int corner : face) faces.properties[0].values.push_back(corner);
+    faces.properties[0].offset.push_back(faces.properties[0].values.size());
+  }
+  file.elements = {vertices, faces};
+  return file;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,50 @@
+// Other people's recordings as hapsim's: the whole way from a table to presses.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "import/raw_table.h"
+#include "import/samples.h"
+#include "io/recording.h"
+
+namespace hapsim {
+
+struct ImportOptions {
+  std::vector<std::string> columns;  // "role=name"
+  UnitChoice units;
+  std::string split_by;             // "", "none", "force", "jump", or names of columns with commas
+  std::optional<Vec3> at;           // contact point where the table has none [m]
+  Vec3 direction = Vec3(0, 0, -1);  // along which a machine's travel counts
+  std::optional<double> tool_radius;  // [m]
+  std::string tool;                   // "", "flat", "sphere"
+  std::string contact = "auto";       // "given", "find"
+  std::string tip = "auto";           // "surface", "centre" (of a ball)
+  std::string force = "vector";       // "normal", "magnitude"
+  std::string noise = "auto";         // "on", "off"
+  bool drop_air = false;
+  std::optional<double> rate;  // samples a second that are kept at most [Hz]
+};
+
+// A touched point of the undeformed surface; normal zero when it is not known.
+struct TouchedPoint {
+  Vec3 point;
+  Vec3 normal;
+};
+
+struct ImportResult {
+  Recording recording;
+  std::vector<TouchedPoint> touched;  // one a press
+  Notes notes;
+};
+
+// Converts a table. Error(kBadInput) when it lacks what is needed (a force; and a depth, a tip
+// position or a displacement), when no press ever touches, or for bad cells; Error(kUsage) for
+// --column.
+ImportResult import_recording(const RawTable& table, const ImportOptions& options);
+
+// What each column was taken for, and what is missing: a table for people.
+std::string describe_columns(const RawTable& table, const ImportOptions& options);
+
+}  // namespace hapsim

@@ -1,0 +1,17 @@
+// Which BLAS runs under the factorisation, and its threads.
+#pragma once
+
+#include <string>
+
+namespace hapsim {
+
+// "OpenBLAS 0.3.21 ... Haswell", or "reference BLAS or another: several times slower than
+// OpenBLAS".
+std::string blas_name();
+
+// hapsim runs contact positions side by side, so each factorisation takes one thread: OpenBLAS is
+// set to one thread, and CHOLMOD's own OpenMP regions are switched off (they cost more than they
+// give on matrices of this size). Cheap; safe to call often and from any thread.
+void prepare_blas_for_many_threads();
+
+}  // namespace hapsim

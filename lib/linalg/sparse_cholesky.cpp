@@ -1,0 +1,131 @@
+#include "linalg/sparse_cholesky.h"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <cassert>
+#include <new>
+
+#include "base/error.h"
+#include "linalg/blas.h"
+
+namespace hapsim {
+namespace {
+
+// A view of our arrays as CHOLMOD's lower-stored matrix; nothing is copied.
+cholmod_sparse view(const SymmetricSparse& matrix) {
+  cholmod_sparse a{};
+  a.nrow = a.ncol = static_cast<std::size_t>(matrix.size);
+  a.nzmax = matrix.row.size();
+  a.p = const_cast<int*>(matrix.column_start.data());
+  a.i = const_cast<int*>(matrix.row.data());
+  a.x = const_cast<double*>(matrix.value.data());
+  a.stype = -1;
+  a.itype = CHOLMOD_INT;
+  a.xtype = CHOLMOD_REAL;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = 1;
+  a.packed = 1;
+  return a;
+}
+
+SymmetricSparse block_graph(const SymmetricSparse& pattern, int block) {
+  SymmetricSparse graph;
+  graph.size = pattern.size / block;
+  graph.column_start.push_back(0);
+  for (int b = 0; b < graph.size; ++b) {
+    const int column = b * block;
+    int last = -1;
+    for (int k = pattern.column_start[column]; k < pattern.column_start[column + 1]; ++k) {
+      const int row = pattern.row[k] / block;
+      if (row != last) graph.row.push_back(last = row);
+    }
+    graph.column_start.push_back(static_cast<int>(graph.row.size()));
+  }
+  graph.value.assign(graph.row.size(), 1.0);
+  return graph;
+}
+
+}  // namespace
+
+struct SparseCholesky::Impl {
+  cholmod_common common{};
+  cholmod_factor* factor = nullptr;
+
+  Impl() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.final_ll = 1;
+    common.error_handler = [](int, const char*, int, const char*) {};  // status is checked instead
+  }
+  ~Impl() {
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
+  void check_memory() const {
+    if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  }
+};
+
+SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
+    : impl_(std::make_unique<Impl>()) {
+  assert(pattern.size > 0 && pattern.size % block == 0);
+  prepare_blas_for_many_threads();
+  cholmod_common* common = &impl_->common;
+  const SymmetricSparse graph = block_graph(pattern, block);
+  cholmod_sparse small = view(graph);
+  common->nmethods = 2;
+  common->method[0].ordering = CHOLMOD_METIS;
+  common->method[1].ordering = CHOLMOD_AMD;
+  common->postorder = 1;
+  cholmod_factor* order = cholmod_analyze(&small, common);
+  impl_->check_memory();
+  if (order == nullptr) fail_numerics("", "ordering the sparse matrix failed", "report this mesh");
+  std::vector<int> permutation(static_cast<std::size_t>(pattern.size));
+  const int* small_order = static_cast<const int*>(order->Perm);
+  for (int i = 0; i < graph.size; ++i)
+    for (int k = 0; k < block; ++k) permutation[i * block + k] = small_order[i] * block + k;
+  cholmod_free_factor(&order, common);
+
+  cholmod_sparse full = view(pattern);
+  common->nmethods = 1;
+  common->method[0].ordering = CHOLMOD_GIVEN;
+  impl_->factor = cholmod_analyze_p(&full, permutation.data(), nullptr, 0, common);
+  impl_->check_memory();
+  if (impl_->factor == nullptr)
+    fail_numerics("", "symbolic factorisation failed", "report this mesh");
+}
+
+SparseCholesky::~SparseCholesky() = default;
+
+bool SparseCholesky::factorise(const SymmetricSparse& matrix) {
+  cholmod_sparse a = view(matrix);
+  cholmod_factorize(&a, impl_->factor, &impl_->common);
+  impl_->check_memory();
+  return impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
+}
+
+Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) const {
+  cholmod_common* common = &impl_->common;
+  cholmod_dense b{};
+  b.nrow = b.d = static_cast<std::size_t>(right_hand_sides.rows());
+  b.ncol = static_cast<std::size_t>(right_hand_sides.cols());
+  b.nzmax = b.nrow * b.ncol;
+  b.x = const_cast<double*>(right_hand_sides.data());
+  b.xtype = CHOLMOD_REAL;
+  b.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* x = cholmod_solve(CHOLMOD_A, impl_->factor, &b, common);
+  impl_->check_memory();
+  assert(x != nullptr);
+  Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(
+      static_cast<const double*>(x->x), right_hand_sides.rows(), right_hand_sides.cols());
+  cholmod_free_dense(&x, common);
+  return result;
+}
+
+double SparseCholesky::factor_nonzeros() const {
+  return impl_->common.lnz;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,41 @@
+// Sparse Cholesky factorisation of symmetric positive definite matrices (CHOLMOD, supernodal).
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+namespace hapsim {
+
+// Lower triangle of a symmetric matrix in compressed columns, rows ascending within a column.
+// The pattern is built once; the values are filled again and again.
+struct SymmetricSparse {
+  int size = 0;
+  std::vector<int> column_start;  // size + 1
+  std::vector<int> row;
+  std::vector<double> value;
+};
+
+// Analyses a pattern once and factorises any values on it. Not to be shared between threads; one
+// object a thread is safe.
+class SparseCholesky {
+ public:
+  // `block` consecutive unknowns (3 for displacements) share their sparsity, so the fill-reducing
+  // ordering (METIS nested dissection or AMD, the better) is found on the smaller graph of blocks.
+  explicit SparseCholesky(const SymmetricSparse& pattern, int block = 3);
+  ~SparseCholesky();
+  SparseCholesky(const SparseCholesky&) = delete;
+  SparseCholesky& operator=(const SparseCholesky&) = delete;
+
+  // False when the matrix is not positive definite.
+  bool factorise(const SymmetricSparse& matrix);
+  // Solution of A X = B by the last factorisation; B is size x m.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+  double factor_nonzeros() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hapsim

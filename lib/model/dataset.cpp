@@ -1,0 +1,117 @@
+#include "model/dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hapsim {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+Dataset make_dataset(Recording recording, double same) {
+  Dataset dataset;
+  const double radius = recording.tool_radius();
+  const bool relaxed = recording.metadata.find("recovery").value_or("") != "none";
+  double session_start = 0;
+  if (!recording.t.empty())
+    session_start = *std::min_element(recording.t.begin(), recording.t.end());
+  for (const Press& press : recording.presses()) {
+    const Vec3& point = recording.position[press.rows.front()];
+    for (const int row : press.rows)
+      if ((recording.position[row] - point).norm() > same)
+        fail_input(fmt::format("{}:{}", recording.name, recording.line[row]),
+                   fmt::format("the contact point moves within press {}", press.id),
+                   "give each contact point its own press number");
+    int position = -1;
+    for (std::size_t p = 0; p < dataset.positions.size() && position < 0; ++p)
+      if ((dataset.positions[p] - point).norm() <= same) position = static_cast<int>(p);
+    if (position < 0) {
+      position = static_cast<int>(dataset.positions.size());
+      dataset.positions.push_back(point);
+    }
+    const bool goes_on =
+        !relaxed && !dataset.episodes.empty() && dataset.episodes.back().position == position &&
+        !recording.t.empty() &&
+        recording.t[press.rows.front()] >= recording.t[dataset.episodes.back().rows.back()];
+    if (!goes_on) {
+      dataset.episodes.emplace_back();
+      dataset.episodes.back().position = position;
+      dataset.episodes.back().view.radius = radius;
+    }
+    Episode& episode = dataset.episodes.back();
+    const double start =
+        recording.t.empty() ? 0 : recording.t[goes_on ? episode.rows.front() : press.rows.front()];
+    for (const int row : press.rows) {
+      episode.rows.push_back(row);
+      episode.view.u.push_back(recording.u[row]);
+      episode.view.in_air.push_back(recording.in_air(row) ? 1 : 0);
+      if (recording.t.empty()) continue;
+      episode.view.t.push_back(recording.t[row] - start);
+      episode.view.session.push_back(recording.t[row] - session_start);
+    }
+  }
+  dataset.recording = std::move(recording);
+  return dataset;
+}
+
+void set_normals(Dataset& dataset, const std::vector<Vec3>& normals) {
+  for (Episode& e : dataset.episodes) e.view.normal = normals[e.position];
+}
+
+Noise force_noise(const Dataset& dataset) {
+  if (const auto declared = dataset.recording.force_noise()) return {*declared, false};
+  std::vector<double> second;
+  for (const Episode& e : dataset.episodes)
+    for (std::size_t i = 1; i + 1 < e.rows.size(); ++i) {
+      const Vec3 d = dataset.recording.f[e.rows[i - 1]] - 2 * dataset.recording.f[e.rows[i]] +
+                     dataset.recording.f[e.rows[i + 1]];
+      for (int k = 0; k < 3; ++k) second.push_back(std::abs(d[k]));
+    }
+  double noise = median(second) / (0.6745 * std::sqrt(6.0));
+  double peak = 0;
+  for (const Vec3& f : dataset.recording.f) peak = std::max(peak, f.norm());
+  // Forces on one axis only leave zeros on the others; quantised forces do as well.
+  if (noise < 1e-6 * peak) {
+    second.erase(std::remove_if(second.begin(), second.end(), [](double d) { return d == 0; }),
+                 second.end());
+    noise = std::max(median(second) / (0.6745 * std::sqrt(6.0)), 1e-4 * peak);
+  }
+  return {noise, true};
+}
+
+DataSummary summarise(const Dataset& dataset, double modulus) {
+  DataSummary summary;
+  summary.has_time = !dataset.recording.t.empty();
+  summary.modulus = modulus;
+  summary.peak_force = 1e-12;
+  std::vector<double> steps, durations;
+  double deepest = 0;
+  for (const Episode& e : dataset.episodes) {
+    for (std::size_t i = 0; i < e.rows.size(); ++i) {
+      if (!dataset.recording.f.empty())
+        summary.peak_force = std::max(summary.peak_force, dataset.recording.f[e.rows[i]].norm());
+      deepest = std::max(deepest, e.view.u[i].norm());
+      if (summary.has_time && i > 0) steps.push_back(e.view.t[i] - e.view.t[i - 1]);
+    }
+    if (!summary.has_time) continue;
+    durations.push_back(e.view.t.back());
+    summary.session = std::max(summary.session, e.view.session.back());
+  }
+  summary.sample_step = median(steps);
+  summary.press_duration = median(durations);
+  if (deepest > 0) summary.peak_stiffness = summary.peak_force / deepest;
+  return summary;
+}
+
+}  // namespace hapsim

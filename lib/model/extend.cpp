@@ -1,0 +1,139 @@
+#include "model/extend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "effects/catalogue.h"
+
+namespace hapsim {
+namespace {
+
+// Regions from the training positions' own moduli: rows of key points and of E by region.
+Model with_locations(const Model& fitted, const Effect& effect, const Dataset& dataset,
+                     const Selection& selection, const BodyStiffness& body,
+                     const ExtendOptions& options) {
+  const auto samples =
+      location_samples(fitted, dataset, selection, body, options.noise, options.floor);
+  const std::vector<int> label = region_labels(samples, options.regions, 8);
+  const int regions = 1 + *std::max_element(label.begin(), label.end());
+  Model model = fitted;
+  const Parameter modulus = *fitted.find("elastic", 0, "E");
+  std::erase_if(model.parameters, [](const Parameter& p) {
+    return p.effect == "elastic" && p.name == "E" && p.region > 0;
+  });
+  for (int r = 0; r < regions; ++r) {
+    double weight = 0, sum = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (label[i] != r) continue;
+      const double relative = samples[i].error / samples[i].gain;
+      weight += 1 / (relative * relative);
+      sum += std::log(samples[i].gain) / (relative * relative);
+    }
+    const double value = modulus.value * std::exp(sum / weight);
+    if (Parameter* row = model.find("elastic", r, "E")) {
+      row->value = value;
+    } else {
+      Parameter added = modulus;
+      added.region = r;
+      added.value = value;
+      const auto last =
+          std::find_if(model.parameters.rbegin(), model.parameters.rend(),
+                       [](const Parameter& p) { return p.effect == "elastic" && p.name == "E"; });
+      model.parameters.insert(last.base(), added);
+    }
+  }
+  std::vector<int> number(regions, 0);
+  for (int r = 0; r < regions; ++r)
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      if (label[i] != r) continue;
+      ++number[r];
+      std::vector<Parameter> rows =
+          effect_rows(effect, 1, {samples[i].point.x(), samples[i].point.y(), 0});
+      rows.pop_back();  // `local` stands once for the model
+      for (Parameter& row : rows) {
+        row.name = row.name.substr(0, 1) + std::to_string(number[r]);
+        row.region = r;
+        row.state = ParameterState::kFixed;
+        model.parameters.push_back(row);
+      }
+    }
+  if (options.regions == kEverySite) {
+    // So many neighbouring moduli cannot be told apart through the body; each stands for its site.
+    Parameter local = effect_rows(effect, 1, {0, 0, 1}).back();
+    local.name = "local";
+    local.state = ParameterState::kFixed;
+    model.parameters.push_back(local);
+  }
+  return model;
+}
+
+}  // namespace
+
+Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body) {
+  const Effect& elastic = require_effect("elastic");
+  Model model;
+  model.parameters = effect_rows(elastic, 1, elastic.starts(summarise(dataset, 1), 1).front());
+  const Eigen::VectorXd f = model_forces(model, dataset, selection, body, false).f;
+  const double power = f.squaredNorm();
+  if (power <= 0)
+    fail_input(dataset.recording.name, "no row presses the body",
+               "check ux,uy,uz: all displacements are zero");
+  const double gain = f.dot(measured_forces(dataset, selection)) / power;
+  if (gain <= 0)
+    fail_input(dataset.recording.name, "the forces point the wrong way",
+               "forces are of the body on the tool: pressing down (uz < 0) gives fz > 0");
+  Parameter& modulus = *model.find("elastic", 0, "E");
+  modulus.value = std::clamp(gain * modulus.value, modulus.lower, modulus.upper);
+  return model;
+}
+
+std::vector<Model> with_effect(const Model& fitted, const std::string& name, const Dataset& dataset,
+                               const Selection& selection, const BodyStiffness& body,
+                               const ExtendOptions& options) {
+  const Effect& effect = require_effect(name);
+  const EffectCard& card = effect.card();
+  if (const std::string lack = lacking_for(card, dataset); !lack.empty())
+    fail_usage("the data cannot show " + name, lack);
+  if (fitted.has(name) && !(card.terms && !card.from_locations))
+    fail_usage("the model has " + name + " already", "remove it first (--remove " + name + ")");
+  if (card.from_locations)
+    return {with_locations(fitted, effect, dataset, selection, body, options)};
+
+  Model base = fitted;
+  // What the new effect contains gives way to it.
+  std::erase_if(base.parameters, [&](const Parameter& p) {
+    return std::find(card.contains.begin(), card.contains.end(), p.effect) != card.contains.end();
+  });
+  int terms = card.terms ? options.terms : 1;
+  if (fitted.has(name)) {
+    int present = 0;
+    for (const Parameter& p : fitted.parameters) present += p.effect == name;
+    terms = present / static_cast<int>(card.parameters.size()) + 1;
+    std::erase_if(base.parameters, [&](const Parameter& p) { return p.effect == name; });
+  }
+  const DataSummary summary = summarise(dataset, fitted.find("elastic", 0, "E")->value);
+  std::vector<Model> starts;
+  for (const std::vector<double>& values : effect.starts(summary, terms)) {
+    Model model = base;
+    const std::vector<Parameter> rows = effect_rows(effect, terms, values);
+    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+    starts.push_back(model);
+  }
+  return starts;
+}
+
+std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
+  if (effect.needs_time && dataset.recording.t.empty())
+    return "the recording has no column t: record the time of every sample";
+  if (effect.needs_time) {
+    double longest = 0;
+    for (const Episode& e : dataset.episodes) longest = std::max(longest, e.view.t.back());
+    if (longest <= 0) return "all samples have the same time: record the time of every sample";
+  }
+  if (effect.needs_positions && dataset.positions.size() < 4)
+    return "too few contact positions: press at four places or more";
+  return "";
+}
+
+}  // namespace hapsim

@@ -1,0 +1,166 @@
+#include "model/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "effects/catalogue.h"
+#include "estimate/least_squares.h"
+
+namespace hapsim {
+namespace {
+
+std::vector<Unknown> unknowns(const Model& model) {
+  std::vector<Unknown> result;
+  for (const int i : model.free_parameters()) {
+    const Parameter& p = model.parameters[i];
+    const ParameterCard& card = *parameter_card(require_effect(p.effect), p.name);
+    // A modulus sets its own scale; other parameters have their card's.
+    const double scale = card.unit == "Pa" ? std::max(std::abs(p.value), 1.0) : card.scale;
+    const double lower =
+        card.logarithmic ? std::max(p.lower, 1e-12 * std::max(p.value, 1e-300)) : p.lower;
+    result.push_back({p.value, lower, p.upper, scale, card.logarithmic, card.log_limit});
+  }
+  return result;
+}
+
+void set_values(Model& model, const Eigen::VectorXd& x) {
+  const std::vector<int> free = model.free_parameters();
+  for (std::size_t c = 0; c < free.size(); ++c)
+    model.parameters[free[c]].value = x[static_cast<Eigen::Index>(c)];
+}
+
+double component_rms(const Eigen::VectorXd& r) {
+  return r.size() == 0 ? 0 : std::sqrt(r.squaredNorm() / static_cast<double>(r.size()));
+}
+
+std::string label(const Parameter& p) {
+  return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
+}
+
+// The largest change of log modulus and of nu between two materials.
+double change(const MaterialSpec& a, const MaterialSpec& b) {
+  double largest = std::abs(a.nu - b.nu);
+  for (std::size_t g = 0; g < a.modulus.size(); ++g)
+    largest = std::max(largest, std::abs(std::log(a.modulus[g] / b.modulus[g])));
+  return largest;
+}
+
+}  // namespace
+
+FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
+              BodyStiffness& body, const FitOptions& options) {
+  FitResult result;
+  result.model = start;
+  const Eigen::VectorXd measured = measured_forces(dataset, selection);
+  LeastSquaresResult solution;
+  const MaterialSpec asked = material_of(start);
+  const bool inhomogeneous = asked.modulus.size() > 1 && !asked.local && options.exact_regions;
+  const auto minimise_again = [&] {
+    Model trial = result.model;
+    const auto residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+      set_values(trial, x);
+      Signal signal = model_forces(trial, dataset, selection, body, J != nullptr);
+      r = (signal.f - measured) / options.noise;
+      if (J != nullptr) *J = signal.df / options.noise;
+    };
+    solution = minimise(unknowns(result.model), residuals);
+    set_values(result.model, solution.x);
+  };
+  // With regions the finite elements are solved again about the fitted moduli until these stay:
+  // between solutions the stiffness is linear in the moduli, right to the square of their change.
+  for (int round = 0; round < 6; ++round) {
+    const MaterialSpec before = material_of(result.model);
+    if (inhomogeneous) body.solve(before);
+    minimise_again();
+    if (!inhomogeneous || change(before, material_of(result.model)) < 0.02) break;
+  }
+  if (inhomogeneous) body.solve(material_of(result.model));
+
+  const Signal signal = model_forces(result.model, dataset, selection, body, true);
+  const Eigen::VectorXd residual = measured - signal.f;
+  result.rmse = component_rms(residual);
+  result.residuals = residual.size();
+  result.converged = solution.converged;
+  result.message = solution.message;
+  const std::vector<int> free = result.model.free_parameters();
+  const double freedom =
+      std::max(1.0, static_cast<double>(result.residuals) - static_cast<double>(free.size()));
+  Eigen::MatrixXd covariance =
+      std::max(1.0, solution.sum_of_squares / freedom) * solution.covariance;
+  if (options.floor > 0) {
+    // A gain error of each position, carried through to the parameters (sandwich).
+    const Eigen::MatrixXd through =
+        solution.covariance *
+        (signal.df.transpose() * gain_directions(dataset, selection, signal.f)) *
+        (options.floor / (options.noise * options.noise));
+    covariance += through * through.transpose();
+  }
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    Parameter& p = result.model.parameters[free[c]];
+    const auto k = static_cast<Eigen::Index>(c);
+    const bool unseen = solution.undetermined[c];
+    p.std_error = solution.at_bound[c] || unseen ? std::numeric_limits<double>::quiet_NaN()
+                                                 : std::sqrt(std::max(0.0, covariance(k, k)));
+    if (solution.at_bound[c]) result.at_bound.push_back(label(p));
+    if (unseen) result.undetermined.push_back(label(p));
+  }
+  return result;
+}
+
+FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
+                   const Selection& selection, BodyStiffness& body, const FitOptions& options) {
+  FitResult best;
+  for (std::size_t s = 0; s < starts.size(); ++s) {
+    FitResult result = fit(starts[s], dataset, selection, body, options);
+    const bool better = s == 0 || (result.converged && !best.converged) ||
+                        (result.converged == best.converged && result.rmse < best.rmse);
+    if (better) best = std::move(result);
+  }
+  return best;
+}
+
+double rmse(const Model& model, const Dataset& dataset, const Selection& selection,
+            const BodyStiffness& body) {
+  return component_rms(measured_forces(dataset, selection) -
+                       model_forces(model, dataset, selection, body, false).f);
+}
+
+Folds make_folds(const Dataset& dataset, int count) {
+  Folds folds;
+  const bool by_position = dataset.positions.size() > 1;
+  const std::size_t groups = by_position ? dataset.positions.size() : dataset.episodes.size();
+  if (groups < 2) return folds;
+  folds.by = by_position ? "positions" : "presses";
+  folds.held_out.resize(std::min<std::size_t>(groups, static_cast<std::size_t>(count)));
+  for (std::size_t e = 0; e < dataset.episodes.size(); ++e) {
+    const std::size_t group =
+        by_position ? static_cast<std::size_t>(dataset.episodes[e].position) : e;
+    folds.held_out[group % folds.held_out.size()].push_back(static_cast<int>(e));
+  }
+  return folds;
+}
+
+HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
+                       BodyStiffness& body, const FitOptions& options) {
+  HeldOut result;
+  double squares = 0, components = 0;
+  for (const Selection& held_out : folds.held_out) {
+    Selection training;
+    for (const int e : all_episodes(dataset))
+      if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
+    const FitResult fitted = fit_best(builder(training), dataset, training, body, options);
+    const Eigen::VectorXd r = measured_forces(dataset, held_out) -
+                              model_forces(fitted.model, dataset, held_out, body, false).f;
+    result.squares.push_back(r.squaredNorm());
+    result.components.push_back(static_cast<double>(r.size()));
+    squares += result.squares.back();
+    components += result.components.back();
+  }
+  result.rmse =
+      components > 0 ? std::sqrt(squares / components) : std::numeric_limits<double>::quiet_NaN();
+  return result;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,63 @@
+// Fitting a model's free parameters to a recording, and the error on presses it has not seen.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "model/weights.h"
+
+namespace hapsim {
+
+struct FitOptions {
+  double noise = 1;           // standard deviation of the force noise [N]
+  double floor = 0;           // relative gain error by position (mesh and geometry)
+  bool exact_regions = true;  // solve inhomogeneous bodies anew; false: first-order stiffness
+};
+
+struct FitResult {
+  Model model;  // values, standard errors
+  bool converged = false;
+  std::string message;
+  double rmse = 0;  // per force component [N], all components pooled
+  Eigen::Index residuals = 0;
+  std::vector<std::string> at_bound;      // "elastic nu"
+  std::vector<std::string> undetermined;  // parameters that the data cannot tell
+};
+
+// Fits on the chosen episodes by least squares of the forces. Standard errors come from the noise
+// (or the misfit, where that is larger) and from the gain error `floor` of each position. `body` is
+// solved again for inhomogeneous materials.
+FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
+              BodyStiffness& body, const FitOptions& options);
+
+// The best of several starts.
+FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
+                   const Selection& selection, BodyStiffness& body, const FitOptions& options);
+
+// Root mean square of measured minus simulated force, per component [N].
+double rmse(const Model& model, const Dataset& dataset, const Selection& selection,
+            const BodyStiffness& body);
+
+// Whole positions (or, with a single position, whole presses) left out in turn.
+struct Folds {
+  std::vector<Selection> held_out;
+  std::string by;  // "positions", "presses" or "" when there is only one press
+};
+Folds make_folds(const Dataset& dataset, int count);
+
+// Builds the starts of a model from the episodes it may see.
+using ModelBuilder = std::function<std::vector<Model>(const Selection& training)>;
+
+struct HeldOut {
+  // [N] per component, over all held-out rows; NaN when nothing could be held out.
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> squares;     // sum of squares by fold [N^2]
+  std::vector<double> components;  // 3 x rows by fold
+};
+// Truly refitted for every fold.
+HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
+                       BodyStiffness& body, const FitOptions& options);
+
+}  // namespace hapsim

@@ -1,0 +1,126 @@
+#include "model/forces.h"
+
+#include <numeric>
+
+#include "effects/catalogue.h"
+
+namespace hapsim {
+namespace {
+
+struct Instance {
+  const Effect* effect;
+  Values values;
+};
+
+// The model's effects in the order of the catalogue, with the columns of their free parameters when
+// derivatives are wanted.
+std::vector<Instance> instances(const Model& model, bool derivatives) {
+  const std::vector<int> free = model.free_parameters();
+  std::vector<int> column(model.parameters.size(), -1);
+  for (std::size_t c = 0; derivatives && c < free.size(); ++c)
+    column[free[c]] = static_cast<int>(c);
+  std::vector<Instance> result;
+  for (const Effect* effect : catalogue()) {
+    Instance instance{effect, {}};
+    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+      const Parameter& p = model.parameters[i];
+      if (p.effect == effect->card().name)
+        instance.values.push_back({p.region, p.name, p.value, column[i]});
+    }
+    if (!instance.values.empty()) result.push_back(std::move(instance));
+  }
+  return result;
+}
+
+void release_in_air(const PressView& view, Signal& signal) {
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (!view.in_air[i]) continue;
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+    signal.f.segment<3>(row).setZero();
+    if (signal.df.cols() > 0) signal.df.middleRows(row, 3).setZero();
+  }
+}
+
+}  // namespace
+
+MaterialSpec material_of(const Model& model) {
+  MaterialSpec material;
+  for (const Instance& i : instances(model, true)) i.effect->describe(i.values, material);
+  return material;
+}
+
+Selection all_episodes(const Dataset& dataset) {
+  Selection selection(dataset.episodes.size());
+  std::iota(selection.begin(), selection.end(), 0);
+  return selection;
+}
+
+std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection) {
+  std::vector<int> rows;
+  for (const int e : selection)
+    rows.insert(rows.end(), dataset.episodes[e].rows.begin(), dataset.episodes[e].rows.end());
+  return rows;
+}
+
+Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
+                    const BodyStiffness& body, bool derivatives) {
+  const std::vector<Instance> effects = instances(model, derivatives);
+  const MaterialSpec material = material_of(model);
+  const Eigen::Index columns =
+      derivatives ? static_cast<Eigen::Index>(model.free_parameters().size()) : 0;
+  Eigen::Index total = 0;
+  for (const int e : selection)
+    total += 3 * static_cast<Eigen::Index>(dataset.episodes[e].rows.size());
+  Signal all{Eigen::VectorXd(total), Eigen::MatrixXd(total, columns)};
+  std::vector<PositionStiffness> stiffness(dataset.positions.size());
+  std::vector<char> known(dataset.positions.size(), 0);
+  Eigen::Index at = 0;
+  for (const int e : selection) {
+    const Episode& episode = dataset.episodes[e];
+    if (!known[episode.position]) {
+      stiffness[episode.position] = body.at(episode.position, material);
+      known[episode.position] = 1;
+    }
+    const PositionStiffness& s = stiffness[episode.position];
+    PressView view = episode.view;
+    view.modulus = material.modulus[0];
+    view.modulus_column = derivatives ? material.modulus_column[0] : -1;
+    const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
+    Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      if (view.in_air[i]) continue;
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+      signal.f.segment<3>(row) = -s.K * view.u[i];
+      if (columns == 0) continue;
+      if (material.nu_column >= 0)
+        signal.df.block<3, 1>(row, material.nu_column) = -s.dK_dnu * view.u[i];
+      for (std::size_t g = 0; g < material.modulus.size(); ++g)
+        if (material.modulus_column[g] >= 0)
+          signal.df.block<3, 1>(row, material.modulus_column[g]) = -s.dK_dmodulus[g] * view.u[i];
+    }
+    // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
+    bool at_sensor = false;
+    for (const Instance& i : effects) {
+      if (!at_sensor && i.effect->card().stage == Stage::kSensor) {
+        at_sensor = true;
+        release_in_air(view, signal);
+      }
+      i.effect->apply(view, i.values, signal);
+    }
+    if (!at_sensor) release_in_air(view, signal);
+    all.f.segment(at, n) = signal.f;
+    if (columns > 0) all.df.middleRows(at, n) = signal.df;
+    at += n;
+  }
+  return all;
+}
+
+Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection) {
+  const std::vector<int> rows = stacked_rows(dataset, selection);
+  Eigen::VectorXd f(3 * static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    f.segment<3>(3 * static_cast<Eigen::Index>(i)) = dataset.recording.f[rows[i]];
+  return f;
+}
+
+}  // namespace hapsim

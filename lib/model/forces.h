@@ -1,0 +1,29 @@
+// The forces of a model along the motion of a recording, with their derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "model/body_stiffness.h"
+#include "model/dataset.h"
+#include "model/model.h"
+
+namespace hapsim {
+
+// What the model's body effects say of the material; columns number the free parameters.
+MaterialSpec material_of(const Model& model);
+
+// Episodes to evaluate, in this order; their rows follow one another in all stacked vectors.
+using Selection = std::vector<int>;
+Selection all_episodes(const Dataset& dataset);
+// Rows of the recording in the stacked order.
+std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection);
+
+// Stacked forces (3 x rows) and, when asked, their derivatives by the free parameters.
+Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
+                    const BodyStiffness& body, bool derivatives);
+
+// The measured forces in the same order.
+Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);
+
+}  // namespace hapsim

@@ -1,0 +1,30 @@
+// Location samples: what modulus each contact position asks for by itself.
+#pragma once
+
+#include <vector>
+
+#include "model/forces.h"
+
+namespace hapsim {
+
+struct LocationSample {
+  int position = 0;
+  Vec3 point = Vec3::Zero();  // [m]
+  double gain = 1;            // modulus there over the model's modulus
+  double error = 0;           // standard error of the gain
+};
+
+// One gain a position, by regression of the measured on the model's force with the sensor's effects
+// kept; all other parameters as they are (thesis 5.2.1). The error has the residual's size at that
+// position and the gain error `floor` of mesh and geometry.
+std::vector<LocationSample> location_samples(const Model& model, const Dataset& dataset,
+                                             const Selection& selection, const BodyStiffness& body,
+                                             double noise, double floor);
+
+// How the samples fall into regions: the number that the samples ask for (2 to `most`) by the
+// information criterion, or each position by itself with `sites`. Gives each sample's region.
+std::vector<int> region_labels(const std::vector<LocationSample>& samples, int count, int most);
+constexpr int kAutomaticRegions = 0;
+constexpr int kEverySite = -1;
+
+}  // namespace hapsim

@@ -1,0 +1,131 @@
+// model.csv: the table that a person edits, diffs and joins.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "base/error.h"
+#include "effects/catalogue.h"
+#include "io/csv.h"
+#include "model/model.h"
+
+namespace hapsim {
+namespace {
+
+const std::vector<std::string> kColumns{"effect",    "region", "parameter", "value", "unit",
+                                        "std_error", "lower",  "upper",     "state"};
+
+ParameterState parse_state(const std::string& text, const std::string& where) {
+  if (text == "free" || text.empty()) return ParameterState::kFree;
+  if (text == "fixed") return ParameterState::kFixed;
+  if (text == "derived") return ParameterState::kDerived;
+  fail_input(where, "unknown state '" + text + "'", "write free, fixed or derived");
+}
+
+const char* state_name(ParameterState state) {
+  switch (state) {
+    case ParameterState::kFree:
+      return "free";
+    case ParameterState::kFixed:
+      return "fixed";
+    default:
+      return "derived";
+  }
+}
+
+void check_row(const Parameter& p, const std::string& where) {
+  const Effect* effect = find_effect(p.effect);
+  if (effect == nullptr) {
+    std::string all;
+    for (const Effect* e : catalogue()) all += (all.empty() ? "" : " ") + e->card().name;
+    fail_input(where, "unknown effect '" + p.effect + "'", "the catalogue has: " + all);
+  }
+  const ParameterCard* card = parameter_card(*effect, p.name);
+  if (card == nullptr) {
+    std::string all;
+    for (const ParameterCard& c : effect->card().parameters) all += " " + c.name;
+    fail_input(where, fmt::format("effect {} has no parameter '{}'", p.effect, p.name),
+               "its parameters are" + all);
+  }
+  if (p.unit != card->unit)
+    fail_input(where, fmt::format("{} {} is in '{}'", p.effect, p.name, p.unit),
+               "give it in " + card->unit);
+  if (p.lower > p.upper)
+    fail_input(where, "the lower bound is above the upper bound", "exchange them");
+  if (p.value < p.lower || p.value > p.upper)
+    fail_input(where,
+               fmt::format("{} {} = {} lies outside its bounds [{}, {}]", p.effect, p.name,
+                           format_number(p.value), format_number(p.lower), format_number(p.upper)),
+               "change the value or the bounds");
+}
+
+}  // namespace
+
+Model read_model(Input& input) {
+  const CsvTable table = read_csv(input);
+  for (const std::string column : {"effect", "parameter", "value"})
+    if (table.find(column) < 0)
+      fail_input(table.name, "a model has no column '" + column + "'",
+                 "the columns are effect,region,parameter,value,unit,std_error,lower,upper,state");
+  const auto cell = [&](const std::string& column, std::size_t row) -> std::string {
+    const int c = table.find(column);
+    return c < 0 ? "" : table.columns[c][row];
+  };
+  const std::vector<double> values = table.numbers("value");
+  Model model;
+  model.metadata = table.metadata;
+  std::set<std::string> seen;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string where = fmt::format("{}:{}", table.name, table.line[row]);
+    Parameter p;
+    p.effect = cell("effect", row);
+    p.name = cell("parameter", row);
+    p.value = values[row];
+    const auto number = [&](const std::string& column, double otherwise) {
+      const std::string text = cell(column, row);
+      double value = 0;
+      if (text.empty() || text == "nan") return otherwise;
+      if (!parse_number(text, value))
+        fail_input(where, fmt::format("{} '{}' is not a number", column, text), "mend the cell");
+      return value;
+    };
+    p.region = static_cast<int>(number("region", 0));
+    if (p.region < 0 || p.region > 100000)
+      fail_input(where, "the region is not a small whole number", "number regions from 0");
+    const Effect* effect = find_effect(p.effect);
+    const ParameterCard* card = effect == nullptr ? nullptr : parameter_card(*effect, p.name);
+    p.unit = cell("unit", row);
+    if (p.unit.empty() && card != nullptr) p.unit = card->unit;
+    p.std_error = number("std_error", std::nan(""));
+    p.lower = number("lower", card == nullptr ? 0 : card->lower);
+    p.upper = number("upper", card == nullptr ? 0 : card->upper);
+    p.state = parse_state(cell("state", row), where);
+    check_row(p, where);
+    if (!seen.insert(fmt::format("{}|{}|{}", p.effect, p.region, p.name)).second)
+      fail_input(where, fmt::format("{} {} of region {} stands twice", p.effect, p.name, p.region),
+                 "remove one of the rows");
+    model.parameters.push_back(p);
+  }
+  if (model.find("elastic", 0, "E") == nullptr || model.find("elastic", 0, "nu") == nullptr)
+    fail_input(table.name, "the model lacks E or nu of the effect elastic (region 0)",
+               "start from a file that hs-identify wrote");
+  for (const std::string& name : model.effects()) {
+    const Effect& effect = require_effect(name);
+    if (effect.card().from_locations) continue;
+    for (const ParameterCard& card : effect.card().parameters)
+      if (model.find(name, 0, card.name) == nullptr)
+        fail_input(table.name, fmt::format("effect {} lacks its parameter {}", name, card.name),
+                   "add the row, or remove the effect");
+  }
+  return model;
+}
+
+void write_model(std::ostream& out, const Model& model) {
+  CsvWriter writer(out, model.metadata, kColumns);
+  for (const Parameter& p : model.parameters)
+    writer.row({p.effect, std::to_string(p.region), p.name, format_number(p.value), p.unit,
+                std::isnan(p.std_error) ? "" : format_number(p.std_error), format_number(p.lower),
+                format_number(p.upper), state_name(p.state)});
+}
+
+}  // namespace hapsim

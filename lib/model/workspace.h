@@ -1,0 +1,41 @@
+// What every tool with a body and a recording needs: data, prepared stiffnesses, noise and floor.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "model/body_stiffness.h"
+#include "model/dataset.h"
+#include "model/model.h"
+
+namespace hapsim {
+
+struct WorkspaceOptions {
+  int threads = 0;                     // 0: as many as the machine has
+  std::string cache;                   // directory, "" for none
+  double rim_edge = kRimEdge;          // share of the tool's radius
+  double noise = 0;                    // [N]; 0: declared by the recording or measured from it
+  double floor = -1;                   // relative; negative: from the meshes
+  double nu_low = 0, nu_high = 0.499;  // the range of Poisson's ratio that will be asked
+  std::function<std::function<void()>(std::size_t)> progress;  // from the count, a step function
+};
+
+struct Workspace {
+  Dataset dataset;
+  std::unique_ptr<ContactLibrary> library;
+  std::unique_ptr<BodyStiffness> body;
+  Noise noise;
+  double floor = 0;  // relative gain error by position that a model is not blamed for
+};
+
+// Least floor: bodies come from scans, whose shape is uncertain as well.
+constexpr double kLeastFloor = 0.01;
+
+// Reads nothing; prepares (or finds in the cache) the stiffness at each position of the recording.
+Workspace make_workspace(const TetMesh& body, Recording recording, const WorkspaceOptions& options);
+
+// [nu, nu] when the model's Poisson's ratio is fixed, else its bounds.
+void set_poisson_range(const Model& model, WorkspaceOptions& options);
+
+}  // namespace hapsim

@@ -1,0 +1,143 @@
+// The surface coloured by error: drag to turn, ctrl + wheel to zoom, double click to reset.
+(function () {
+  const data = window.hapsimBody, stage = document.getElementById("stage");
+  if (!data || !stage) return;
+  const bytes = s => Uint8Array.from(atob(s), c => c.charCodeAt(0)).buffer;
+  const q = new Uint16Array(bytes(data.vertices)), level = new Uint16Array(bytes(data.error)), near = new Uint16Array(bytes(data.near));
+  const face = new Uint32Array(bytes(data.faces));
+  const size = data.size, at = (i, k) => (q[3 * i + k] / 65535 - 0.5) * size[k];
+  let half = 0;
+  for (let i = 0; i < level.length; ++i) half = Math.max(half, Math.hypot(at(i, 0), at(i, 1), at(i, 2)));
+
+  // Normals smooth across small angles only, so that edges of the body stay edges.
+  const count = face.length, normal = new Float32Array(face.length), used = new Map();
+  for (let f = 0; f < count; f += 3) {
+    const [a, b, c] = [face[f], face[f + 1], face[f + 2]];
+    const u = [0, 1, 2].map(k => at(b, k) - at(a, k)), v = [0, 1, 2].map(k => at(c, k) - at(a, k));
+    const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    const l = Math.hypot(...n) || 1;
+    for (let k = 0; k < 3; ++k) normal[f + k] = n[k] / l;
+    for (const i of [a, b, c]) used.has(i) ? used.get(i).push(f) : used.set(i, [f]);
+  }
+  const corner = new Float32Array(count * 8);
+  for (let i = 0; i < count; ++i) {
+    const f = i - i % 3, n = [0, 0, 0], v = face[i];
+    for (const g of used.get(v)) {
+      const dot = normal[f] * normal[g] + normal[f + 1] * normal[g + 1] + normal[f + 2] * normal[g + 2];
+      if (dot > 0.75) for (let k = 0; k < 3; ++k) n[k] += normal[g + k];
+    }
+    const l = Math.hypot(...n) || 1;
+    corner.set([at(v, 0), at(v, 1), at(v, 2), n[0] / l, n[1] / l, n[2] / l, level[v] / 65535, near[v] / 65535], 8 * i);
+  }
+
+  const canvas = stage.querySelector("canvas.surface"), over = stage.querySelector("canvas.marks");
+  const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+  const pen = over.getContext("2d"), tip = document.getElementById("tip");
+  const start = { yaw: -0.6, pitch: 0.62, zoom: 1 };
+  let view = { ...start }, program;
+  if (gl) {
+    const shader = (kind, source) => { const s = gl.createShader(kind); gl.shaderSource(s, source); gl.compileShader(s); return s; };
+    program = gl.createProgram();
+    gl.attachShader(program, shader(gl.VERTEX_SHADER, `#version 300 es
+      in vec3 place; in vec3 normal; in vec2 value;
+      uniform mat3 turn; uniform vec3 scale; out vec3 n; out vec2 v;
+      void main() { vec3 p = turn * place; n = turn * normal; v = value; gl_Position = vec4(p.x * scale.x, p.y * scale.y, -p.z * scale.z, 1.0); }`));
+    gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `#version 300 es
+      precision highp float; in vec3 n; in vec2 v; uniform vec3 stops[6]; uniform vec3 unknown; out vec4 colour;
+      void main() {
+        float x = clamp(v.x, 0.0, 1.0) * 5.0; int i = int(min(floor(x), 4.0));
+        vec3 base = mix(unknown, mix(stops[i], stops[i + 1], x - float(i)), smoothstep(0.5 - fwidth(v.y), 0.5 + fwidth(v.y), v.y));
+        vec3 m = normalize(n); float light = 0.74 + 0.26 * max(0.0, dot(m, normalize(vec3(-0.35, 0.55, 0.75))));
+        colour = vec4(base * light, 1.0); }`));
+    gl.linkProgram(program);
+    gl.useProgram(program);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, corner, gl.STATIC_DRAW);
+    [["place", 3, 0], ["normal", 3, 12], ["value", 2, 24]].forEach(([name, n, offset]) => {
+      const where = gl.getAttribLocation(program, name);
+      gl.enableVertexAttribArray(where);
+      gl.vertexAttribPointer(where, n, gl.FLOAT, false, 32, offset);
+    });
+    gl.uniform3fv(gl.getUniformLocation(program, "stops"), data.stops.flat().map(v => v / 255));
+    gl.uniform3fv(gl.getUniformLocation(program, "unknown"), data.unknown.map(v => v / 255));
+    gl.enable(gl.DEPTH_TEST);
+  }
+
+  // Rows of the rotation: right, up, towards the viewer. z of the body stays upright.
+  function axes() {
+    const c = Math.cos(view.yaw), s = Math.sin(view.yaw), a = Math.cos(view.pitch), b = Math.sin(view.pitch);
+    return [[c, -s, 0], [b * s, b * c, a], [-a * s, -a * c, b]];
+  }
+  const project = (p, r) => r.map(row => row[0] * p[0] + row[1] * p[1] + row[2] * p[2]);
+  let marks = [];
+
+  function draw() {
+    const ratio = window.devicePixelRatio || 1, w = stage.clientWidth, h = stage.clientHeight;
+    for (const c of [canvas, over]) { c.width = w * ratio; c.height = h * ratio; }
+    const unit = 0.47 * Math.min(w, h) / half * view.zoom, r = axes();
+    if (gl) {
+      gl.viewport(0, 0, canvas.width, canvas.height);
+      gl.clearColor(0.957, 0.965, 0.973, 1);
+      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+      const turn = [0, 1, 2].flatMap(k => [r[0][k], r[1][k], r[2][k]]);
+      gl.uniformMatrix3fv(gl.getUniformLocation(program, "turn"), false, turn);
+      gl.uniform3f(gl.getUniformLocation(program, "scale"), 2 * unit / w, 2 * unit / h, 0.9 / half);
+      gl.drawArrays(gl.TRIANGLES, 0, count);
+    }
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.clearRect(0, 0, w, h);
+    marks = [];
+    data.positions.forEach((p, i) => {
+      if (gl && project(p.normal, r)[2] < 0.02) return;
+      const v = project(p.at, r), x = w / 2 + v[0] * unit, y = h / 2 - v[1] * unit;
+      marks.push({ x, y, p });
+      pen.beginPath();
+      pen.arc(x, y, p.rank <= 3 ? 7 : 5, 0, 7);
+      pen.fillStyle = p.colour; pen.fill();
+      pen.lineWidth = 3; pen.strokeStyle = "#fff"; pen.stroke();
+      pen.lineWidth = 1.5; pen.strokeStyle = "#1b2733"; pen.stroke();
+      if (p.rank <= 3) {
+        pen.font = "600 13px sans-serif"; pen.lineWidth = 3.5; pen.strokeStyle = "#fff"; pen.fillStyle = "#1b2733";
+        pen.strokeText(p.rank, x + 9, y - 7); pen.fillText(p.rank, x + 9, y - 7);
+      }
+    });
+    // Directions of the axes, lower left.
+    pen.font = "11px sans-serif";
+    ["x", "y", "z"].forEach((name, k) => {
+      const dx = 30 * r[0][k], dy = -30 * r[1][k];
+      pen.strokeStyle = pen.fillStyle = "#5b6876"; pen.lineWidth = 1.2;
+      pen.beginPath(); pen.moveTo(46, h - 46); pen.lineTo(46 + dx, h - 46 + dy); pen.stroke();
+      pen.fillText(name, 43 + 1.3 * dx, h - 42 + 1.3 * dy);
+    });
+    const span = [1, 2, 5, 10, 20, 50, 100, 200, 500].map(v => v / 1000).filter(v => v * unit < w / 5).pop();
+    if (span) {
+      pen.beginPath(); pen.moveTo(w - 20 - span * unit, h - 22); pen.lineTo(w - 20, h - 22); pen.stroke();
+      pen.textAlign = "right"; pen.fillText((span * 1000) + " mm", w - 20, h - 28); pen.textAlign = "left";
+    }
+  }
+  let drag = null;
+  stage.onpointerdown = e => { drag = [e.clientX, e.clientY]; stage.setPointerCapture(e.pointerId); };
+  stage.onpointerup = stage.onpointercancel = () => { drag = null; };
+  stage.onpointermove = e => {
+    if (drag) {
+      view.yaw += (e.clientX - drag[0]) * 0.008;
+      view.pitch = Math.max(-1.57, Math.min(1.57, view.pitch + (e.clientY - drag[1]) * 0.008));
+      drag = [e.clientX, e.clientY];
+      draw();
+      return;
+    }
+    const box = stage.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
+    const hit = marks.find(m => Math.hypot(m.x - x, m.y - y) < 9);
+    tip.textContent = hit ? hit.p.label : "Drag to turn, ctrl + wheel to zoom, double click to reset.";
+  };
+  stage.addEventListener("wheel", e => {
+    if (!e.ctrlKey) return;
+    e.preventDefault();
+    view.zoom = Math.max(0.4, Math.min(12, view.zoom * Math.exp(-e.deltaY * 0.002)));
+    draw();
+  }, { passive: false });
+  stage.ondblclick = () => { view = { ...start }; draw(); };
+  window.addEventListener("resize", draw);
+  if (!gl) tip.textContent = "This browser has no WebGL 2: only the pressed positions are shown.";
+  draw();
+})();

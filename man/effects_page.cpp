@@ -1,0 +1,58 @@
+// Prints the manual page hs-effects(7) from the catalogue.
+#include <cstdio>
+#include <string>
+
+#include "effects/catalogue.h"
+
+namespace {
+
+// Roff text: backslashes and a leading dot or quote would be commands.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+  }
+  return !out.empty() && (out[0] == '.' || out[0] == '\'') ? "\\&" + out : out;
+}
+
+void item(const char* tag, const std::string& text) {
+  if (!text.empty()) std::printf(".TP\n%s\n%s\n", tag, escaped(text).c_str());
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
+int main() {
+  std::printf(
+      ".TH HS\\-EFFECTS 7 \"\" hapsim \"hapsim manual\"\n.SH NAME\nhs\\-effects \\- the "
+      "physical effects that hapsim knows\n.SH DESCRIPTION\n"
+      "A model is a list of effects; a force passes through them in the order below. "
+      "Every effect can be identified, simulated and looked for.\n");
+  for (const hapsim::Effect* effect : hapsim::catalogue()) {
+    const hapsim::EffectCard& card = effect->card();
+    std::printf(".SH %s\n%s.\n", escaped(card.name).c_str(), escaped(card.title).c_str());
+    item("Equation", card.equation);
+    item("Source", card.source);
+    item("Assumptions", card.assumptions);
+    for (const hapsim::ParameterCard& p : card.parameters)
+      std::printf(".TP\n%s [%s]\n%s; from %g to %g%s.\n", p.name.c_str(), p.unit.c_str(),
+                  escaped(p.meaning).c_str(), p.lower, p.upper,
+                  card.terms ? ", one for every term" : "");
+    item("When it is missing", card.signature);
+    item("Taken for", joined(card.confounders));
+    item("To tell them apart", card.separated_by);
+    item("Includes", joined(card.contains));
+  }
+  std::printf(".SH SEE ALSO\nhs\\-identify(1), hs\\-diagnose(1)\n");
+  return 0;
+}

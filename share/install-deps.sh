@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Installs what hapsim needs to be built, run and tested on Debian 12. Safe to run again: it does
+# nothing, and needs no root, when everything is there.
+#
+#   share/install-deps.sh            compiler, libraries, test library
+#   share/install-deps.sh --dev      also clang-format, clang-tidy, ccache, and what the extra checks use
+#   share/install-deps.sh --check    install nothing; exit 1 and say what is missing
+#   share/install-deps.sh --anyway   on a relative of Debian 12, untested
+set -euo pipefail
+
+packages=(
+  g++ make cmake ninja-build pkg-config git ca-certificates
+  libeigen3-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
+  coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
+  libgtest-dev libbenchmark-dev mandoc
+)
+dev_packages=(clang-format clang-tidy ccache chromium debootstrap calculix-ccx)
+
+say() { printf 'install-deps: %s\n' "$*"; }
+fail() { printf 'install-deps: %s\n' "$*" >&2; exit 1; }
+
+check_only=no
+anyway=no
+for argument in "$@"; do
+  case $argument in
+    --dev) packages+=("${dev_packages[@]}") ;;
+    --check) check_only=yes ;;
+    --anyway) anyway=yes ;;
+    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) fail "unknown argument '$argument'; use --dev, --check, --anyway or none" ;;
+  esac
+done
+
+system=$(. /etc/os-release 2>/dev/null && printf '%s %s' "${ID:-unknown}" "${VERSION_ID:-}") || system=unknown
+if [[ $system != "debian 12" ]]; then
+  [[ $anyway == yes ]] && command -v apt-get >/dev/null ||
+    fail "this is '$system', not Debian 12; see 'Other systems' in README.md for the package names," \
+      "or try --anyway on a relative of Debian"
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ $state == installed ]] || missing+=("$package")
+done
+
+# The reference BLAS makes factorisation 2 to 6 times slower, so OpenBLAS must be the one in use.
+slow_blas() {
+  local name
+  for name in libblas.so.3 liblapack.so.3; do
+    name=$name-$(dpkg-architecture -qDEB_HOST_MULTIARCH 2>/dev/null || gcc -print-multiarch)
+    [[ $(update-alternatives --query "$name" 2>/dev/null | sed -n 's/^Value: //p') == *openblas* ]] ||
+      printf '%s\n' "$name"
+  done
+}
+
+if [[ $check_only == yes ]]; then
+  ((${#missing[@]} == 0)) || fail "missing: ${missing[*]}; run share/install-deps.sh"
+  [[ -z $(slow_blas) ]] || fail "OpenBLAS is not the BLAS in use; run share/install-deps.sh"
+  say "everything is installed"
+  exit 0
+fi
+
+as_root=()
+need_root() {
+  [[ $(id -u) == 0 ]] && return
+  command -v sudo >/dev/null || fail "root is needed and sudo is missing; run this script as root"
+  as_root=(sudo)
+}
+
+if ((${#missing[@]})); then
+  need_root
+  say "installing ${missing[*]}"
+  log=$(mktemp)
+  trap 'rm -f "$log"' EXIT
+  apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@"; }
+  { apt update && apt install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1 ||
+    { tail -n 30 "$log" >&2; fail "apt-get failed; its last lines stand above"; }
+  say "installed ${#missing[@]} packages"
+fi
+
+for name in $(slow_blas); do
+  need_root
+  choice=$(update-alternatives --list "$name" | grep openblas | head -n 1) ||
+    fail "OpenBLAS offers no $name; is libopenblas0-pthread whole?"
+  "${as_root[@]}" update-alternatives --set "$name" "$choice" >/dev/null
+  say "$name is now OpenBLAS"
+done
+say "everything is installed"

@@ -1,0 +1,27 @@
+# Steps that run-example.sh and run-tests.sh share; sourced by them, in bash, from the top folder.
+
+jobs=${HAPSIM_JOBS:-$(nproc 2>/dev/null || echo 2)}
+
+# timed NAME COMMAND...: runs it and says how long it took.
+timed() {
+  local name=$1 start=$SECONDS
+  shift
+  printf '== %s\n' "$name"
+  "$@"
+  printf '== %s: %d s\n' "$name" $((SECONDS - start))
+}
+
+# Installs what is missing on Debian 12; elsewhere CMake says what it does not find.
+dependencies() {
+  if (. /etc/os-release 2>/dev/null && [[ ${ID:-} == debian && ${VERSION_ID:-} == 12 ]]); then
+    share/install-deps.sh
+  else
+    echo "not Debian 12: taking the dependencies for installed (see 'Other systems' in README.md)"
+  fi
+}
+
+# build PRESET: configures and builds it in build/PRESET.
+build() {
+  cmake --preset "$1" --log-level=WARNING
+  cmake --build --preset "$1" --parallel "$jobs"
+}

@@ -1,0 +1,286 @@
+#include "geometry/reconstruct.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "geometry/clean_points.h"
+#include "geometry/surface_tree.h"
+
+namespace hapsim {
+namespace {
+
+Vec3 noise(Random& random, double size) {
+  return size * Vec3(random.normal(), random.normal(), random.normal());
+}
+
+// What every body must be; returns it with its report.
+Surface sound(const PointCloud& cloud, const ReconstructOptions& options,
+              ReconstructReport& report) {
+  const Surface s = reconstruct(cloud, options, "scan", report);
+  EXPECT_TRUE(is_closed(s));
+  EXPECT_GT(signed_volume(s), 0);
+  EXPECT_GT(s.faces.size(), 300u);
+  EXPECT_LT(s.faces.size(), 9000u);
+  if (report.has_base) {
+    // Exactly planar: the bottom's faces add up to the whole plan view, seen from below.
+    double bottom = 0, down = 0;
+    for (std::size_t f = 0; f < s.faces.size(); ++f) {
+      const Vec3 n = face_normal(s, static_cast<int>(f));
+      bool flat = true;
+      for (const int v : s.faces[f]) {
+        flat = flat && std::abs(s.vertices[v].dot(report.up) - report.base) < 1e-12;
+      }
+      if (flat) bottom -= n.dot(report.up) / 2;
+      down += std::max(0.0, n.dot(report.up)) / 2;
+    }
+    EXPECT_GT(bottom, 0.3 * down);
+  }
+  return s;
+}
+
+// Truth: a ball of radius r about (0, 0, c), cut flat at z = 0; sampled by area above z = low.
+PointCloud cut_ball(double r, double c, double low, int n, double size, std::uint64_t seed) {
+  Random random(seed);
+  PointCloud cloud;
+  while (static_cast<int>(cloud.points.size()) < n) {
+    Vec3 v(random.normal(), random.normal(), random.normal());
+    const Vec3 p = r * v.normalized() + Vec3(0, 0, c);
+    if (p.z() > low) cloud.points.push_back(p + noise(random, size));
+  }
+  return cloud;
+}
+
+TEST(Reconstruct, Hemisphere) {
+  ReconstructReport report;
+  const Surface s = sound(cut_ball(0.04, 0, 0, 1500, 1e-4, 1), {}, report);
+  EXPECT_EQ(report.method, "poisson");
+  EXPECT_EQ(report.base, 0);
+  EXPECT_NEAR(signed_volume(s) / (2 * M_PI / 3 * std::pow(0.04, 3)), 1, 0.02);
+}
+
+TEST(Reconstruct, BallCutFlatWithOverhang) {
+  const double r = 0.05, c = 0.035, h = c + r;
+  ReconstructReport report;
+  const Surface s = sound(cut_ball(r, c, 0.002, 2500, 2e-4, 2), {}, report);
+  EXPECT_EQ(report.base, 0);
+  EXPECT_NEAR(signed_volume(s) / (M_PI * h * h * (r - h / 3)), 1, 0.015);
+  double widest = 0;
+  for (const Vec3& p : s.vertices) widest = std::max(widest, std::hypot(p.x(), p.y()));
+  EXPECT_NEAR(widest, r, 1e-3);  // the largest of a thousand
+  for (const Vec3& p : s.vertices) {
+    if (p.z() > 0.005) {
+      EXPECT_NEAR((p - Vec3(0, 0, c)).norm(), r, 1.5e-3);
+    }
+  }
+}
+
+TEST(Reconstruct, CuboidKeepsItsEdges) {
+  Random random(3);
+  const Vec3 size(0.08, 0.12, 0.05);
+  PointCloud cloud;
+  const double top = size.x() * size.y(), side_x = size.y() * size.z();
+  const double side_y = size.x() * size.z(), all = top + 2 * side_x + 2 * side_y;
+  for (int i = 0; i < 4000; ++i) {
+    Vec3 p(random.uniform() * size.x(), random.uniform() * size.y(), random.uniform() * size.z());
+    double pick = random.uniform() * all;
+    if (pick < top) {
+      p.z() = size.z();
+    } else if ((pick -= top) < 2 * side_x) {
+      p.x() = pick < side_x ? 0 : size.x();
+    } else {
+      p.y() = pick - 2 * side_x < side_y ? 0 : size.y();
+    }
+    cloud.points.push_back(p + noise(random, 1e-4));
+  }
+  ReconstructReport report;
+  const Surface s = sound(cloud, {}, report);
+  EXPECT_NEAR(signed_volume(s) / size.prod(), 1, 0.01);
+  EXPECT_LT(report.rms, 4e-4);
+  // Flat top, away from its edges.
+  for (const Vec3& p : s.vertices) {
+    if (p.x() > 0.015 && p.x() < 0.065 && p.y() > 0.015 && p.y() < 0.105 && p.z() > 0.03) {
+      EXPECT_NEAR(p.z(), size.z(), 4e-4);
+    }
+  }
+}
+
+// Touched points of an organ's top: irregular, uneven, with a hole and doubled passes.
+double organ(double x, double y) {
+  return 0.03 - 6 * x * x - 9 * y * y + 0.002 * std::sin(60 * x);
+}
+
+PointCloud touched_patch(int n, double size, std::uint64_t seed) {
+  Random random(seed);
+  PointCloud cloud;
+  while (static_cast<int>(cloud.points.size()) < n) {
+    const double x = 0.08 * random.uniform() - 0.04, y = 0.056 * random.uniform() - 0.028;
+    if (std::pow(x / 0.04, 2) + std::pow(y / 0.028, 2) > 1) continue;
+    if (std::hypot(x - 0.01, y - 0.005) < 0.006) continue;
+    if (x > 0 && random.uniform() < 0.5) continue;
+    for (int pass = 0; pass < (y > 0 ? 2 : 1); ++pass) {
+      cloud.points.push_back(Vec3(x, y, organ(x, y)) + noise(random, size));
+    }
+  }
+  return cloud;
+}
+
+TEST(Reconstruct, TouchedPatchBecomesABlockWithASmoothTop) {
+  ReconstructOptions options;
+  options.base_depth = 0.02;
+  ReconstructReport report;
+  const Surface s = sound(touched_patch(219, 4e-4, 4), options, report);
+  EXPECT_EQ(report.method, "height");
+  double sum = 0;
+  int count = 0;
+  for (const Vec3& p : s.vertices) {
+    const bool inside = std::pow(p.x() / 0.04, 2) + std::pow(p.y() / 0.028, 2) < 0.5;
+    if (!inside || p.z() < report.base + 0.015) continue;
+    sum += std::pow(p.z() - organ(p.x(), p.y()), 2);
+    ++count;
+  }
+  ASSERT_GT(count, 100);
+  // Smoother than the points are noisy.
+  EXPECT_LT(std::sqrt(sum / count), 3.5e-4);
+  const double low = std::min_element(s.vertices.begin(), s.vertices.end(), [](auto& a, auto& b) {
+                       return a.z() < b.z();
+                     })->z();
+  EXPECT_EQ(low, report.base);
+}
+
+TEST(Reconstruct, APatchSeenSidewaysStandsOnItsOwnBack) {
+  PointCloud cloud = touched_patch(600, 2e-4, 5);
+  for (Vec3& p : cloud.points) p = Vec3(p.z(), p.y(), -p.x());  // up becomes x
+  ReconstructOptions options;
+  options.up.reset();
+  options.base_depth = 0.01;
+  ReconstructReport report;
+  sound(cloud, options, report);
+  EXPECT_TRUE(report.tilted);
+  EXPECT_GT(std::abs(report.up.x()), 0.95);
+}
+
+// A touched kidney: a bent ellipsoid, four zones each off by its own shift, noise, doubled passes.
+PointCloud kidney(double low) {
+  Random random(6);
+  PointCloud cloud;
+  std::vector<Vec3> shift;
+  for (int z = 0; z < 4; ++z) shift.push_back(noise(random, 4e-4));
+  while (cloud.points.size() < 15000) {
+    Vec3 v(random.normal(), random.normal(), random.normal());
+    v.normalize();
+    Vec3 p(0.052 * v.x(), 0.027 * v.y(), 0.022 * v.z());
+    if (p.z() < low || (p.x() > 0.02 && random.uniform() < 0.6)) continue;
+    p.y() += 6 * p.x() * p.x();
+    const int zone = (v.x() > 0 ? 1 : 0) + (v.y() > 0 ? 2 : 0);
+    cloud.points.push_back(p + shift[zone] + noise(random, 4e-4) + Vec3(0.1, 0.2, 0.3));
+    if (random.uniform() < 0.3) {
+      cloud.points.push_back(p + shift[(zone + 1) % 4] + noise(random, 4e-4) + Vec3(0.1, 0.2, 0.3));
+    }
+  }
+  return cloud;
+}
+
+TEST(Reconstruct, TouchedKidneyAllRound) {
+  ReconstructOptions options;
+  options.no_base = true;
+  ReconstructReport report;
+  const Surface s = sound(kidney(-1), options, report);
+  EXPECT_EQ(report.method, "poisson");
+  EXPECT_FALSE(report.has_base);
+  EXPECT_NEAR(signed_volume(s) / (4 * M_PI / 3 * 0.052 * 0.027 * 0.022), 1, 0.04);
+}
+
+TEST(Reconstruct, TouchedKidneyAllRoundGetsASupport) {
+  ReconstructReport report;
+  const Surface s = reconstruct(kidney(-1), {}, "scan", report);
+  EXPECT_TRUE(report.has_base);
+  EXPECT_TRUE(is_closed(s));
+  const auto on_base = std::count_if(s.vertices.begin(), s.vertices.end(),
+                                     [&](const Vec3& p) { return p.z() == report.base; });
+  EXPECT_GT(on_base, 8);
+  EXPECT_NEAR(signed_volume(s) / (4 * M_PI / 3 * 0.052 * 0.027 * 0.022), 0.99, 0.04);
+}
+
+TEST(Reconstruct, TouchedKidneyFromAbove) {
+  const double a = -0.010, c = 0.022;
+  ReconstructReport report;
+  const Surface s = sound(kidney(a), {}, report);
+  EXPECT_TRUE(report.has_base);
+  // The ellipsoid above a: pi A B (c - a - (c^3 - a^3) / (3 c^2)).
+  const double truth =
+      M_PI * 0.052 * 0.027 * (c - a - (std::pow(c, 3) - std::pow(a, 3)) / (3 * c * c));
+  EXPECT_NEAR(signed_volume(s) / truth, 1, 0.05);
+}
+
+TEST(Reconstruct, TheSameSeedGivesTheSameSurface) {
+  const PointCloud cloud = cut_ball(0.04, 0.01, 0, 800, 1e-4, 9);
+  ReconstructReport report;
+  const Surface one = reconstruct(cloud, {}, "scan", report);
+  const Surface two = reconstruct(cloud, {}, "scan", report);
+  EXPECT_EQ(one.faces, two.faces);
+  EXPECT_EQ(one.vertices, two.vertices);
+}
+
+TEST(Reconstruct, GivenBaseIsKept) {
+  ReconstructOptions options;
+  options.base = -0.003;
+  ReconstructReport report;
+  sound(cut_ball(0.04, 0, 0, 1500, 1e-4, 1), options, report);
+  EXPECT_EQ(report.base, -0.003);
+  options.base = 0.03;
+  EXPECT_THROW(reconstruct(cut_ball(0.04, 0, 0, 500, 0, 1), options, "scan", report), Error);
+}
+
+struct Truth {
+  const char* object;
+  double rms;     // of the truth above 3 mm to the surface [m]
+  double volume;  // relative error
+};
+
+class IndependentScan : public testing::TestWithParam<Truth> {};
+
+TEST_P(IndependentScan, ComesNearTheTruth) {
+  const char* given = std::getenv("HAPSIM_SHARED");
+  const std::filesystem::path shared =
+      given != nullptr ? given : std::string(HAPSIM_SOURCE_DIR) + "/../shared";
+  const std::filesystem::path scan =
+      shared / "independent" / (std::string(GetParam().object) + "_scan.csv");
+  if (!std::filesystem::exists(scan)) {
+    std::cerr << "SKIPPED: no " << scan << "; set HAPSIM_SHARED\n";
+    GTEST_SKIP();
+  }
+  Input points(scan.string());
+  Input stl((shared / "independent" / (std::string(GetParam().object) + ".stl")).string());
+  const Surface truth = read_surface(stl);
+  CleanReport cleaned;
+  ReconstructReport report;
+  const Surface s = sound(clean_points(read_points(points), {}, "scan", cleaned), {}, report);
+  EXPECT_NEAR(signed_volume(s) / signed_volume(truth), 1, GetParam().volume);
+  EXPECT_EQ(report.base, 0);
+  const SurfaceTree tree(s);
+  double sum = 0, area = 0;
+  for (std::size_t f = 0; f < truth.faces.size(); ++f) {
+    const Triangle& t = truth.faces[f];
+    const Vec3 p = (truth.vertices[t[0]] + truth.vertices[t[1]] + truth.vertices[t[2]]) / 3;
+    if (p.z() < 3e-3) continue;
+    const double a = face_normal(truth, static_cast<int>(f)).norm();
+    sum += a * std::pow(tree.nearest(p).distance, 2);
+    area += a;
+  }
+  EXPECT_LT(std::sqrt(sum / area), GetParam().rms);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, IndependentScan,
+                         testing::Values(Truth{"ball", 3e-4, 0.01}, Truth{"blob", 3e-4, 0.01},
+                                         Truth{"cuboid", 7.5e-4, 0.01}),
+                         [](const auto& one) { return std::string(one.param.object); });
+
+}  // namespace
+}  // namespace hapsim

@@ -1,0 +1,130 @@
+// Names of columns, units and separators, one by one.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "import/block.h"
+#include "import/column_name.h"
+#include "import/column_synonyms.h"
+#include "import/raw_rows.h"
+#include "import/text_decode.h"
+#include "synthetic.h"
+
+namespace hapsim::test {
+namespace {
+
+TEST(ImportColumns, UnitsInNames) {
+  const auto unit = [](const char* name) { return take_apart(name).unit.name; };
+  EXPECT_EQ(unit("Standardkraft [N]"), "N");
+  EXPECT_EQ(unit("Weg in mm"), "mm");
+  EXPECT_EQ(unit("Kraft/mN"), "mN");
+  EXPECT_EQ(unit("time (sec)"), "s");
+  EXPECT_EQ(unit("x_mm"), "mm");
+  EXPECT_EQ(unit("Tiefe [µm]"), "um");
+  EXPECT_EQ(unit("depth"), "");
+  EXPECT_EQ(take_apart("ContactPoint_x [mm]").joined(), "contactpointx");
+}
+
+TEST(ImportColumns, ScalarNames) {
+  const auto role = [](const char* name) {
+    const ColumnName parts = take_apart(name);
+    return scalar_role(parts.joined(), parts.unit.kind).role;
+  };
+  for (const char* name : {"t", "Time [s]", "Zeit", "Prüfzeit", "time_ms", "elapsed"})
+    EXPECT_EQ(role(name), ScalarRole::kTime) << name;
+  for (const char* name : {"Force", "Standardkraft", "Standard force [N]", "F", "load (N)", "fn",
+                           "force_mN", "Fz_normalforce"})
+    EXPECT_EQ(role(name), ScalarRole::kForce) << name;
+  for (const char* name :
+       {"depth", "Standardweg", "Travel", "indentation_mm", "Eindringtiefe", "crosshead", "Weg/mm"})
+    EXPECT_EQ(role(name), ScalarRole::kDepth) << name;
+  EXPECT_EQ(role("Temperatur [°C]"), ScalarRole::kTemperature);
+  EXPECT_EQ(role("depth_index"), ScalarRole::kSample);
+  for (const char* name : {"strain", "stress [MPa]", "force rate", "comment"})
+    EXPECT_EQ(role(name), ScalarRole::kCount) << name;
+}
+
+TEST(ImportColumns, VectorNames) {
+  const auto role = [](const char* name) {
+    VectorRole found = VectorRole::kCount;
+    for (const Component& part : components(take_apart(name).words))
+      if (found == VectorRole::kCount) found = vector_role(part.base);
+    return found;
+  };
+  EXPECT_EQ(role("x"), VectorRole::kPlain);
+  EXPECT_EQ(role("CurrentPos_1"), VectorRole::kTip);
+  EXPECT_EQ(role("x_tip"), VectorRole::kTip);
+  EXPECT_EQ(role("ContactPointX"), VectorRole::kContact);
+  EXPECT_EQ(role("contact_nx"), VectorRole::kNormal);
+  EXPECT_EQ(role("surface_normal_x"), VectorRole::kNormal);
+  EXPECT_EQ(role("DeformedForce_x"), VectorRole::kForce);
+  EXPECT_EQ(role("Fx [N]"), VectorRole::kForce);
+  EXPECT_EQ(role("F_x_tool"), VectorRole::kForce);
+  EXPECT_EQ(role("ContactForce_x"), VectorRole::kCount);
+  EXPECT_EQ(role("contact_fx"), VectorRole::kCount);
+  EXPECT_EQ(role("ContactBallCenter_x"), VectorRole::kContactBall);
+  EXPECT_EQ(role("ux"), VectorRole::kDisplacement);
+  EXPECT_EQ(role("torque_x"), VectorRole::kCount);
+}
+
+TEST(ImportColumns, PressesAreNamedByTwoColumns) {
+  const ImportResult result =
+      import_text(organ("region,point,x_mm,y_mm,z_mm,nx,ny,nz,depth_mm,fx,fy,fz",
+                        [](int i, const Site& s, double d, const Vec3& f) {
+                          return fmt::format("{},{}", i <= 10 ? "left" : "right", (i - 1) % 10) +
+                                 cells(s.point) + cells(s.normal) + fmt::format(",{}", d) +
+                                 cells(f);
+                        }));
+  EXPECT_EQ(result.recording.presses().size(), 20u);
+}
+
+TEST(ImportColumns, OverridesAndSplit) {
+  ImportOptions options;
+  options.columns = {"force=b", "depth=a"};
+  options.split_by = "c";
+  options.units = {"mm", "mN", ""};
+  std::string text = "a,b,c\n";
+  for (int c = 0; c < 2; ++c)
+    for (int i = 0; i < 10; ++i) text += fmt::format("{},{},{}\n", 0.5 * i, 100 * i, c);
+  const ImportResult result = import_text(text, options);
+  EXPECT_EQ(result.recording.presses().size(), 2u);
+  EXPECT_NEAR(result.recording.f[9].z(), 0.9, 1e-9);
+}
+
+TEST(ImportColumns, SeparatorsAndDecimalCommas) {
+  EXPECT_EQ(find_separator({"0,5;1,5;2", "1,5;2,5;3"}), ';');
+  EXPECT_EQ(find_separator({"0,5\t1,5", "1,5\t2,5"}), '\t');
+  EXPECT_EQ(find_separator({"0.5, 1.5", "1.5, 2.5"}), ',');
+  EXPECT_EQ(find_separator({"  0.5  1.5", "1.5 2.5"}), ' ');
+  EXPECT_EQ(find_separator({"only text", "here"}), 0);
+}
+
+TEST(ImportColumns, ListSaysWhatIsMissing) {
+  Input input = Input::from_bytes("Zeit;Weg\ns;mm\n0;1\n1;2\n2;3\n", "data.csv");
+  const std::string text = describe_columns(read_raw_table(input), {});
+  EXPECT_NE(text.find("mm       depth"), std::string::npos) << text;
+  EXPECT_NE(text.find("missing: a force"), std::string::npos) << text;
+}
+
+TEST(ImportColumns, BlocksAreClosedAndOutward) {
+  EXPECT_LT((parse_block("120x80x40mm") - Vec3(0.12, 0.08, 0.04)).norm(), 1e-12);
+  EXPECT_LT((parse_block("0.12,0.08,0.04") - Vec3(0.12, 0.08, 0.04)).norm(), 1e-12);
+  EXPECT_THROW(parse_block("120x80mm"), Error);
+  EXPECT_THROW(parse_block("120x0x4"), Error);
+  const PlyFile file = block_surface(Vec3(0.12, 0.08, 0.04));
+  const auto& xyz = file.find("vertex")->properties;
+  const auto& corners = file.find("face")->properties[0].values;
+  double volume = 0;
+  for (std::size_t i = 0; i < corners.size(); i += 3) {
+    std::array<Vec3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        p[k][static_cast<Eigen::Index>(axis)] =
+            xyz[axis].values[static_cast<std::size_t>(corners[i + k])];
+    volume += p[0].dot(p[1].cross(p[2])) / 6;
+  }
+  EXPECT_NEAR(volume, 0.12 * 0.08 * 0.04, 1e-12);
+}
+
+}  // namespace
+}  // namespace hapsim::test

@@ -1,0 +1,58 @@
+#include "linalg/sparse_cholesky.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "linalg/blas.h"
+
+namespace hapsim {
+namespace {
+
+// Lower triangle of a dense symmetric matrix, zeros of whole 3x3 blocks left out.
+SymmetricSparse sparse(const Eigen::MatrixXd& dense) {
+  SymmetricSparse matrix;
+  matrix.size = static_cast<int>(dense.rows());
+  matrix.column_start.push_back(0);
+  for (int c = 0; c < matrix.size; ++c) {
+    for (int r = c; r < matrix.size; ++r) {
+      const auto block = dense.block<3, 3>(r / 3 * 3, c / 3 * 3);
+      if (block.isZero() && r != c) continue;
+      matrix.row.push_back(r);
+      matrix.value.push_back(dense(r, c));
+    }
+    matrix.column_start.push_back(static_cast<int>(matrix.row.size()));
+  }
+  return matrix;
+}
+
+TEST(SparseCholesky, SolvesAsDense) {
+  std::srand(3);
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(30, 30);
+  for (int b = 0; b + 6 <= 30; b += 3) {
+    const Eigen::MatrixXd m = Eigen::MatrixXd::Random(6, 6);
+    a.block<6, 6>(b, b) += m * m.transpose() + Eigen::MatrixXd::Identity(6, 6);
+  }
+  const SymmetricSparse matrix = sparse(a);
+  SparseCholesky cholesky(matrix);
+  ASSERT_TRUE(cholesky.factorise(matrix));
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(30, 4);
+  EXPECT_LT((cholesky.solve(b) - a.ldlt().solve(b)).norm(), 1e-10);
+}
+
+TEST(SparseCholesky, RefusesIndefinite) {
+  Eigen::MatrixXd a = Eigen::MatrixXd::Identity(6, 6);
+  a(4, 4) = -1;
+  const SymmetricSparse matrix = sparse(a);
+  SparseCholesky cholesky(matrix);
+  EXPECT_FALSE(cholesky.factorise(matrix));
+}
+
+TEST(Blas, IsOpenBlas) {
+  prepare_blas_for_many_threads();
+  EXPECT_NE(blas_name().find("OpenBLAS"), std::string::npos)
+      << blas_name() << ": install libopenblas0-pthread, else factorisation is slow";
+}
+
+}  // namespace
+}  // namespace hapsim

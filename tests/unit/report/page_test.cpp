@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "report/report.h"
+
+namespace hapsim {
+namespace {
+
+Report full_report(const std::string& word) {
+  Report r;
+  r.title = r.verdict = word;
+  r.numbers = {{word, word, word}};
+  r.sentences = {word};
+  r.history = {word, {word, "rmse"}, {{word, "0.1"}, {word, "0.05"}}, {}};
+  r.versions = {{word, 0.1, 0.2, 0.01}, {word, 0.05, 0.1, 0.01}};
+  r.diagnoses = {{word, {{word, word, word, {{word, word}}, {{word, word}}, word}}}};
+  r.body.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  r.body.faces = {{0, 1, 2}};
+  r.body.error = {0, 1, 2};
+  r.body.distance = {0, 1, 2};
+  r.body.positions = {{0, 0, 0}};
+  r.body.position_error = {1};
+  r.curves = {word};
+  r.presses = {{1, word, 0.1, {0, 0, 1}, {0, 1}, {{0, 0, 0}, {0, 0, 1}}, {{{0, 0, 0}, {0, 0, 1}}}}};
+  r.time_label = word;
+  r.residuals = {{word, {0, 1}, {0, 1}, {0.5}, {0.5}, {0.1}}};
+  r.tables = {{word, {word, "n"}, {{word, "1"}}, {0.5}}, {word, {word, "n"}, {{word, "1"}}, {}}};
+  r.provenance = {{word, word}};
+  return r;
+}
+
+std::string page(const Report& report) {
+  std::ostringstream out;
+  write_report(out, report);
+  return out.str();
+}
+
+TEST(Page, NoWordFromAFileBecomesMarkup) {
+  const std::string text = page(full_report("</script><img src=x onerror=alert(1)>'\"&"));
+  EXPECT_EQ(text.find("<img"), std::string::npos);
+  EXPECT_NE(text.find("&lt;img"), std::string::npos);
+}
+
+TEST(Page, NeedsNoNetwork) {
+  const std::string text = page(full_report("word"));
+  for (const char* link : {"src=\"", "href=", "@import", "url(http", "https://"})
+    EXPECT_EQ(text.find(link), std::string::npos) << link;
+  EXPECT_EQ(text.find("http://"), text.find("http://www.w3.org/2000/svg"));  // a name, not a link
+}
+
+TEST(Page, SectionsComeInOrder) {
+  const std::string text = page(full_report("word"));
+  std::size_t last = 0;
+  for (const char* title : {"Model versions and their errors", "Which physical effect is missing",
+                            "The body, coloured", "Force over time", "Residual along",
+                            "Where the error is", "How to read", "Where this comes"}) {
+    const std::size_t at = text.find(std::string("<h2>") + title);
+    ASSERT_NE(at, std::string::npos) << title;
+    EXPECT_GT(at, last);
+    last = at;
+  }
+}
+
+TEST(Page, LeavesOutWhatIsNotThere) {
+  const std::string text = page(Report{});
+  EXPECT_EQ(text.find("Model versions"), std::string::npos);
+  EXPECT_EQ(text.find("<script>"), std::string::npos);
+  EXPECT_NE(text.find("</html>"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace hapsim

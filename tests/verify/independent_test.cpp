@@ -1,0 +1,89 @@
+// Recordings computed with an established finite-element package, on other meshes than ours.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "diagnose/diagnose.h"
+#include "geometry/body_mesh.h"
+
+namespace hapsim {
+namespace {
+
+std::string shared_folder() {
+  const char* given = std::getenv("HAPSIM_SHARED");
+  return std::string(given != nullptr ? given : HAPSIM_SOURCE_DIR "/../shared") + "/independent/";
+}
+
+class Independent : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(shared_folder()))
+      GTEST_SKIP() << "SKIPPED: no data in " << shared_folder() << "; set HAPSIM_SHARED";
+  }
+  struct Case {
+    Workspace workspace;
+    FitResult elastic;
+  };
+  static Case load(const std::string& recording, const std::string& body) {
+    Input surface(shared_folder() + body + ".stl");
+    const TetMesh mesh = make_body_mesh(read_surface(surface), {}, body);
+    Input data(shared_folder() + recording + ".csv");
+    WorkspaceOptions options;
+    options.cache = ::testing::TempDir() + "hapsim_independent_cache";
+    Case c{make_workspace(mesh, read_recording(data), options), {}};
+    const Selection all = all_episodes(c.workspace.dataset);
+    c.elastic = fit(elastic_model(c.workspace.dataset, all, *c.workspace.body), c.workspace.dataset,
+                    all, *c.workspace.body, {c.workspace.noise.value, c.workspace.floor, true});
+    const Model& m = c.elastic.model;
+    std::printf("%s: elastic E %.0f Pa, nu %.3f, rmse %.2f x noise\n", recording.c_str(),
+                m.find("elastic", 0, "E")->value, m.find("elastic", 0, "nu")->value,
+                c.elastic.rmse / c.workspace.noise.value);
+    return c;
+  }
+  static Diagnosis diagnosed(Case& c) {
+    const Diagnosis d = diagnose(c.elastic.model, c.workspace, {});
+    std::printf("%s: %s\n", verdict_name(d.verdict).c_str(), d.explanation.c_str());
+    return d;
+  }
+};
+
+TEST_F(Independent, NothingHiddenNothingFound) {
+  Case c = load("null", "cuboid");
+  EXPECT_NEAR(c.elastic.model.find("elastic", 0, "E")->value, 20000, 0.03 * 20000);
+  EXPECT_NEAR(c.elastic.model.find("elastic", 0, "nu")->value, 0.4, 0.03);
+  EXPECT_LT(c.elastic.rmse, 1.05 * c.workspace.noise.value);
+  EXPECT_EQ(diagnosed(c).verdict, ModelVerdict::kComplete);
+}
+
+TEST_F(Independent, RelaxationIsNamedAndExplainsAll) {
+  Case c = load("viscoelastic", "ball");
+  const Diagnosis d = diagnosed(c);
+  EXPECT_EQ(d.verdict, ModelVerdict::kIncomplete);
+  EXPECT_EQ(d.findings.front().effect, "viscoelastic");
+  EXPECT_EQ(d.findings.front().verdict, Verdict::kMissing);
+  EXPECT_LT(d.rmse_end, 1.1 * d.noise);
+  EXPECT_LT(d.held_out_end, 1.1 * d.noise);
+}
+
+TEST_F(Independent, RegionsAreNamed) {
+  Case c = load("regions", "cuboid");
+  const Diagnosis d = diagnosed(c);
+  EXPECT_EQ(d.findings.front().effect, "regions");
+  EXPECT_EQ(d.findings.front().verdict, Verdict::kMissing);
+}
+
+TEST_F(Independent, StiffeningIsNamed) {
+  Case c = load("hyperelastic", "blob");
+  EXPECT_EQ(diagnosed(c).findings.front().effect, "hyperelastic");
+}
+
+TEST_F(Independent, DriftIsNamedWithItsSize) {
+  Case c = load("bias_drift", "ball");
+  const Diagnosis d = diagnosed(c);
+  EXPECT_EQ(d.findings.front().effect, "sensor-drift");
+  EXPECT_LT(d.rmse_end, 1.1 * d.noise);
+}
+
+}  // namespace
+}  // namespace hapsim

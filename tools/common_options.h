@@ -1,0 +1,95 @@
+// Flags that the tools with a body and a recording share.
+#pragma once
+
+#include <fstream>
+
+#include "cli/tool.h"
+#include "geometry/tetmesh.h"
+#include "io/recording.h"
+#include "model/workspace.h"
+
+namespace hapsim {
+
+inline std::vector<Option> workspace_flags() {
+  return {
+      {.flag = "--body",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Body from hs-tetmesh (PLY with tetrahedra and fixed nodes).",
+       .required = true},
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
+       .minimum = 1e-6,
+       .maximum = 1},
+      {.flag = "--noise",
+       .kind = OptionKind::kNumber,
+       .value = "N",
+       .help = "Standard deviation of the force noise per component [N]; otherwise the metadata "
+               "force_noise, otherwise measured from second differences in time.",
+       .minimum = 1e-12},
+      {.flag = "--floor",
+       .kind = OptionKind::kNumber,
+       .value = "SHARE",
+       .help = "Gain error by position that mesh and scanned shape may cause and no effect is "
+               "blamed for; otherwise the mesh's own uncertainty, at least 0.01.",
+       .minimum = 0,
+       .maximum = 1},
+      {.flag = "--rim-edge",
+       .kind = OptionKind::kNumber,
+       .value = "SHARE",
+       .help = "Edge length of the finer contact mesh at the tool's rim, as a share of the radius.",
+       .default_text = "0.125",
+       .minimum = 0.02,
+       .maximum = 0.5},
+      {.flag = "--threads",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Contact positions solved side by side; 0: as many as the machine has cores.",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 1024},
+      {.flag = "--cache",
+       .kind = OptionKind::kText,
+       .value = "DIR",
+       .help = "Where prepared stiffnesses are kept by content ('none': nowhere); otherwise the "
+               "user's cache folder."},
+  };
+}
+
+inline Recording load_recording(const Arguments& arguments, const std::string& path, bool forces) {
+  Input input(path);
+  Recording recording = read_recording(input, forces);
+  if (arguments.given("--tool-radius"))
+    recording.metadata.set("tool_radius", arguments.text("--tool-radius"));
+  recording.tool_radius();  // fails now when it is missing
+  return recording;
+}
+
+inline TetMesh load_body(const Arguments& arguments) {
+  Input input(arguments.text("--body"));
+  return read_body(input);
+}
+
+// With progress on a terminal while positions are prepared.
+inline WorkspaceOptions workspace_options(const Arguments& arguments,
+                                          std::shared_ptr<Progress>& progress) {
+  WorkspaceOptions options;
+  options.threads = static_cast<int>(arguments.integer("--threads"));
+  options.rim_edge = arguments.number("--rim-edge");
+  if (arguments.given("--noise")) options.noise = arguments.number("--noise");
+  if (arguments.given("--floor")) options.floor = arguments.number("--floor");
+  options.cache =
+      arguments.given("--cache") ? arguments.text("--cache") : default_cache_directory();
+  if (options.cache == "none") options.cache.clear();
+  options.progress = [&arguments, &progress](std::size_t positions) -> std::function<void()> {
+    progress = std::make_shared<Progress>(arguments, "contact positions", positions);
+    return [&progress] {
+      if (progress) progress->step();  // later solutions, once the line is cleared, are silent
+    };
+  };
+  return options;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,223 @@
+// hs-diagnose: which physical effect the model lacks.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "diagnose/diagnose.h"
+#include "io/csv.h"
+#include "model/edit.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-diagnose";
+  spec.summary = "name the physical effect that a model lacks";
+  spec.input = "recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
+  spec.description = {
+      "Refits the model, tries every effect of the catalogue on top of it, and ranks them by the "
+      "information criterion of true refits. An effect is called missing when the criterion gains "
+      "more than 10, the error on contact positions left out of the fit falls by at least 2 %, the "
+      "chance of a false alarm (signs of whole presses flipped, all effects tried counted) is "
+      "below "
+      "5 %, and it takes away at least 15 % of the squared misfit beyond noise. Effects that do "
+      "equally "
+      "well are called indistinguishable. The search goes on, on top of what was found.",
+      "Force noise and a gain error by position for mesh and scanned shape (--floor) are taken "
+      "into account, so a model is not blamed for them.",
+      "A common gain of the force sensor cannot be told from Young's modulus by any recording: "
+      "check the sensor with a calibration weight."};
+  spec.options = workspace_flags();
+  const std::vector<Option> own{
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Model from hs-identify.",
+       .required = true},
+      {.flag = "--check",
+       .kind = OptionKind::kSwitch,
+       .help = "Exit code 1 when the model is not complete."},
+      {.flag = "--json",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes the diagnosis as JSON."},
+      {.flag = "--folds",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Parts in which positions are held out.",
+       .default_text = "6",
+       .minimum = 2,
+       .maximum = 1000},
+      {.flag = "--flips",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Random sign flips of presses behind the false-alarm chance.",
+       .default_text = "999",
+       .minimum = 99,
+       .maximum = 1000000},
+      {.flag = "--seed",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Seed of the flips.",
+       .default_text = "1",
+       .minimum = 0}};
+  spec.options.insert(spec.options.end(), own.begin(), own.end());
+  spec.tables = {{"Diagnosis (output)",
+                  {{"rank", "0: the model as a whole; then the effects, best first"},
+                   {"effect", "name in the catalogue; 'model' in the first row"},
+                   {"verdict",
+                    "missing, possible, indistinguishable, absent, not testable; of the model: "
+                    "complete, incomplete, ambiguous, unexplained"},
+                   {"rmse_now, rmse_after", "error without and with the effect [N]"},
+                   {"heldout_now, heldout_after", "the same on positions left out of the fit [N]"},
+                   {"p_value", "chance of a false alarm, all effects tried counted"},
+                   {"confused_with", "effects that do as well, separated by spaces"},
+                   {"where", "where and when it acts"},
+                   {"evidence", "share of the misfit, fitted size, smallest size that would show"},
+                   {"next_measurement", "what would tell it from its rivals"},
+                   {"command", "the command that adds it"}}}};
+  spec.examples = {
+      {"hs-diagnose data.csv --body body.ply --model m0.csv -o effects.csv", "What is missing."},
+      {"hs-diagnose data.csv --body body.ply --model m0.csv --check -q", "A check in CI."}};
+  spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-effects(7)"};
+  return spec;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+std::string add_command(const Arguments& a, const std::string& effect) {
+  return fmt::format("hs-identify {} --body {} --model {} --add {} -o better.csv", a.input(),
+                     a.text("--body"), a.text("--model"), effect);
+}
+
+void write_table(std::ostream& out, const Arguments& arguments, const Diagnosis& d) {
+  Metadata metadata;
+  metadata.set("force_noise", format_number(d.noise));
+  metadata.set("mesh_uncertainty", format_number(d.mesh_uncertainty));
+  metadata.set("floor", format_number(d.floor));
+  metadata.set("seed", arguments.text("--seed"));
+  CsvWriter csv(
+      out, metadata,
+      {"rank", "effect", "verdict", "rmse_now", "rmse_after", "heldout_now", "heldout_after",
+       "p_value", "confused_with", "where", "evidence", "next_measurement", "command"});
+  const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : ""; };
+  csv.row({"0", "model", verdict_name(d.verdict), number(d.rmse), number(d.rmse_end),
+           number(d.held_out), number(d.held_out_end), "", "", "", d.explanation, "", ""});
+  int rank = 0;
+  for (const Finding& f : d.findings) {
+    const bool tried = f.verdict != Verdict::kNotTestable;
+    const bool add = f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable ||
+                     f.verdict == Verdict::kPossible;
+    const auto value = [&](double v) { return tried ? number(v) : std::string(); };
+    csv.row({std::to_string(++rank), f.effect, verdict_name(f.verdict), value(f.rmse_now),
+             value(f.rmse_after), value(f.held_out_now), value(f.held_out_after), value(f.p_value),
+             joined(f.confused_with), f.where, f.evidence, f.next_measurement,
+             add ? add_command(arguments, f.effect) : ""});
+  }
+}
+
+nlohmann::json as_json(const Arguments& arguments, const Diagnosis& d) {
+  nlohmann::json j;
+  j["verdict"] = verdict_name(d.verdict);
+  j["explanation"] = d.explanation;
+  j["force_noise"] = d.noise;
+  j["mesh_uncertainty"] = d.mesh_uncertainty;
+  j["floor"] = d.floor;
+  j["force_rms"] = d.force_rms;
+  j["rmse"] = d.rmse;
+  j["heldout"] = d.held_out;
+  j["rmse_with_missing_effects"] = d.rmse_end;
+  j["heldout_with_missing_effects"] = d.held_out_end;
+  j["effects"] = nlohmann::json::array();
+  for (const Finding& f : d.findings)
+    j["effects"].push_back({{"effect", f.effect},
+                            {"verdict", verdict_name(f.verdict)},
+                            {"rmse_now", f.rmse_now},
+                            {"rmse_after", f.rmse_after},
+                            {"heldout_now", f.held_out_now},
+                            {"heldout_after", f.held_out_after},
+                            {"p_value", f.p_value},
+                            {"criterion_gain", f.criterion_gain},
+                            {"share", f.share},
+                            {"confused_with", f.confused_with},
+                            {"where", f.where},
+                            {"evidence", f.evidence},
+                            {"next_measurement", f.next_measurement},
+                            {"command", add_command(arguments, f.effect)}});
+  return j;
+}
+
+void report(const Arguments& arguments, const Diagnosis& d) {
+  const auto line = [&](const std::string& text) { say(arguments, "hs-diagnose", text); };
+  line(fmt::format("{}: {}", verdict_name(d.verdict), d.explanation));
+  line(fmt::format(
+      "typical error {:.3g} N = {:.3g} % of the force's rms; sensor noise {:.3g} N "
+      "({}); mesh uncertainty {:.1f} %, floor {:.1f} %",
+      d.rmse, 100 * d.rmse / d.force_rms, d.noise, d.noise_measured ? "measured" : "declared",
+      100 * d.mesh_uncertainty, 100 * d.floor));
+  for (const Finding& f : d.findings) {
+    if (f.verdict == Verdict::kNotTestable) {
+      line(fmt::format("  {:<13} not testable: {}", f.effect, f.evidence));
+      continue;
+    }
+    const std::string unseen =
+        std::isfinite(f.held_out_now)
+            ? fmt::format(", unseen {:.3g} -> {:.3g} N", f.held_out_now, f.held_out_after)
+            : "";
+    line(fmt::format("  {:<13} {:<17} error {:.3g} -> {:.3g} N{}, false alarm {:.3f}; {}", f.effect,
+                     verdict_name(f.verdict), f.rmse_now, f.rmse_after, unseen, f.p_value,
+                     f.evidence));
+    if (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable) {
+      if (!f.confused_with.empty())
+        line("                may be confused with " + joined(f.confused_with) +
+             "; to tell: " + f.next_measurement);
+      line("                add it: " + add_command(arguments, f.effect));
+    }
+  }
+  line(
+      "never testable from a recording: a common gain of the force sensor (it looks like E): check "
+      "with a calibration weight");
+}
+
+int run(const Arguments& arguments) {
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  const TetMesh body = load_body(arguments);
+  std::shared_ptr<Progress> progress;
+  WorkspaceOptions options = workspace_options(arguments, progress);
+  set_poisson_range(model, options);
+  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), true), options);
+  progress.reset();
+  DiagnoseOptions diagnose_options;
+  diagnose_options.folds = static_cast<int>(arguments.integer("--folds"));
+  diagnose_options.flips = static_cast<int>(arguments.integer("--flips"));
+  diagnose_options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  const Diagnosis d = diagnose(model, w, diagnose_options);
+
+  Output output(arguments.output());
+  write_table(output.stream(), arguments, d);
+  output.commit();
+  if (arguments.given("--json")) {
+    Output json(arguments.text("--json"));
+    json.stream() << as_json(arguments, d).dump(2) << '\n';
+    json.commit();
+  }
+  report(arguments, d);
+  const bool failed = arguments.given("--check") && d.verdict != ModelVerdict::kComplete;
+  return static_cast<int>(failed ? ExitCode::kCheckFailed : ExitCode::kDone);
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}

@@ -1,0 +1,288 @@
+// hs-identify: the material and sensor parameters that explain a recording.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "effects/catalogue.h"
+#include "io/csv.h"
+#include "linalg/blas.h"
+#include "model/edit.h"
+#include "model/extend.h"
+#include "model/history.h"
+
+namespace hapsim {
+namespace {
+
+std::string effect_names() {
+  std::string names;
+  for (const Effect* e : catalogue()) names += (names.empty() ? "" : ", ") + e->card().name;
+  return names;
+}
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-identify";
+  spec.summary = "identify a model from a recording of presses";
+  spec.input = "recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
+  spec.description = {
+      "Fits the free parameters of a model to a recording by bounded Gauss-Newton least squares "
+      "with exact derivatives, and writes model.csv with standard errors. Starts from nothing "
+      "(--effects) or from a model (--model), to which effects are added or from which they are "
+      "removed. The error on data that the fit has not seen comes from refitting with whole "
+      "contact positions left out in turn (whole presses, when there is only one position).",
+      "Effects: " + effect_names() + "."};
+  spec.options = workspace_flags();
+  const std::vector<Option> own{
+      {.flag = "--effects",
+       .value = "LIST",
+       .help = "Effects of a new model, separated by commas.",
+       .default_text = "elastic",
+       .repeatable = true},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Model to start from, instead of --effects."},
+      {.flag = "--add",
+       .value = "LIST",
+       .help = "Effects to add; viscoelastic already there gets one more term.",
+       .repeatable = true},
+      {.flag = "--diagnosis",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Diagnosis from hs-diagnose: adds the effects that it calls missing, in its order."},
+      {.flag = "--remove", .value = "LIST", .help = "Effects to remove.", .repeatable = true},
+      {.flag = "--fix",
+       .value = "LIST",
+       .help = "Parameters to hold, with a value or without: nu=0.45, elastic.E, viscoelastic.",
+       .repeatable = true},
+      {.flag = "--free", .value = "LIST", .help = "Parameters to free again.", .repeatable = true},
+      {.flag = "--terms",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Maxwell terms of viscoelastic when it is added.",
+       .default_text = "1",
+       .minimum = 1,
+       .maximum = 5},
+      {.flag = "--regions",
+       .value = "N",
+       .help = "Number of regions when regions is added: a number, auto (what the positions' own "
+               "moduli ask for) or sites (each position its own stiffness).",
+       .default_text = "auto"},
+      {.flag = "--folds",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Parts in which positions are held out; 0: no held-out error.",
+       .default_text = "6",
+       .minimum = 0,
+       .maximum = 1000},
+      {.flag = "--history",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "CSV of model versions and their errors to which this one is added."}};
+  spec.options.insert(spec.options.end(), own.begin(), own.end());
+  spec.tables = {{"Model (output)",
+                  {{"effect", "name in the catalogue, see hs-effects(7)"},
+                   {"region", "region that the parameter belongs to, from 0"},
+                   {"parameter", "name of the parameter"},
+                   {"value", "in SI units"},
+                   {"unit", "SI unit"},
+                   {"std_error", "standard error, empty when not estimated"},
+                   {"lower, upper", "bounds"},
+                   {"state", "free, fixed or derived"}}}};
+  spec.examples = {
+      {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
+      {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",
+       "Adds relaxation to it."},
+      {"hs-identify data.csv --body body.ply --model m0.csv --diagnosis effects.csv -o m1.csv",
+       "Adds what hs-diagnose found missing."},
+      {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
+       "Gives each pressed position its own stiffness."}};
+  spec.see_also = {"hs-simulate(1)", "hs-compare(1)", "hs-diagnose(1)", "hs-effects(7)"};
+  return spec;
+}
+
+int regions_asked(const std::string& text) {
+  if (text == "auto") return kAutomaticRegions;
+  if (text == "sites") return kEverySite;
+  double number = 0;
+  if (!parse_number(text, number) || number < 1 || number != std::floor(number) || number > 10000)
+    fail_usage("--regions " + text + " is not a number of regions", "give 2, auto or sites");
+  return static_cast<int>(number);
+}
+
+struct Plan {
+  Model start;                   // empty: elastic from the data
+  std::vector<std::string> add;  // in order
+  std::vector<std::string> fix, free;
+};
+
+// The effects that a diagnosis calls missing, in order of rank.
+std::vector<std::string> missing_effects(const std::string& path) {
+  Input input(path);
+  const CsvTable table = read_csv(input);
+  const int effect = table.find("effect"), verdict = table.find("verdict");
+  if (effect < 0 || verdict < 0)
+    fail_input(table.name, "this is no diagnosis: it has no columns effect and verdict",
+               "give a file that hs-diagnose wrote");
+  std::vector<std::string> missing;
+  for (std::size_t row = 0; row < table.rows(); ++row)
+    if (table.columns[verdict][row] == "missing") missing.push_back(table.columns[effect][row]);
+  return missing;
+}
+
+Plan make_plan(const Arguments& arguments) {
+  Plan plan;
+  plan.fix = arguments.list("--fix");
+  plan.free = arguments.list("--free");
+  if (arguments.given("--model")) {
+    if (arguments.given("--effects"))
+      fail_usage("--model and --effects exclude each other", "use --model with --add");
+    Input input(arguments.text("--model"));
+    plan.start = read_model(input);
+  } else {
+    for (const std::string& effect : arguments.list("--effects"))
+      if (effect != "elastic") plan.add.push_back(effect);
+  }
+  for (const std::string& effect : arguments.list("--add")) plan.add.push_back(effect);
+  if (arguments.given("--diagnosis"))
+    for (const std::string& effect : missing_effects(arguments.text("--diagnosis")))
+      plan.add.push_back(effect);
+  for (const std::string& effect : plan.add) require_effect(effect);
+  for (const std::string& effect : arguments.list("--remove")) remove_effect(plan.start, effect);
+  for (const std::string& what : plan.fix)
+    if (!plan.start.parameters.empty()) set_state(plan.start, what, ParameterState::kFixed);
+  for (const std::string& what : plan.free)
+    if (!plan.start.parameters.empty()) set_state(plan.start, what, ParameterState::kFree);
+  return plan;
+}
+
+// Models to fit on the chosen episodes: fitted step by step, one effect after the other.
+std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& selection,
+                         const FitOptions& fit_options, const ExtendOptions& extend) {
+  Model model = plan.start;
+  if (model.parameters.empty()) {
+    model = elastic_model(w.dataset, selection, *w.body);
+    for (const std::string& what : plan.fix)
+      if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
+  }
+  std::vector<Model> starts{model};
+  for (std::size_t k = 0; k < plan.add.size(); ++k) {
+    FitOptions quick = fit_options;
+    quick.exact_regions = false;
+    const Model base = fit_best(starts, w.dataset, selection, *w.body, quick).model;
+    starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, extend);
+  }
+  for (Model& start : starts)
+    for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
+  return starts;
+}
+
+void report(const Arguments& arguments, const Workspace& w, const FitResult& result,
+            double held_out, const std::string& by, double force_rms) {
+  const auto line = [&](const std::string& text) { say(arguments, "hs-identify", text); };
+  line(fmt::format(
+      "{} presses at {} positions, {} samples; noise {:.3g} N ({}), force rms {:.3g} N",
+      w.dataset.recording.presses().size(), w.dataset.positions.size(), w.dataset.rows(),
+      w.noise.value, w.noise.measured ? "measured from the data" : "declared", force_rms));
+  int shown = 0;
+  for (const Parameter& p : result.model.parameters) {
+    if (p.state != ParameterState::kFree || ++shown > 12) continue;
+    line(fmt::format(
+        "{} {}{} = {:.4g} {} ± {}", p.effect, p.name,
+        p.region > 0 ? fmt::format(" (region {})", p.region) : "", p.value,
+        p.unit == "1" ? "" : p.unit,
+        std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error)));
+  }
+  if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
+  const auto warn = [&](const std::vector<std::string>& names, const char* what) {
+    constexpr std::size_t kMost = 4;
+    for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);
+    if (names.size() > kMost) line(fmt::format("... and {} more", names.size() - kMost));
+  };
+  warn(result.at_bound,
+       " is at its bound: the data ask for more than the model can give, or cannot tell");
+  warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", result.rmse,
+                   100 * result.rmse / force_rms, result.rmse / w.noise.value));
+  if (!by.empty() && !std::isnan(held_out))
+    line(fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
+                     100 * held_out / force_rms, held_out / w.noise.value));
+  if (arguments.verbose()) line("BLAS: " + blas_name());
+}
+
+int run(const Arguments& arguments) {
+  const Plan plan = make_plan(arguments);
+  ExtendOptions extend;
+  extend.regions = regions_asked(arguments.text("--regions"));
+  extend.terms = static_cast<int>(arguments.integer("--terms"));
+  const TetMesh body = load_body(arguments);
+  std::shared_ptr<Progress> progress;
+  WorkspaceOptions options = workspace_options(arguments, progress);
+  set_poisson_range(plan.start, options);
+  if (plan.start.parameters.empty())
+    for (const std::string& what : plan.fix) {
+      const bool is_nu = what.rfind("nu=", 0) == 0 || what.rfind("elastic.nu=", 0) == 0;
+      double nu = 0;
+      if (is_nu && parse_number(what.substr(what.find('=') + 1), nu))
+        options.nu_low = options.nu_high = nu;
+    }
+  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), true), options);
+  progress.reset();
+  FitOptions fit_options{w.noise.value, w.floor, true};
+  extend.noise = w.noise.value;
+  extend.floor = w.floor;
+
+  const Selection all = all_episodes(w.dataset);
+  FitResult result =
+      fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, fit_options);
+  if (!result.converged)
+    fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
+                  "start from a simpler model, or fix a parameter");
+  double held_out = std::nan("");
+  Folds folds;
+  if (const long count = arguments.integer("--folds"); count > 1) {
+    folds = make_folds(w.dataset, static_cast<int>(count));
+    FitOptions quick = fit_options;
+    quick.exact_regions = false;
+    const Plan refit = [&] {
+      Plan p = plan;
+      // Regions come from the training positions alone, so they are built anew in every fold.
+      if (p.start.has("regions")) {
+        remove_effect(p.start, "regions");
+        p.add.insert(p.add.begin(), "regions");
+      }
+      return p;
+    }();
+    held_out =
+        held_out_error(
+            [&](const Selection& training) { return build(refit, w, training, quick, extend); },
+            w.dataset, folds, *w.body, quick)
+            .rmse;
+  }
+  const double force_rms = std::sqrt(measured_forces(w.dataset, all).squaredNorm() /
+                                     (3.0 * static_cast<double>(w.dataset.rows())));
+  Model& model = result.model;
+  model.metadata = plan.start.metadata;
+  model.metadata.set("rmse", format_number(result.rmse));
+  if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
+  model.metadata.set("force_noise", format_number(w.noise.value));
+  model.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
+  Output output(arguments.output());
+  write_model(output.stream(), model);
+  output.commit();
+  if (arguments.given("--history"))
+    add_history(arguments.text("--history"),
+                {arguments.output(), effects_label(model), result.rmse, held_out, w.noise.value,
+                 force_rms, static_cast<int>(model.free_parameters().size())});
+  report(arguments, w, result, held_out, folds.by, force_rms);
+  return 0;
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}

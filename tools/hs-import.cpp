@@ -1,0 +1,304 @@
+// hs-import: recordings of other people's machines and robots in hapsim's data format.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "cli/tool.h"
+#include "import/block.h"
+#include "import/import.h"
+#include "io/csv.h"
+#include "io/number.h"
+
+namespace hapsim {
+namespace {
+
+Option choice(const std::string& flag, const std::string& help, const std::string& usual,
+              const std::vector<std::string>& choices) {
+  return {.flag = flag,
+          .kind = OptionKind::kChoice,
+          .value = "HOW",
+          .help = help,
+          .default_text = usual,
+          .choices = choices};
+}
+
+Option text(const std::string& flag, const std::string& value, const std::string& help,
+            const std::string& usual = "") {
+  return {
+      .flag = flag, .kind = OptionKind::kText, .value = value, .help = help, .default_text = usual};
+}
+
+std::vector<Option> options() {
+  return {
+      {.flag = "--list",
+       .kind = OptionKind::kSwitch,
+       .help = "Prints what each column is taken for and what is missing, and converts nothing."},
+      {.flag = "--column",
+       .kind = OptionKind::kText,
+       .value = "ROLE=NAME",
+       .help = "What a column is, where its name does not say. Roles: press, t, depth, force, "
+               "temp, contact, fail, "
+               "sample; x, tipx, contactx, ballx, ux, nx, fx and the same with y and z; skip.",
+       .repeatable = true},
+      {.flag = "--names",
+       .kind = OptionKind::kText,
+       .value = "NAME",
+       .help = "Names of the columns of a table without a header, or instead of its header.",
+       .repeatable = true},
+      text("--unit", "UNIT",
+           "Unit of lengths whose name has none: m, mm, cm, um, in. Without it m, or mm where the "
+           "size allows nothing else (a warning)."),
+      text("--force-unit", "UNIT",
+           "Unit of forces whose name has none: N, mN, kN, gf, kgf, lbf. Without it N."),
+      text("--time-unit", "UNIT",
+           "Unit of a time whose name has none: s, ms, us, ns, min. Without it s."),
+      text(
+          "--split-by", "HOW",
+          "How presses are told apart: names of columns (with commas), or force (where it returns "
+          "to zero), jump (where the tip moves sideways), none (one press a recording). Without it "
+          "all that the table offers."),
+      choice("--contact",
+             "Where a press begins: given (the table's contact point, zero of its depth), find "
+             "(from the force), auto (find "
+             "where the table gives none, or shows the tool in the air at depth zero).",
+             "auto", {"auto", "given", "find"}),
+      choice("--tip",
+             "What a tip position is: surface (the touching point), centre (of the ball), auto "
+             "(centre where it stays "
+             "outside the contact points while it presses).",
+             "auto", {"auto", "surface", "centre"}),
+      choice("--force",
+             "Which force is taken: the vector, its part along the normal, or its magnitude put "
+             "along the normal (for "
+             "vectors in the frame of a sensor that turns with the tool).",
+             "vector", {"vector", "normal", "magnitude"}),
+      text(
+          "--at", "X,Y,Z",
+          "Contact point of a machine that presses on one place [m]; with --block its top centre."),
+      text("--direction", "X,Y,Z", "Along which a machine's travel counts.", "0,0,-1"),
+      text("--tool-radius", "LENGTH", "Radius of the tool, written as tool_radius: 0.004 or 4mm."),
+      {.flag = "--tool",
+       .kind = OptionKind::kChoice,
+       .value = "SHAPE",
+       .help = "Shape of the tool, written as tool.",
+       .choices = {"flat", "sphere"}},
+      text("--block", "LxWxH",
+           "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0."),
+      {.flag = "--surface",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the block as a closed surface (PLY) for hs-tetmesh. Needs --block."},
+      {.flag = "--scan",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the contact points (with normals where the table has them) as a scan for "
+               "hs-scan2ply."},
+      choice("--estimate-noise",
+             "Whether the noise of the force is estimated and written as force_noise: from "
+             "differences of neighbours "
+             "and the samples in the air; auto does it where there are enough and the table says "
+             "nothing.",
+             "auto", {"auto", "on", "off"}),
+      {.flag = "--rate",
+       .kind = OptionKind::kNumber,
+       .value = "HZ",
+       .help = "Keeps at most so many samples a second (the noise is estimated from all).",
+       .minimum = 1e-3,
+       .maximum = 1e6},
+      {.flag = "--drop-air",
+       .kind = OptionKind::kSwitch,
+       .help = "Leaves out the samples in the air."},
+  };
+}
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-import";
+  spec.summary = "convert recordings of other machines and robots";
+  spec.input = "table as text: commas, semicolons, tabs or spaces; decimal points or commas";
+  spec.description = {
+      "Columns are recognised by name, in English and German, whatever their case and punctuation: "
+      "\"Standardkraft [N]\", force_mN, CurrentPos_x, nx. A unit in the name, or in a row of units "
+      "below "
+      "the header, is converted; a comment such as \"# units: mm, N\" helps where names have none. "
+      "--list shows what was understood; --column corrects it. Columns "
+      "without a "
+      "role are carried through.",
+      "A press needs a force (three components, or one along the normal) and one of: a "
+      "displacement; tip "
+      "positions, with or without a contact point; a depth or travel, with contact points and "
+      "normals, or "
+      "of a machine that presses on one place (--at, --direction).",
+      "Where contact is not given it is found for each press: the force is fitted by b before and "
+      "b + k (s - s0)^p after contact at s0, over the approach and the first 30 % of its rise, p = "
+      "1, 1.25, 1.5 or 2. A press "
+      "that begins in contact is extrapolated with b = 0. The approach through the air is kept: "
+      "there "
+      "contact is 0, and ux,uy,uz point away from the body. An offset of the force in the air is "
+      "kept, for "
+      "it is an effect (sensor-bias, tare).",
+      "Signs are made right: the depth grows as the force does, normals point outward, and the "
+      "force is "
+      "that of the body on the tool. Each change is said.",
+      "Rows out of order are sorted by time; rows with a missing number, a repeated time or a "
+      "saturated force "
+      "are left out and counted; text in place of numbers and rows of a wrong length are refused. "
+      "Files "
+      "with the same header may be joined by cat: each header begins a recording."};
+  spec.options = options();
+  spec.tables = {
+      {"Output columns",
+       {{"press", "number of the press: the table's if it has whole ones, else 1, 2, ..."},
+        {"t", "time [s], if the table has one; clocks since 1970 begin at 0"},
+        {"x, y, z", "contact point on the undeformed surface [m]"},
+        {"ux, uy, uz", "displacement of the tool tip from there [m]"},
+        {"fx, fy, fz", "force of the body on the tool [N]"},
+        {"temp", "temperature [degC], if the table has one"},
+        {"contact", "0 in the air, where force 0 is expected; absent when always 1"}}}};
+  spec.examples = {
+      {"hs-import liver_region1.csv --list", "What the columns are taken for."},
+      {"hs-import liver_region1.csv --tool-radius 3mm --tool sphere --scan touched.csv -o data.csv",
+       "A robot's probing of an organ; the touched points become its surface."},
+      {"hs-import zwick.csv --block 100x100x40mm --surface block.ply --tool-radius 4mm -o data.csv",
+       "A testing machine that presses on the middle of a block."},
+      {"cat run*.csv | hs-import --unit mm --tool-radius 4mm -o data.csv",
+       "Files joined, one recording each."}};
+  spec.see_also = {"hs-scan2ply(1)", "hs-tetmesh(1)", "hs-identify(1)"};
+  return spec;
+}
+
+Vec3 vector_of(const Arguments& arguments, const std::string& flag) {
+  const std::string given = arguments.text(flag);
+  Vec3 v;
+  std::size_t from = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const std::size_t to = std::min(given.find(',', from), given.size());
+    if (from > given.size() ||
+        !parse_number(std::string_view(given).substr(from, to - from), v[i]) ||
+        (to == given.size()) != (i == 2))
+      fail_usage(flag + ": '" + given + "' is not three numbers", "write for example 0,0,0.04");
+    from = to + 1;
+  }
+  return v;
+}
+
+// --at, or the middle of the block's top; a contact point off the top is a mistake.
+std::optional<Vec3> contact_place(const Arguments& arguments, const std::optional<Vec3>& block) {
+  std::optional<Vec3> place;
+  if (arguments.given("--at")) place = vector_of(arguments, "--at");
+  if (!block) return place;
+  if (!place) return Vec3(0, 0, block->z());
+  if (std::abs(place->x()) > block->x() / 2 || std::abs(place->y()) > block->y() / 2 ||
+      std::abs(place->z() - block->z()) > 1e-6)
+    fail_usage("--at is not on the top of the block",
+               fmt::format("its z is {} and its middle is x = y = 0", block->z()));
+  return place;
+}
+
+ImportOptions import_options(const Arguments& arguments, const std::optional<Vec3>& block) {
+  ImportOptions options;
+  options.columns = arguments.list("--column");
+  const auto maybe = [&arguments](const std::string& flag) {
+    return arguments.given(flag) ? arguments.text(flag) : "";
+  };
+  options.units = {maybe("--unit"), maybe("--force-unit"), maybe("--time-unit")};
+  options.split_by = maybe("--split-by");
+  options.at = contact_place(arguments, block);
+  options.direction = vector_of(arguments, "--direction");
+  if (options.direction.norm() < 1e-9)
+    fail_usage("--direction has no length", "write for example 0,0,-1");
+  if (arguments.given("--tool-radius")) {
+    options.tool_radius = parse_length(arguments.text("--tool-radius"), "--tool-radius");
+    if (!(*options.tool_radius > 0 && *options.tool_radius < 1))
+      fail_usage("--tool-radius is not between 0 and 1 m", "write it with its unit: 4mm");
+  }
+  options.tool = maybe("--tool");
+  options.contact = arguments.text("--contact");
+  options.tip = arguments.text("--tip");
+  options.force = arguments.text("--force");
+  options.noise = arguments.text("--estimate-noise");
+  if (arguments.given("--rate")) options.rate = arguments.number("--rate");
+  options.drop_air = arguments.given("--drop-air");
+  return options;
+}
+
+void write_scan(const std::string& path, const ImportResult& result) {
+  Output output(path);
+  const bool normals = !result.touched.empty() && result.touched.front().normal.norm() > 0.5;
+  Metadata metadata;
+  metadata.set("source", result.recording.name);
+  CsvWriter writer(output.stream(), metadata,
+                   normals ? std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz"}
+                           : std::vector<std::string>{"x", "y", "z"});
+  for (const TouchedPoint& touched : result.touched) {
+    std::vector<std::string> row;
+    for (Eigen::Index i = 0; i < 3; ++i) row.push_back(format_number(touched.point[i]));
+    for (Eigen::Index i = 0; normals && i < 3; ++i) row.push_back(format_number(touched.normal[i]));
+    writer.row(row);
+  }
+  output.commit();
+}
+
+void summarise(const Arguments& arguments, const ImportResult& result) {
+  const std::string tool = "hs-import";
+  const Recording& out = result.recording;
+  for (const std::string& fact : result.notes.facts) say(arguments, tool, fact);
+  for (const std::string& warning : result.notes.warnings)
+    say(arguments, tool, "WARNING: " + warning);
+  double force = 0, depth = 0;
+  std::size_t air = 0;
+  for (std::size_t i = 0; i < out.rows(); ++i) {
+    force = std::max(force, out.f[i].norm());
+    air += out.in_air(i);
+    if (!out.in_air(i)) depth = std::max(depth, out.u[i].norm());
+  }
+  std::vector<Vec3> places;
+  for (const TouchedPoint& touched : result.touched)
+    if (std::none_of(places.begin(), places.end(),
+                     [&](const Vec3& p) { return (p - touched.point).norm() < 1e-6; }))
+      places.push_back(touched.point);
+  if (!out.metadata.find("tool_radius"))
+    say(arguments, tool,
+        "WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius");
+  say(arguments, tool,
+      fmt::format("{} presses at {} positions, {} samples ({} in the air), {}; depth up to {:.3g} "
+                  "mm, force up to {:.3g} N",
+                  result.touched.size(), places.size(), out.rows(), air,
+                  out.t.empty() ? "quasi-static" : "with time", 1e3 * depth, force));
+}
+
+int run(const Arguments& arguments) {
+  std::optional<Vec3> block;
+  if (arguments.given("--block")) block = parse_block(arguments.text("--block"));
+  if (arguments.given("--surface") && !block)
+    fail_usage("--surface needs the size of the block", "add --block LxWxH");
+  const ImportOptions options = import_options(arguments, block);
+
+  Input input(arguments.input());
+  const RawTable table = read_raw_table(input, arguments.list("--names"));
+  Output output(arguments.output());
+  if (arguments.given("--list")) {
+    output.write(describe_columns(table, options));
+    output.commit();
+    return 0;
+  }
+  const ImportResult result = import_recording(table, options);
+  write_recording(output.stream(), result.recording);
+  if (arguments.given("--scan")) write_scan(arguments.text("--scan"), result);
+  if (block && arguments.given("--surface")) {
+    Output surface(arguments.text("--surface"));
+    write_ply(surface.stream(), block_surface(*block));
+    surface.commit();
+  }
+  output.commit();
+  summarise(arguments, result);
+  return 0;
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
