@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <numeric>
 
 #include "base/error.h"
@@ -71,6 +72,38 @@ void check_flat(const Surface& surface, double size, const std::string& where) {
   }
 }
 
+// Where the open edges lie: connected ones are one hole, the longest rims first.
+std::string holes(const Surface& surface, const std::vector<std::uint64_t>& open) {
+  std::map<int, int> parent;
+  const auto root = [&](int v) {
+    if (parent.count(v) == 0) parent[v] = v;
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const std::uint64_t edge : open)
+    parent[root(static_cast<int>(edge >> 32))] = root(static_cast<int>(edge & 0xffffffffu));
+  struct Rim {
+    std::size_t edges = 0;
+    Vec3 sum = Vec3::Zero();
+  };
+  std::map<int, Rim> rims;
+  for (const std::uint64_t edge : open) {
+    Rim& rim = rims[root(static_cast<int>(edge >> 32))];
+    ++rim.edges;
+    rim.sum += surface.vertices[edge >> 32];
+  }
+  std::vector<Rim> sorted;
+  for (const auto& [vertex, rim] : rims) sorted.push_back(rim);
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Rim& a, const Rim& b) { return a.edges > b.edges; });
+  constexpr std::size_t kNamed = 3;
+  std::string text = fmt::format("{} hole{}", rims.size(), rims.size() > 1 ? "s" : "");
+  for (std::size_t i = 0; i < std::min(kNamed, sorted.size()); ++i)
+    text += fmt::format("{} of {} edges about {}", i == 0 ? ":" : ",", sorted[i].edges,
+                        place(sorted[i].sum / static_cast<double>(sorted[i].edges)));
+  return text + (sorted.size() > kNamed ? ", ..." : "");
+}
+
 // Directed edges sorted by their ends: each must be met by its opposite exactly once.
 void check_closed(const Surface& surface, const std::string& where) {
   using Edge = std::pair<std::uint64_t, int>;
@@ -87,8 +120,7 @@ void check_closed(const Surface& surface, const std::string& where) {
     const auto high = std::lower_bound(edges.begin(), edges.end(), Edge(key + 1, -1));
     return high - low;
   };
-  std::size_t open = 0;
-  std::uint64_t first_open = 0;
+  std::vector<std::uint64_t> open;
   for (const auto& [key, face] : edges) {
     const Vec3 middle = 0.5 * (surface.vertices[key >> 32] + surface.vertices[key & 0xffffffffu]);
     const auto opposite = count(key << 32 | key >> 32);
@@ -98,13 +130,12 @@ void check_closed(const Surface& surface, const std::string& where) {
                              "opposite turn",
                              place(middle), face),
                  kMend);
-    if (opposite == 0 && open++ == 0) first_open = key;
+    if (opposite == 0) open.push_back(key);
   }
-  if (open > 0)
+  if (!open.empty())
     fail_input(where,
-               fmt::format("the surface is open: {} edges have one triangle, the first at {}", open,
-                           place(0.5 * (surface.vertices[first_open >> 32] +
-                                        surface.vertices[first_open & 0xffffffffu]))),
+               fmt::format("the surface is open: {} edges have one triangle; {}", open.size(),
+                           holes(surface, open)),
                kMend);
 }
 
