@@ -1,0 +1,105 @@
+// Energy, nodal forces, tangent and parameter derivatives of a deformed body, element by element.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fem/dilatation.h"
+#include "fem/foundation.h"
+#include "fem/material_law.h"
+#include "fem/node_system.h"
+#include "geometry/tetmesh.h"
+
+namespace hapsim {
+
+// What is deformed. The mesh and the laws must outlive its use.
+struct BodyModel {
+  const TetMesh* mesh = nullptr;
+  std::vector<LawPointer> laws;  // by region number
+  std::vector<int> law_of_tet;   // empty: mesh->region
+  std::vector<double> scale;     // factor on the energy, one a tetrahedron; empty: 1
+  Dilatation dilatation = Dilatation::kPointwise;
+  Foundation foundation;
+};
+
+// Total Lagrangian (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis,
+// 2008, ch. 8-9): for each quadrature point of weight w with F = 1 + sum of u_a (x) G_a,
+//   energy  = sum w s w(C) + sum over dilatation groups W U(theta) + foundation,
+//   r_a     = sum w F S G_a,
+//   K_ab    = sum w (B_a' D B_b + (G_a.S G_b) 1) + W U''/V^2 b_a b_b',  b = V dtheta/du.
+// Straight-sided elements: one point (order 1), four (order 2). Displacements u: 3 nodes [m].
+class BodyAssembly {
+ public:
+  // Error(kBadInput) when a tetrahedron has no law or a scale is not positive.
+  explicit BodyAssembly(const BodyModel& model);
+
+  Cliques cliques() const;  // elements, then patches, then foundation faces
+  void set_laws(const std::vector<LawPointer>& laws);  // as many as before, same small_strain()
+  void set_scale(const std::vector<double>& scale);
+
+  // The state of later calls. False when an element is inverted or the energy is not finite; the
+  // state is then unusable.
+  bool set_state(const Eigen::VectorXd& u);
+  double energy() const { return energy_; }                 // [J]
+  const Eigen::VectorXd& forces() const { return force_; }  // that hold the nodes [N]
+
+  // Adds the tangent at the state to `system` and keeps the dense matrices of all cliques that have
+  // a node with kept[node] in `kept_matrices` (clique, matrix).
+  using CliqueMatrix = std::pair<std::size_t, Eigen::MatrixXd>;
+  void tangent(NodeSystem& system, const std::vector<char>& kept,
+               std::vector<CliqueMatrix>& kept_matrices) const;
+
+  // Derivatives of phi'.forces() by parameters at fixed displacement, for fields phi (3 nodes x m).
+  struct Derivatives {
+    std::vector<Eigen::MatrixXd> constants;  // by law: m x its constants
+    Eigen::MatrixXd foundation;              // m x 2: by k_n, k_t [N m / Pa]
+    Eigen::MatrixXd scale;                   // m x tetrahedra [N]; empty unless asked
+  };
+  Derivatives derivatives(const Eigen::MatrixXd& fields, bool by_scale) const;
+
+  // Modulus times length [N/m]: what rounding is judged by.
+  double stiffness_unit() const { return stiffness_unit_; }
+
+ private:
+  struct Point;  // kinematics of one quadrature point
+  template <int N>
+  bool state_pass();
+  template <int N>
+  void tangent_pass(NodeSystem& system, const std::vector<char>& kept,
+                    std::vector<CliqueMatrix>& kept_matrices) const;
+  template <int N>
+  Derivatives derivative_pass(const Eigen::MatrixXd& fields, bool by_scale) const;
+  template <int N>
+  Point point(std::size_t tet, int q, const Eigen::Matrix<double, 3, N>& u) const;
+  template <int N>
+  Eigen::Matrix<double, 3, N> gather(const Eigen::VectorXd& field, std::size_t tet) const;
+  int group(std::size_t tet, int q) const;
+  void build_groups();
+
+  const TetMesh* mesh_;
+  std::vector<LawPointer> laws_;
+  std::vector<int> law_;
+  std::vector<double> scale_;
+  Dilatation dilatation_;
+  std::vector<FoundationFace> faces_;
+  double k_normal_, k_tangential_;
+  int nodes_, points_;            // a tetrahedron
+  std::vector<double> gradient_;  // 3 x nodes of each point, one after the other
+  std::vector<double> weight_;    // of each point [m^3]
+
+  struct Group {
+    double volume = 0, weight = 0;       // V and W = sum of s w [m^3]
+    double theta = 0;                    // mean
+    double pressure = 0, stiffness = 0;  // W U'/V [Pa], W U''/V^2 [Pa/m^3]
+    int law = 0;
+  };
+  std::vector<Group> groups_;
+  std::vector<int> patch_;               // one a tetrahedron, with kPatch
+  Cliques patch_nodes_;                  // with kPatch
+  std::vector<std::vector<int>> local_;  // with kPatch: place of the element's nodes in its patch
+
+  Eigen::VectorXd u_, force_;
+  double energy_ = 0, stiffness_unit_ = 0;
+};
+
+}  // namespace hapsim

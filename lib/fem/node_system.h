@@ -1,0 +1,55 @@
+// The sparse stiffness matrix over the free nodes of a mesh, filled from dense blocks of the
+// elements again and again.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "linalg/sparse_cholesky.h"
+
+namespace hapsim {
+
+// Groups of nodes that act on each other: elements, patches of elements, faces.
+struct Cliques {
+  std::vector<int> start{0};
+  std::vector<int> node;
+  void add(const std::vector<int>& nodes);
+  std::size_t size() const { return start.size() - 1; }
+  int count(std::size_t clique) const { return start[clique + 1] - start[clique]; }
+  const int* nodes(std::size_t clique) const { return node.data() + start[clique]; }
+};
+
+class NodeSystem {
+ public:
+  // `free`: one a node, 1 when its three displacements are unknown. Cost: sorting the pattern and
+  // one symbolic analysis (at the first factorise()).
+  NodeSystem(std::vector<char> free, Cliques cliques);
+
+  const Cliques& cliques() const { return cliques_; }
+  int unknowns() const { return matrix_.size; }
+  bool is_free(int node) const { return block_[static_cast<std::size_t>(node)] >= 0; }
+
+  void clear();
+  // Adds a symmetric matrix (3 nodes squared, node by node) of a clique.
+  void add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>& dense);
+  // False when the matrix is not positive definite. True when nothing is free.
+  bool factorise();
+  // Rows of the free nodes of `load` (3 nodes x m) solved for; rows of the others are zero.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& load) const;
+  const SymmetricSparse& matrix() const { return matrix_; }
+
+ private:
+  void build_pattern();
+
+  Cliques cliques_;
+  std::vector<int> block_;  // one a node: its block, or -1
+  SymmetricSparse matrix_;
+  // For each clique and pair a <= b of its nodes: the place of block (row, column) within the
+  // column of blocks, -1 when one of both is not free.
+  std::vector<int> place_;
+  std::vector<std::size_t> place_start_;
+  std::unique_ptr<SparseCholesky> cholesky_;
+};
+
+}  // namespace hapsim

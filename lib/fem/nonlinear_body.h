@@ -1,0 +1,79 @@
+// A body of any material law whose nodes are free, held, or moved by rigid handles: forces at
+// finite strain, their tangent and their derivatives by the material.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fem/body_assembly.h"
+
+namespace hapsim {
+
+enum class SolveStatus {
+  kConverged,
+  kUnstable,       // the tangent is not positive definite: the body buckles or its material fails
+  kInverted,       // an element turns inside out or the energy overflows
+  kNoConvergence,  // Newton's method does not settle
+};
+
+struct SolveReport {
+  SolveStatus status = SolveStatus::kConverged;
+  std::string message;  // empty when converged; else what happened, where, and what to do
+  double reached = 1;   // share of the way to the target at which the body stands now
+  int load_steps = 0, newton_steps = 0;
+  bool ok() const { return status == SolveStatus::kConverged; }
+};
+
+struct SolveOptions {
+  double tolerance = 1e-9;  // free nodes' forces over the handles', both as norms
+  int newton_limit = 14;    // a load step
+  double least_step = 1.0 / 256;
+};
+
+// Displacement-controlled path following: Newton's method with the consistent tangent, a line
+// search on the energy, load steps that are halved on failure and doubled on success. One symbolic
+// analysis for all. Static; a path with the same end gives the same force unless the body loses its
+// stability, which the report says. Not to be shared between threads.
+class NonlinearBody {
+ public:
+  // `handle`: one a node, kFreeNode, kHeldNode (elastic_body.h) or a handle's number from 0 on.
+  // The mesh must outlive the body. Error(kBadInput) as BodyAssembly.
+  NonlinearBody(const BodyModel& model, const std::vector<int>& handle);
+  ~NonlinearBody();
+
+  // Moves the handles from where they are to `prescribed` (3 handles) [m]. On failure the body
+  // stays at the last equilibrium reached, as the report says: a force read there belongs to that
+  // place.
+  SolveReport solve(const Eigen::VectorXd& prescribed, const SolveOptions& options = {});
+  // New constants or factors; the displacement is kept as the start of the next solve().
+  void set_laws(const std::vector<LawPointer>& laws);
+  void set_scale(const std::vector<double>& scale);
+  void reset();  // back to the undeformed body
+
+  int handles() const;
+  int unknowns() const;
+  double energy() const;                        // [J]
+  const Eigen::VectorXd& field() const;         // 3 nodes [m]
+  const Eigen::VectorXd& nodal_forces() const;  // 3 nodes: that hold the nodes [N]
+  Eigen::VectorXd reaction() const;             // 3 handles: force that moves the handles [N]
+
+  // At the present equilibrium, by the implicit function theorem from one field a handle direction:
+  // no differences, no further Newton steps.
+  struct Linearisation {
+    bool stable = true;      // false: not positive definite, the rest is empty
+    Eigen::MatrixXd K;       // 3 handles squared: d reaction / d prescribed [N/m]
+    Eigen::MatrixXd fields;  // 3 nodes x 3 handles: d field / d prescribed
+    std::vector<Eigen::MatrixXd> by_constants;  // by law: 3 handles x its constants
+    Eigen::MatrixXd by_foundation;              // 3 handles x 2: by k_n, k_t
+    Eigen::MatrixXd by_scale;                   // 3 handles x tetrahedra [N]; empty unless asked
+  };
+  Linearisation linearise(bool by_scale = false);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hapsim
