@@ -2,237 +2,100 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <set>
-#include <utility>
-
-#include "geometry/point_index.h"
 
 namespace hapsim {
 namespace {
 
-const double kApart = std::cos(45 * M_PI / 180);   // between groups of normals
-const double kWithin = std::cos(25 * M_PI / 180);  // from a group's mean
-constexpr std::size_t kFewest = 3;                 // points in a group
+constexpr int kSteps = 6;
+constexpr double kFar = 2.0;  // edges a vertex may move at once
 
-struct Plane {
-  Vec3 point = Vec3::Zero();
-  Vec3 normal = Vec3::Zero();
-};
-
-// The groups of normals about a place, as planes; fewer than two: no crease.
-std::vector<Plane> planes_about(const PointCloud& cloud, const std::vector<Neighbour>& near,
-                                double radius) {
-  if (near.size() < 2 * kFewest) return {};
-  const auto normal = [&](std::size_t i) -> const Vec3& { return cloud.normals[near[i].index]; };
-  // Seeds: the normal farthest from the mean, then each the farthest from those before.
-  Vec3 mean = Vec3::Zero();
-  for (std::size_t i = 0; i < near.size(); ++i) mean += normal(i);
-  std::size_t first = 0;
-  for (std::size_t i = 1; i < near.size(); ++i) {
-    if (normal(i).dot(mean) < normal(first).dot(mean)) first = i;
-  }
-  std::vector<Vec3> centre{normal(first)};
-  while (centre.size() < 4) {
-    double farthest = kApart;
-    std::size_t best = near.size();
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      double closest = -1;
-      for (const Vec3& c : centre) closest = std::max(closest, c.dot(normal(i)));
-      if (closest < farthest) {
-        farthest = closest;
-        best = i;
-      }
+// Where the patches' heights vanish, nearest to p in the directions they leave free.
+Vec3 meeting(const std::set<int>& labels, const Segmentation& segmentation, const Vec3& p,
+             bool flat) {
+  Vec3 x = p;
+  for (int step = 0; step < kSteps; ++step) {
+    // The trace of stiffness keeps nearly parallel patches from throwing the vertex far away.
+    Eigen::Matrix3d a = 1e-3 * Eigen::Matrix3d::Identity();
+    Vec3 right = Vec3::Zero();
+    for (const int k : labels) {
+      if (k == LabelledSurface::kBottom) continue;
+      const Patch::Height h = segmentation.patches[k].height(x);
+      a += h.normal * h.normal.transpose();
+      right -= h.value * h.normal;
     }
-    if (best == near.size()) break;
-    centre.push_back(normal(best));
+    if (flat) a(2, 2) += 1e6;
+    Vec3 d = a.ldlt().solve(right);
+    if (flat) d.z() = 0;
+    x += d;
   }
-  if (centre.size() < 2) return {};
-  std::vector<Plane> planes;
-  for (int round = 0; round < 3; ++round) {
-    std::vector<Plane> sum(centre.size());
-    std::vector<std::size_t> count(centre.size(), 0);
-    std::vector<double> weight(centre.size(), 0);
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      for (std::size_t c = 0; c < centre.size(); ++c) {
-        if (normal(i).dot(centre[c]) < kWithin) continue;
-        const double away = 2 * near[i].distance / radius;
-        const double w = std::exp(-away * away);
-        sum[c].point += w * cloud.points[near[i].index];
-        sum[c].normal += w * normal(i);
-        weight[c] += w;
-        ++count[c];
-        break;
-      }
-    }
-    // Largest first: a smaller group too near to a larger one is the blur between two.
-    std::vector<std::size_t> order(sum.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return count[a] > count[b]; });
-    planes.clear();
-    centre.clear();
-    for (const std::size_t c : order) {
-      if (count[c] < kFewest) continue;
-      const Vec3 n = sum[c].normal.normalized();
-      if (std::any_of(centre.begin(), centre.end(),
-                      [&](const Vec3& m) { return m.dot(n) > kApart; }))
-        continue;
-      planes.push_back({sum[c].point / weight[c], n});
-      centre.push_back(n);
-    }
-  }
-  return planes;
-}
-
-// Where the planes meet, nearest to v in the directions they leave free; of a rim vertex in its
-// plane.
-Vec3 meeting(const std::vector<Plane>& planes, const Vec3& v, bool rim) {
-  Eigen::Matrix3d a = 1e-4 * Eigen::Matrix3d::Identity();
-  Vec3 right = Vec3::Zero();
-  for (const Plane& plane : planes) {
-    a += plane.normal * plane.normal.transpose();
-    right += plane.normal * plane.normal.dot(plane.point - v);
-  }
-  if (rim) a(2, 2) += 1e6;
-  Vec3 x = v + Vec3(a.ldlt().solve(right));
-  if (rim) x.z() = v.z();
   return x;
 }
 
-struct Candidate {
-  int vertex;
-  std::vector<Plane> planes;
-  double distance;
-  Vec3 target;
-};
-
-Vec3 normal_of(const Surface& surface, const Triangle& f) {
-  const Vec3& a = surface.vertices[f[0]];
-  return (surface.vertices[f[1]] - a).cross(surface.vertices[f[2]] - a);
-}
-
-double smallest_height(const Surface& surface, const Triangle& f) {
+// The sine of the smallest angle... as height over longest side; negative when the face looks away
+// from its patch.
+double soundness(const LabelledSurface& labelled, std::size_t f, const Segmentation& segmentation) {
+  const Triangle& t = labelled.surface.faces[f];
+  const auto& at = labelled.surface.vertices;
+  const Vec3 n = face_normal(labelled.surface, static_cast<int>(f));
   double longest = 0;
-  for (int k = 0; k < 3; ++k) {
-    longest = std::max(longest, (surface.vertices[f[(k + 1) % 3]] - surface.vertices[f[k]]).norm());
-  }
-  return normal_of(surface, f).norm() / longest;
-}
-
-// Whether a face has a fair shape and looks the way of one of the planes, or of the bottom.
-bool lies_well(const Surface& surface, const Triangle& f, const std::vector<Plane>& planes,
-               const CreaseOptions& options) {
-  if (smallest_height(surface, f) < 0.1 * options.edge) return false;
-  const bool bottom = std::all_of(f.begin(), f.end(),
-                                  [&](int v) { return surface.vertices[v].z() == options.base; });
-  const Vec3 normal = normal_of(surface, f).normalized();
-  if (bottom) return normal.z() < 0;
-  return std::any_of(planes.begin(), planes.end(),
-                     [&](const Plane& plane) { return plane.normal.dot(normal) > 0.6; });
-}
-
-// Flips edges between the sides of a crease onto it, once over the surface.
-void flip_onto(Surface& surface, const std::vector<std::vector<Plane>>& planes_of,
-               const CreaseOptions& options) {
-  const auto moved = [&](int v) { return !planes_of[v].empty(); };
-  std::map<std::pair<int, int>, int> face_of;
-  for (std::size_t f = 0; f < surface.faces.size(); ++f) {
-    const Triangle& t = surface.faces[f];
-    for (int k = 0; k < 3; ++k) face_of[{t[k], t[(k + 1) % 3]}] = static_cast<int>(f);
-  }
-  std::vector<char> touched(surface.faces.size(), 0);
-  std::set<std::pair<int, int>> made;
-  for (const auto& [key, f] : face_of) {
-    const auto [a, b] = key;
-    if (a > b || (moved(a) && moved(b))) continue;
-    const auto opposite = face_of.find({b, a});
-    if (opposite == face_of.end()) continue;
-    const int g = opposite->second;
-    if (touched[f] || touched[g]) continue;
-    const auto third = [&](int face) {
-      const Triangle& t = surface.faces[face];
-      return t[0] + t[1] + t[2] - a - b;
-    };
-    const int c = third(f), d = third(g);
-    if (!moved(c) || !moved(d) || face_of.count({c, d}) > 0 || face_of.count({d, c}) > 0) continue;
-    if (!made.emplace(std::min(c, d), std::max(c, d)).second) continue;
-    // a, b, c turns as face f does; so do c, d, b and d, c, a.
-    const Triangle one{c, d, b}, other{d, c, a};
-    const bool sound = lies_well(surface, one, planes_of[c], options) &&
-                       lies_well(surface, other, planes_of[c], options);
-    const double before = normal_of(surface, surface.faces[f])
-                              .normalized()
-                              .dot(normal_of(surface, surface.faces[g]).normalized());
-    const double after =
-        normal_of(surface, one).normalized().dot(normal_of(surface, other).normalized());
-    if (!sound || after > before) continue;  // the crease is the sharper of the two diagonals
-    surface.faces[f] = one;
-    surface.faces[g] = other;
-    touched[f] = touched[g] = 1;
-  }
+  for (int k = 0; k < 3; ++k) longest = std::max(longest, (at[t[k]] - at[t[(k + 1) % 3]]).norm());
+  if (!(longest > 0)) return 0;
+  const double shape = n.norm() / (longest * longest);
+  const int label = labelled.label[f];
+  if (label == LabelledSurface::kBottom) return n.z() < 0 ? shape : -shape;
+  const Vec3 centre = (at[t[0]] + at[t[1]] + at[t[2]]) / 3;
+  return segmentation.patches[label].height(centre).normal.dot(n) > 0.3 * n.norm() ? shape : -shape;
 }
 
 }  // namespace
 
-int snap_to_creases(Surface& surface, const PointCloud& cloud, const CreaseOptions& options) {
-  const PointIndex index(cloud.points);
-  // Wide, for a scan from above has few points on the walls; near ones weigh more.
-  const double radius = std::max(4 * options.edge, 4 * options.spacing);
-
-  std::vector<std::set<int>> ring(surface.vertices.size());
-  std::vector<std::vector<int>> faces_of(surface.vertices.size());
-  std::vector<char> side(surface.vertices.size(), 0);  // of a face that is not the bottom
-  for (std::size_t n = 0; n < surface.faces.size(); ++n) {
-    const Triangle& f = surface.faces[n];
-    const bool bottom = std::all_of(f.begin(), f.end(),
-                                    [&](int v) { return surface.vertices[v].z() == options.base; });
-    for (int k = 0; k < 3; ++k) {
-      faces_of[f[k]].push_back(static_cast<int>(n));
-      ring[f[k]].insert(f[(k + 1) % 3]);
-      if (!bottom) side[f[k]] = 1;
-    }
+int project_to_patches(LabelledSurface& labelled, const Segmentation& segmentation,
+                       const CreaseOptions& options) {
+  std::vector<Vec3>& at = labelled.surface.vertices;
+  const std::vector<Triangle>& faces = labelled.surface.faces;
+  std::vector<std::set<int>> labels(at.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const int v : faces[f]) labels[v].insert(labelled.label[f]);
   }
-  std::vector<Candidate> candidates;
-  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
-    if (!side[v]) continue;
-    const Vec3& p = surface.vertices[v];
-    const std::vector<Plane> planes = planes_about(cloud, index.within(p, radius), radius);
-    if (planes.size() < 2) continue;
-    const Vec3 target = meeting(planes, p, p.z() == options.base);
-    const double distance = (target - p).norm();
-    if (distance < 1.6 * options.edge) {
-      candidates.push_back({static_cast<int>(v), planes, distance, target});
-    }
+  const std::vector<Vec3> old = at;
+  std::vector<Vec3> target = old;
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    const bool flat = labels[v].count(LabelledSurface::kBottom) > 0;
+    if (flat && labels[v].size() == 1) continue;
+    const Vec3 x = meeting(labels[v], segmentation, old[v], flat);
+    if ((x - old[v]).norm() < kFar * options.edge) target[v] = x;
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) {
-                     return std::pair(-static_cast<int>(a.planes.size()), a.distance) <
-                            std::pair(-static_cast<int>(b.planes.size()), b.distance);
-                   });
-  std::vector<std::vector<Plane>> planes_of(surface.vertices.size());
-  int count = 0;
-  for (const Candidate& c : candidates) {
-    const bool meets = std::any_of(ring[c.vertex].begin(), ring[c.vertex].end(), [&](int w) {
-      return (surface.vertices[w] - c.target).norm() < 0.3 * options.edge;
-    });
-    if (meets) continue;
-    const Vec3 old = surface.vertices[c.vertex];
-    surface.vertices[c.vertex] = c.target;
-    if (!std::all_of(faces_of[c.vertex].begin(), faces_of[c.vertex].end(), [&](int f) {
-          return lies_well(surface, surface.faces[f], c.planes, options);
-        })) {
-      surface.vertices[c.vertex] = old;
-      continue;
+  std::vector<double> before(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) before[f] = soundness(labelled, f, segmentation);
+  std::vector<double> share(at.size(), 1);
+  int bad = 0;
+  constexpr int kHalvings = 5;
+  for (int attempt = 0; attempt <= kHalvings; ++attempt) {
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      at[v] = share[v] == 1 ? target[v] : Vec3(old[v] + share[v] * (target[v] - old[v]));
     }
-    planes_of[c.vertex] = c.planes;
-    ++count;
+    bad = 0;
+    std::vector<char> hold(at.size(), 0);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const double now = soundness(labelled, f, segmentation);
+      if (now > 0) continue;
+      ++bad;
+      // A face that was bad before is none the worse for moving.
+      if (before[f] <= 0) continue;
+      for (const int v : faces[f]) hold[v] = 1;
+    }
+    if (attempt == kHalvings) break;
+    bool changed = false;
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      if (!hold[v]) continue;
+      share[v] = attempt + 2 == kHalvings ? 0 : share[v] / 2;
+      changed = true;
+    }
+    if (!changed) break;
   }
-  for (int pass = 0; pass < 2; ++pass) flip_onto(surface, planes_of, options);
-  return count;
+  return bad;
 }
 
 }  // namespace hapsim

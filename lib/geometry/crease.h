@@ -2,22 +2,36 @@
 #pragma once
 
 #include <limits>
+#include <vector>
 
+#include "geometry/patches.h"
 #include "geometry/surface.h"
 
 namespace hapsim {
 
+// A surface whose faces name the patch they belong to; the flat bottom has the label `bottom`.
+struct LabelledSurface {
+  static constexpr int kBottom = -1;
+  Surface surface;
+  std::vector<int> label;  // as many as faces
+};
+
 struct CreaseOptions {
   double edge = 0;                                         // edge length of the surface [m]
   double spacing = 0;                                      // distance of neighbouring points [m]
-  double base = std::numeric_limits<double>::quiet_NaN();  // flat bottom: its rim stays in it
+  double base = std::numeric_limits<double>::quiet_NaN();  // height of the flat bottom [m]
 };
 
-// Moves vertices beside a sharp edge or corner onto it: where the points about a vertex fall into
-// two or three groups of normals 45 degrees apart, the vertex goes to where the groups' planes meet
-// (the quadratic error function of Garland and Heckbert 1997), the nearest vertices first, none so
-// that two meet; edges that still cross the crease between two moved vertices are flipped onto it.
-// Returns the number of moved vertices.
-int snap_to_creases(Surface& surface, const PointCloud& cloud, const CreaseOptions& options);
+// Gives each vertex to the patch nearby whose surface it lies nearest to, and cuts the faces
+// between vertices of different patches: the seams run where two patches meet, their forks where
+// three do.
+LabelledSurface cut_along_patches(const Surface& surface, const Segmentation& segmentation,
+                                  const CreaseOptions& options);
+
+// Moves every vertex onto the surfaces of all the patches about it (Newton steps to where their
+// heights vanish), those of the bottom within it; none farther than two edges, and none so that a
+// face turns over. Returns the number of faces that look away from their patch.
+int project_to_patches(LabelledSurface& labelled, const Segmentation& segmentation,
+                       const CreaseOptions& options);
 
 }  // namespace hapsim

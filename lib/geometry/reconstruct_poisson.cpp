@@ -82,8 +82,9 @@ PointCloud mirrored(const PointCloud& cloud, const BodyFrame& frame) {
   return both;
 }
 
+constexpr double kCreaseDeg = 40;
 // Each pass brings more of the rounded edge within reach.
-constexpr int kCreasePasses = 2;
+constexpr int kCreasePasses = 4;
 constexpr double kThinAngle = 3;  // [deg]
 
 double smallest_angle_deg(const Surface& surface) {
@@ -109,31 +110,32 @@ double trimmed_rms(const Surface& surface, const std::vector<Vec3>& points) {
                    static_cast<double>(std::max<std::ptrdiff_t>(kept, 1)));
 }
 
-// The surface with creases where the points have them: taken when they then lie clearly nearer to
-// it and it is still sound, else the surface as it was.
+// The surface with sharp edges where the points have them: taken when they then lie clearly nearer
+// to it and it is still sound, else the surface as it was.
 Surface sharper(const Surface& smooth, const PointCloud& cloud, const BodyFrame& frame,
-                RemeshOptions even, SurfaceFitOptions fit) {
-  Surface sharp = smooth;
+                const RemeshOptions& even) {
+  const Segmentation segmentation = find_patches(cloud, frame.spacing, kCreaseDeg);
+  if (segmentation.patches.size() < 2) return smooth;
   CreaseOptions crease;
   crease.edge = frame.edge;
   crease.spacing = frame.spacing;
   crease.base = even.base;
-  even.crease_deg = 40;
-  even.rounds = 3;
-  fit.rounds = 2;
   try {
+    LabelledSurface sharp = cut_along_patches(smooth, segmentation, crease);
+    RemeshOptions passing = even;
+    passing.rounds = 2;
     for (int pass = 0; pass < kCreasePasses; ++pass) {
-      if (snap_to_creases(sharp, cloud, crease) == 0) return smooth;
-      sharp = remesh(sharp, even);
-      fit_surface(sharp, cloud.points, fit);
+      project_to_patches(sharp, segmentation, crease);
+      sharp.surface = remesh(sharp.surface, pass + 1 < kCreasePasses ? passing : even, sharp.label);
     }
-    if (smallest_angle_deg(sharp) < kThinAngle) return smooth;
-    check_self_intersection(sharp, "");
+    const int bad = project_to_patches(sharp, segmentation, crease);
+    if (bad > 0 || smallest_angle_deg(sharp.surface) < kThinAngle) return smooth;
+    check_self_intersection(sharp.surface, "");
+    const double better = trimmed_rms(sharp.surface, cloud.points);
+    return better < 0.9 * trimmed_rms(smooth, cloud.points) ? sharp.surface : smooth;
   } catch (const Error&) {
     return smooth;
   }
-  return trimmed_rms(sharp, cloud.points) < 0.9 * trimmed_rms(smooth, cloud.points) ? sharp
-                                                                                    : smooth;
 }
 
 }  // namespace
@@ -158,7 +160,7 @@ Surface reconstruct_poisson(const PointCloud& scan, const BodyFrame& frame) {
   }
   surface = remesh(surface, even);
   fit_surface(surface, cloud.points, fit);
-  return sharper(surface, cloud, frame, even, fit);
+  return sharper(surface, cloud, frame, even);
 }
 
 }  // namespace hapsim

@@ -2,7 +2,6 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/clip.h>
-#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
@@ -91,23 +90,30 @@ Surface cut_flat(const Surface& surface, double z) {
 }
 
 Surface remesh(const Surface& surface, const RemeshOptions& options) {
+  std::vector<int> label(surface.faces.size(), 0);
+  return remesh(surface, options, label);
+}
+
+Surface remesh(const Surface& surface, const RemeshOptions& options, std::vector<int>& label) {
   Mesh mesh = to_cgal(surface);
-  auto crease = mesh.add_property_map<Mesh::Edge_index, bool>("e:crease", false).first;
-  if (options.crease_deg < 180) PMP::detect_sharp_edges(mesh, options.crease_deg, crease);
   const bool flat = std::isfinite(options.base);
-  if (flat) {
-    for (const auto e : mesh.edges()) {
-      const auto h = mesh.halfedge(e);
-      const bool one = is_bottom(mesh, mesh.face(h), options.base);
-      const bool other = is_bottom(mesh, mesh.face(mesh.opposite(h)), options.base);
-      if (one != other) crease[e] = true;
-      if (one && other) crease[e] = false;
-    }
+  // Seams, and the rim of the bottom, are the borders between patches.
+  auto patch = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:patch", 0).first;
+  auto seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
+  const int least = *std::min_element(label.begin(), label.end());
+  for (const auto f : mesh.faces()) {
+    const auto own = static_cast<std::size_t>(label[static_cast<std::size_t>(f)] - least);
+    patch[f] = 2 * own + (flat && is_bottom(mesh, f, options.base) ? 1 : 0);
+  }
+  for (const auto e : mesh.edges()) {
+    const auto h = mesh.halfedge(e);
+    seam[e] = patch[mesh.face(h)] != patch[mesh.face(mesh.opposite(h))];
   }
   PMP::isotropic_remeshing(
       mesh.faces(), options.edge, mesh,
       CGAL::parameters::number_of_iterations(static_cast<unsigned>(options.rounds))
-          .edge_is_constrained_map(crease)
+          .edge_is_constrained_map(seam)
+          .face_patch_map(patch)
           .relax_constraints(false));
   if (flat) {
     // Relaxation and projection leave the bottom's vertices a rounding error off it.
@@ -120,6 +126,9 @@ Surface remesh(const Surface& surface, const RemeshOptions& options) {
       }
     }
   }
+  mesh.collect_garbage();  // which reorders
+  label.clear();
+  for (const auto f : mesh.faces()) label.push_back(static_cast<int>(patch[f] / 2) + least);
   return from_cgal(mesh);
 }
 
