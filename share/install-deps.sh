@@ -12,6 +12,7 @@ packages=(
   g++ make cmake ninja-build pkg-config git ca-certificates
   libeigen3-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
   coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
+  liborocos-kdl-dev liburdfdom-dev
   libgtest-dev libbenchmark-dev mandoc
 )
 dev_packages=(clang-format clang-tidy ccache chromium debootstrap calculix-ccx)

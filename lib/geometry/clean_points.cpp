@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "base/error.h"
 #include "geometry/local_plane.h"
@@ -29,18 +31,22 @@ double median(std::vector<double> v) {
   return *middle;
 }
 
-PointCloud keep(const PointCloud& cloud, const std::vector<char>& dropped) {
+PointCloud keep(const PointCloud& cloud, const std::vector<char>& dropped,
+                std::vector<int>& index) {
   PointCloud kept;
+  std::vector<int> still;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (dropped[i]) continue;
     kept.points.push_back(cloud.points[i]);
     if (!cloud.normals.empty()) kept.normals.push_back(cloud.normals[i]);
+    still.push_back(index[i]);
   }
+  index = std::move(still);
   return kept;
 }
 
 // Drops every point that lies within `distance` of an earlier kept one.
-std::size_t drop_near(PointCloud& cloud, double distance) {
+std::size_t drop_near(PointCloud& cloud, double distance, std::vector<int>& kept) {
   const PointIndex index(cloud.points);
   std::vector<char> dropped(cloud.points.size(), 0);
   std::size_t count = 0;
@@ -53,12 +59,12 @@ std::size_t drop_near(PointCloud& cloud, double distance) {
       }
     }
   }
-  if (count > 0) cloud = keep(cloud, dropped);
+  if (count > 0) cloud = keep(cloud, dropped, kept);
   return count;
 }
 
 // Exact doubles: sorted, as the search tree degrades when thousands of points coincide.
-std::size_t drop_equal(PointCloud& cloud) {
+std::size_t drop_equal(PointCloud& cloud, std::vector<int>& kept) {
   std::vector<int> order(cloud.points.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   const auto key = [&](int i) {
@@ -77,13 +83,13 @@ std::size_t drop_equal(PointCloud& cloud) {
       ++count;
     }
   }
-  if (count > 0) cloud = keep(cloud, dropped);
+  if (count > 0) cloud = keep(cloud, dropped, kept);
   return count;
 }
 
 // Mean distance to the k nearest, compared with the median of the same over those neighbours, so
 // that an uneven density is no reason to drop points.
-std::size_t drop_isolated(PointCloud& cloud) {
+std::size_t drop_isolated(PointCloud& cloud, std::vector<int>& kept) {
   const PointIndex index(cloud.points);
   const std::size_t n = cloud.points.size();
   std::vector<std::vector<Neighbour>> near(n);
@@ -106,13 +112,13 @@ std::size_t drop_isolated(PointCloud& cloud) {
       ++count;
     }
   }
-  if (count > 0) cloud = keep(cloud, dropped);
+  if (count > 0) cloud = keep(cloud, dropped, kept);
   return count;
 }
 
 // Distance from the plane of the neighbours, in units of their own median distance from it: large
 // at a sharp edge too, so an edge keeps its points.
-std::size_t drop_off_surface(PointCloud& cloud) {
+std::size_t drop_off_surface(PointCloud& cloud, std::vector<int>& kept) {
   const PointIndex index(cloud.points);
   const std::size_t n = cloud.points.size();
   std::vector<double> off(n, 0), scale(n, 0);
@@ -134,7 +140,7 @@ std::size_t drop_off_surface(PointCloud& cloud) {
       ++count;
     }
   }
-  if (count > 0) cloud = keep(cloud, dropped);
+  if (count > 0) cloud = keep(cloud, dropped, kept);
   return count;
 }
 
@@ -167,11 +173,12 @@ void require_surface_points(const std::vector<Vec3>& points, const std::string& 
   }
 }
 
-PointCloud thin_points(const PointCloud& cloud, double size) {
+PointCloud thin_points(const PointCloud& cloud, double size, std::vector<int>* index) {
   struct Cell {
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::Zero();
     double count = 0;
+    int first = 0;
   };
   std::map<std::array<long, 3>, std::size_t> number;
   std::vector<Cell> cells;
@@ -179,7 +186,7 @@ PointCloud thin_points(const PointCloud& cloud, double size) {
     const Vec3 at = cloud.points[i] / size;
     const auto [where, added] = number.try_emplace(
         {std::lround(at.x()), std::lround(at.y()), std::lround(at.z())}, cells.size());
-    if (added) cells.emplace_back();
+    if (added) cells.emplace_back().first = static_cast<int>(i);
     Cell& cell = cells[where->second];
     cell.point += cloud.points[i];
     if (!cloud.normals.empty()) cell.normal += cloud.normals[i];
@@ -193,6 +200,7 @@ PointCloud thin_points(const PointCloud& cloud, double size) {
       thin.normals.push_back(cell.normal.normalized());
     }
     thin.points.push_back(cell.point / cell.count);
+    if (index != nullptr) index->push_back(cell.first);
   }
   return thin;
 }
@@ -202,13 +210,16 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
   report = {};
   report.read = cloud.points.size();
   PointCloud clean = cloud;
-  report.duplicates = drop_equal(clean);
+  std::vector<int>& index = report.index;
+  index.resize(cloud.points.size());
+  std::iota(index.begin(), index.end(), 0);
+  report.duplicates = drop_equal(clean, index);
   require_surface_points(clean.points, name);
-  report.near_duplicates = drop_near(clean, 1e-3 * point_spacing(clean.points));
+  report.near_duplicates = drop_near(clean, 1e-3 * point_spacing(clean.points), index);
   if (options.remove_outliers && clean.points.size() > 3 * kNeighbours) {
     for (int pass = 0; pass < kPasses; ++pass) {
-      const std::size_t isolated = drop_isolated(clean);
-      const std::size_t off = drop_off_surface(clean);
+      const std::size_t isolated = drop_isolated(clean, index);
+      const std::size_t off = drop_off_surface(clean, index);
       report.isolated += isolated;
       report.off_surface += off;
       if (isolated + off == 0) break;
@@ -216,7 +227,10 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
   }
   if (options.spacing > 0) {
     const std::size_t before = clean.points.size();
-    clean = thin_points(clean, options.spacing);
+    std::vector<int> first;
+    clean = thin_points(clean, options.spacing, &first);
+    for (int& i : first) i = index[static_cast<std::size_t>(i)];
+    index = std::move(first);
     report.thinned = before - clean.points.size();
   }
   require_surface_points(clean.points, name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "geometry/surface.h"
 
@@ -21,6 +22,7 @@ struct CleanReport {
   std::size_t off_surface = 0;      // off the plane of its neighbours
   std::size_t thinned = 0;
   std::size_t kept = 0;
+  std::vector<int> index;  // index[i]: number in the input of kept point i (the first of its cell)
 };
 
 // Distance of neighbours were the points laid out evenly, 1/sqrt(points a unit area): from the
@@ -34,8 +36,8 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
                         const std::string& name, CleanReport& report);
 
 // One point a cubic cell of `size` [m]: the mean of its points and (renormalised) normals, in the
-// order in which the cells are first met.
-PointCloud thin_points(const PointCloud& cloud, double size);
+// order in which the cells are first met; `index` then names the first point of each.
+PointCloud thin_points(const PointCloud& cloud, double size, std::vector<int>* index = nullptr);
 
 // Fails as clean_points does.
 void require_surface_points(const std::vector<Vec3>& points, const std::string& name);

@@ -14,6 +14,7 @@ import: io
 linalg: base
 estimate: linalg
 geometry: io
+scan: geometry
 fem: geometry linalg
 effects: fem
 model: effects estimate
@@ -28,6 +29,7 @@ CGAL/: geometry
 tetgen\.h: geometry
 (suitesparse/)?cholmod\.h|Eigen/CholmodSupport: linalg
 (coin/|coin-or/)?Ip[A-Z][A-Za-z]*\.hpp: estimate
+kdl/|urdf_|console_bridge/: scan
 CLI/: cli
 "
 

@@ -1,0 +1,24 @@
+// What tables of points of all kinds share: columns by several names, zones, touch forces.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/csv.h"
+#include "scan/scan.h"
+
+namespace hapsim {
+
+// The first of `names` (case ignored) that the table has, as the table writes it; "" for none.
+std::string find_column(const CsvTable& table, const std::vector<std::string>& names);
+
+// Takes the columns zone (or region, view, organ_zone) and touch_force (or force, f_touch), where
+// there are any, into the scan, for the rows `kept`.
+void take_zones(const CsvTable& table, const std::vector<int>& kept, Scan& scan);
+void take_touch_force(const CsvTable& table, const std::vector<int>& kept, Scan& scan);
+
+// Three columns as vectors.
+std::vector<Vec3> vector_columns(const CsvTable& table, const std::string& x, const std::string& y,
+                                 const std::string& z);
+
+}  // namespace hapsim
