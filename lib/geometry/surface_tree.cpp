@@ -77,8 +77,11 @@ SurfaceTree::SurfaceTree(Surface surface) : surface_(std::move(surface)) {
   packed_.reserve(faces);
   for (const int f : order) {
     const Triangle& t = surface_.faces[f];
-    packed_.push_back(
-        {{surface_.vertices[t[0]], surface_.vertices[t[1]], surface_.vertices[t[2]]}, f});
+    const Vec3 &a = surface_.vertices[t[0]], &b = surface_.vertices[t[1]],
+               &c = surface_.vertices[t[2]];
+    const double reach =
+        std::max({(a - centre[f]).norm(), (b - centre[f]).norm(), (c - centre[f]).norm()});
+    packed_.push_back({centre[f], reach * (1 + 1e-9), {a, b, c}, f});
   }
 }
 
@@ -124,6 +127,7 @@ void SurfaceTree::search(const Vec3& p, int apart, SurfacePoint& best) const {
   Open open[kDeepest];
   int count = 0;
   open[count++] = {0, squared_distance(p, nodes_[0].low, nodes_[0].high)};
+  double root = std::sqrt(best.distance);
   while (count > 0) {
     const Open next = open[--count];
     if (next.distance >= best.distance) continue;
@@ -145,6 +149,8 @@ void SurfaceTree::search(const Vec3& p, int apart, SurfacePoint& best) const {
     if (n.right >= 0) continue;
     for (int i = n.first; i < n.first + n.count; ++i) {
       const Packed& t = packed_[i];
+      const double reach = root + t.radius;
+      if ((p - t.centre).squaredNorm() > reach * reach) continue;
       const Vec3 q = nearest_in_triangle(p, t.corner[0], t.corner[1], t.corner[2]);
       const double distance = (q - p).squaredNorm();
       if (distance >= best.distance) continue;
@@ -153,6 +159,7 @@ void SurfaceTree::search(const Vec3& p, int apart, SurfacePoint& best) const {
         if (f[0] == apart || f[1] == apart || f[2] == apart) continue;
       }
       best = {q, t.face, distance};
+      root = std::sqrt(distance);
     }
   }
 }

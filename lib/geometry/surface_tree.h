@@ -45,6 +45,8 @@ class SurfaceTree {
     int right = -1;            // inner: left child follows, right child's index
   };
   struct Packed {  // a face beside its neighbours in space
+    Vec3 centre;
+    double radius;  // about the centre, a little more than it reaches
     Vec3 corner[3];
     int face;
   };
