@@ -116,7 +116,7 @@ void BodyAssembly::set_scale(const std::vector<double>& scale) {
     const PointResponse r = law->respond(Matrix3d::Identity(), true);
     modulus = std::max(modulus, r.D.diagonal().maxCoeff() + law->volume(1).second);
   }
-  stiffness_unit_ = stiffest * modulus * std::cbrt(volume);
+  force_unit_ = stiffest * modulus * std::pow(volume, 2.0 / 3);
 }
 
 Cliques BodyAssembly::cliques() const {

@@ -57,8 +57,8 @@ class BodyAssembly {
   };
   Derivatives derivatives(const Eigen::MatrixXd& fields, bool by_scale) const;
 
-  // Modulus times length [N/m]: what rounding is judged by.
-  double stiffness_unit() const { return stiffness_unit_; }
+  // Modulus times area [N]: what rounding is judged by.
+  double force_unit() const { return force_unit_; }
 
  private:
   struct Point;  // kinematics of one quadrature point
@@ -99,7 +99,7 @@ class BodyAssembly {
   std::vector<std::vector<int>> local_;  // with kPatch: place of the element's nodes in its patch
 
   Eigen::VectorXd u_, force_;
-  double energy_ = 0, stiffness_unit_ = 0;
+  double energy_ = 0, force_unit_ = 0;
 };
 
 }  // namespace hapsim

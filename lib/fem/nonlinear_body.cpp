@@ -92,10 +92,12 @@ struct NonlinearBody::Impl {
     }
     return {std::sqrt(n.free), std::sqrt(n.constrained)};
   }
-  bool balanced(const SolveOptions& options) const {
+  // `before`: the constrained forces at the start of the load step, which a press that returns to
+  // the undeformed body is judged by.
+  bool balanced(const SolveOptions& options, double before) const {
     const Norms n = norms();
-    const double rounding = 1e-13 * assembly.stiffness_unit() * u.lpNorm<Eigen::Infinity>();
-    return n.free <= options.tolerance * n.constrained + rounding;
+    const double rounding = 1e-15 * assembly.force_unit();
+    return n.free <= options.tolerance * std::max(n.constrained, before) + rounding;
   }
 
   SolveStatus line_search(const VectorXd& direction) {
@@ -120,17 +122,18 @@ struct NonlinearBody::Impl {
   SolveStatus step(const VectorXd& change, const SolveOptions& options, int& newton_steps) {
     if (!factorise()) return SolveStatus::kUnstable;
     const MatrixXd field = spread(change);
+    const double before = norms().constrained;
     ++newton_steps;
     u += field + system.solve(-assembly.forces() - times_touched(field));
     if (!assembly.set_state(u)) return SolveStatus::kInverted;
     for (int k = 0; k < options.newton_limit; ++k) {
-      if (balanced(options)) return SolveStatus::kConverged;
+      if (balanced(options, before)) return SolveStatus::kConverged;
       if (!factorise()) return SolveStatus::kUnstable;
       ++newton_steps;
       const SolveStatus found = line_search(system.solve(-assembly.forces()));
       if (found != SolveStatus::kConverged) return found;
     }
-    return balanced(options) ? SolveStatus::kConverged : SolveStatus::kNoConvergence;
+    return balanced(options, before) ? SolveStatus::kConverged : SolveStatus::kNoConvergence;
   }
 };
 
