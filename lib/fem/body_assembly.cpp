@@ -27,10 +27,10 @@ BodyAssembly::BodyAssembly(const BodyModel& model)
       law_(model.law_of_tet.empty() ? model.mesh->region : model.law_of_tet),
       dilatation_(model.dilatation),
       faces_(foundation_faces(*model.mesh, model.foundation)),
+      springs_(model.springs),
       k_normal_(model.foundation.normal),
       k_tangential_(model.foundation.tangential),
-      nodes_(model.mesh->order == 1 ? 4 : 10),
-      points_(model.mesh->order == 1 ? 1 : 4) {
+      nodes_(model.mesh->order == 1 ? 4 : 10) {
   const std::size_t tets = mesh_->tets.size();
   assert(law_.size() == tets);
   for (std::size_t t = 0; t < tets; ++t)
@@ -39,13 +39,13 @@ BodyAssembly::BodyAssembly(const BodyModel& model)
                  "tetrahedron " + std::to_string(t) + " is of region " + std::to_string(law_[t]) +
                      ", which has no material",
                  "give one material a region, from 0 on");
-  gradient_.reserve(tets * points_ * 3 * nodes_);
   for (std::size_t t = 0; t < tets; ++t) {
     const ElementGradients e = element_gradients(*mesh_, t);
-    for (int q = 0; q < points_; ++q) {
+    for (int q = 0; q < e.points; ++q) {
       weight_.push_back(e.weight[q]);
       gradient_.insert(gradient_.end(), e.gradient[q].data(), e.gradient[q].data() + 3 * nodes_);
     }
+    first_point_.push_back(static_cast<int>(weight_.size()));
   }
   build_groups();
   set_scale(model.scale);
@@ -54,7 +54,7 @@ BodyAssembly::BodyAssembly(const BodyModel& model)
 void BodyAssembly::build_groups() {
   const std::size_t tets = mesh_->tets.size();
   std::size_t count = tets;
-  if (dilatation_ == Dilatation::kPointwise) count *= points_;
+  if (dilatation_ == Dilatation::kPointwise) count = weight_.size();
   if (dilatation_ == Dilatation::kPatch) {
     patch_ = dilatation_patches(*mesh_, law_);
     count = 1 + static_cast<std::size_t>(*std::max_element(patch_.begin(), patch_.end()));
@@ -77,14 +77,14 @@ void BodyAssembly::build_groups() {
   }
   groups_.resize(count);
   for (std::size_t t = 0; t < tets; ++t)
-    for (int q = 0; q < points_; ++q) {
-      groups_[group(t, q)].volume += weight_[t * points_ + q];
+    for (int q = 0; q < points(t); ++q) {
+      groups_[group(t, q)].volume += weight_[first_point_[t] + q];
       groups_[group(t, q)].law = law_[t];
     }
 }
 
 int BodyAssembly::group(std::size_t tet, int q) const {
-  if (dilatation_ == Dilatation::kPointwise) return static_cast<int>(tet) * points_ + q;
+  if (dilatation_ == Dilatation::kPointwise) return first_point_[tet] + q;
   return dilatation_ == Dilatation::kPatch ? patch_[tet] : static_cast<int>(tet);
 }
 
@@ -104,9 +104,9 @@ void BodyAssembly::set_scale(const std::vector<double>& scale) {
       fail_input("",
                  "the stiffness factor of tetrahedron " + std::to_string(t) + " is not positive",
                  "give factors above 0");
-    for (int q = 0; q < points_; ++q) {
-      groups_[group(t, q)].weight += scale_[t] * weight_[t * points_ + q];
-      volume += weight_[t * points_ + q];
+    for (int q = 0; q < points(t); ++q) {
+      groups_[group(t, q)].weight += scale_[t] * weight_[first_point_[t] + q];
+      volume += weight_[first_point_[t] + q];
     }
     stiffest = std::max(stiffest, scale_[t]);
   }
@@ -126,6 +126,7 @@ Cliques BodyAssembly::cliques() const {
   for (std::size_t p = 0; p < patch_nodes_.size(); ++p)
     cliques.add({patch_nodes_.nodes(p), patch_nodes_.nodes(p) + patch_nodes_.count(p)});
   for (const FoundationFace& f : faces_) cliques.add(f.nodes);
+  for (const NodeSpring& s : springs_) cliques.add({s.node});
   return cliques;
 }
 
@@ -143,7 +144,7 @@ using Gradients = Eigen::Map<const Eigen::Matrix<double, 3, N>>;
 template <int N>
 BodyAssembly::Point BodyAssembly::point(std::size_t tet, int q,
                                         const Eigen::Matrix<double, 3, N>& u) const {
-  const std::size_t at = tet * points_ + q;
+  const std::size_t at = static_cast<std::size_t>(first_point_[tet] + q);
   const Gradients<N> G(gradient_.data() + at * 3 * N);
   Point p;
   p.weight = weight_[at];
@@ -180,7 +181,7 @@ bool BodyAssembly::state_pass() {
   for (Group& g : groups_) g.theta = 0;
   for (std::size_t t = 0; t < mesh_->tets.size(); ++t) {
     const auto u = gather<N>(u_, t);
-    for (int q = 0; q < points_; ++q) {
+    for (int q = 0; q < points(t); ++q) {
       const Point p = point<N>(t, q, u);
       if (!p.small && !(p.theta > 0)) return false;
       groups_[group(t, q)].theta += p.weight * p.theta;
@@ -198,13 +199,13 @@ bool BodyAssembly::state_pass() {
   for (std::size_t t = 0; t < mesh_->tets.size(); ++t) {
     const auto u = gather<N>(u_, t);
     Eigen::Matrix<double, 3, N> r = Eigen::Matrix<double, 3, N>::Zero();
-    for (int q = 0; q < points_; ++q) {
+    for (int q = 0; q < points(t); ++q) {
       const Point p = point<N>(t, q, u);
       const PointResponse m = laws_[law_[t]]->respond(p.C, false);
       energy_ += p.weight * scale_[t] * m.energy;
       const Matrix3d P =
           p.F * (scale_[t] * to_matrix(m.S)) + groups_[group(t, q)].pressure * p.cofactor;
-      r.noalias() += p.weight * P * Gradients<N>(gradient_.data() + (t * points_ + q) * 3 * N);
+      r.noalias() += p.weight * P * Gradients<N>(gradient_.data() + (first_point_[t] + q) * 3 * N);
     }
     for (int a = 0; a < N; ++a) force_.segment<3>(3 * mesh_->tets[t][a]) += r.col(a);
   }
@@ -216,6 +217,11 @@ bool BodyAssembly::state_pass() {
     energy_ += 0.5 * u.dot(r);
     for (std::size_t a = 0; a < f.nodes.size(); ++a)
       force_.segment<3>(3 * f.nodes[a]) += r.segment<3>(3 * a);
+  }
+  for (const NodeSpring& s : springs_) {
+    const Vec3 u = u_.segment<3>(3 * s.node), r = s.stiffness * u;
+    energy_ += 0.5 * u.dot(r);
+    force_.segment<3>(3 * s.node) += r;
   }
   return std::isfinite(energy_) && force_.allFinite();
 }
@@ -238,9 +244,9 @@ void BodyAssembly::tangent_pass(NodeSystem& system, const std::vector<char>& kep
     const auto u = gather<N>(u_, t);
     K.setZero();
     Eigen::Matrix<double, 3, N> slope = Eigen::Matrix<double, 3, N>::Zero();  // b, element's share
-    for (int q = 0; q < points_; ++q) {
+    for (int q = 0; q < points(t); ++q) {
       const Point p = point<N>(t, q, u);
-      const Gradients<N> G(gradient_.data() + (t * points_ + q) * 3 * N);
+      const Gradients<N> G(gradient_.data() + (first_point_[t] + q) * 3 * N);
       PointResponse m = laws_[law_[t]]->respond(p.C, true);
       const Group& g = groups_[group(t, q)];
       m.S *= scale_[t];
@@ -273,7 +279,8 @@ void BodyAssembly::tangent_pass(NodeSystem& system, const std::vector<char>& kep
       }
       if (dilatation_ == Dilatation::kPointwise) slope.setZero();
       slope.noalias() += p.weight * p.cofactor * G;
-      const bool complete = dilatation_ == Dilatation::kPointwise || (!patches && q + 1 == points_);
+      const bool complete =
+          dilatation_ == Dilatation::kPointwise || (!patches && q + 1 == points(t));
       if (complete) {
         const Eigen::Map<const Eigen::Matrix<double, 3 * N, 1>> b(slope.data());
         K.noalias() += g.stiffness * b * b.transpose();
@@ -299,6 +306,11 @@ void BodyAssembly::tangent_pass(NodeSystem& system, const std::vector<char>& kep
     if (is_kept(faces_[f].nodes.data(), static_cast<int>(faces_[f].nodes.size())))
       kept_matrices.emplace_back(clique, k);
   }
+  for (std::size_t s = 0; s < springs_.size(); ++s) {
+    const std::size_t clique = tets + patch_slope.size() + faces_.size() + s;
+    system.add(clique, springs_[s].stiffness);
+    if (kept[springs_[s].node]) kept_matrices.emplace_back(clique, springs_[s].stiffness);
+  }
 }
 
 template <int N>
@@ -317,9 +329,9 @@ BodyAssembly::Derivatives BodyAssembly::derivative_pass(const Eigen::MatrixXd& f
     Eigen::MatrixXd phi(3 * N, m);
     for (int a = 0; a < N; ++a)
       phi.middleRows(3 * a, 3) = fields.middleRows(3 * mesh_->tets[t][a], 3);
-    for (int q = 0; q < points_; ++q) {
+    for (int q = 0; q < points(t); ++q) {
       const Point p = point<N>(t, q, u);
-      const Gradients<N> G(gradient_.data() + (t * points_ + q) * 3 * N);
+      const Gradients<N> G(gradient_.data() + (first_point_[t] + q) * 3 * N);
       const std::vector<Voigt> S_by = laws_[law_[t]]->stress_by_constants(p.C);
       const Voigt S = by_scale ? laws_[law_[t]]->respond(p.C, false).S : Voigt::Zero();
       for (Index j = 0; j < m; ++j) {
@@ -343,9 +355,9 @@ BodyAssembly::Derivatives BodyAssembly::derivative_pass(const Eigen::MatrixXd& f
           g.weight / g.volume * p_by[k] * change.col(static_cast<Index>(i));
   }
   for (std::size_t t = 0; by_scale && t < mesh_->tets.size(); ++t)
-    for (int q = 0; q < points_; ++q) {
+    for (int q = 0; q < points(t); ++q) {
       const Group& g = groups_[group(t, q)];
-      d.scale.col(static_cast<Index>(t)) += weight_[t * points_ + q] / g.volume *
+      d.scale.col(static_cast<Index>(t)) += weight_[first_point_[t] + q] / g.volume *
                                             laws_[g.law]->volume(g.theta).first *
                                             change.col(group(t, q));
     }

@@ -12,6 +12,13 @@
 
 namespace hapsim {
 
+// A spring from a node to the ground, symmetric positive semidefinite stiffness [N/m]: a compliant
+// support, or (very stiff along one direction) a node that slides.
+struct NodeSpring {
+  int node = 0;
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
+};
+
 // What is deformed. The mesh and the laws must outlive its use.
 struct BodyModel {
   const TetMesh* mesh = nullptr;
@@ -20,6 +27,7 @@ struct BodyModel {
   std::vector<double> scale;     // factor on the energy, one a tetrahedron; empty: 1
   Dilatation dilatation = Dilatation::kPointwise;
   Foundation foundation;
+  std::vector<NodeSpring> springs;
 };
 
 // Total Lagrangian (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis,
@@ -27,13 +35,13 @@ struct BodyModel {
 //   energy  = sum w s w(C) + sum over dilatation groups W U(theta) + foundation,
 //   r_a     = sum w F S G_a,
 //   K_ab    = sum w (B_a' D B_b + (G_a.S G_b) 1) + W U''/V^2 b_a b_b',  b = V dtheta/du.
-// Straight-sided elements: one point (order 1), four (order 2). Displacements u: 3 nodes [m].
+// Quadrature as in element_gradients(). Displacements u: 3 nodes [m].
 class BodyAssembly {
  public:
   // Error(kBadInput) when a tetrahedron has no law or a scale is not positive.
   explicit BodyAssembly(const BodyModel& model);
 
-  Cliques cliques() const;  // elements, then patches, then foundation faces
+  Cliques cliques() const;  // elements, then patches, foundation faces, springs
   void set_laws(const std::vector<LawPointer>& laws);  // as many as before, same small_strain()
   void set_scale(const std::vector<double>& scale);
 
@@ -82,10 +90,13 @@ class BodyAssembly {
   std::vector<double> scale_;
   Dilatation dilatation_;
   std::vector<FoundationFace> faces_;
+  std::vector<NodeSpring> springs_;
   double k_normal_, k_tangential_;
-  int nodes_, points_;            // a tetrahedron
-  std::vector<double> gradient_;  // 3 x nodes of each point, one after the other
-  std::vector<double> weight_;    // of each point [m^3]
+  int points(std::size_t tet) const { return first_point_[tet + 1] - first_point_[tet]; }
+  int nodes_;                        // a tetrahedron
+  std::vector<int> first_point_{0};  // of each tetrahedron, and one past the last
+  std::vector<double> gradient_;     // 3 x nodes of each point, one after the other
+  std::vector<double> weight_;       // of each point [m^3]
 
   struct Group {
     double volume = 0, weight = 0;       // V and W = sum of s w [m^3]

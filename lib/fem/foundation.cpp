@@ -1,10 +1,9 @@
 #include "fem/foundation.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <map>
 
 #include "base/error.h"
+#include "fem/surface_load.h"
 
 namespace hapsim {
 namespace {
@@ -28,22 +27,11 @@ Eigen::MatrixXd unit_mass(int order) {
 std::vector<FoundationFace> foundation_faces(const TetMesh& mesh, const Foundation& foundation) {
   if (!(foundation.normal >= 0 && foundation.tangential >= 0))
     fail_input("", "a foundation stiffness is negative", "give k >= 0 [Pa/m]");
-  std::map<std::pair<int, int>, int> middle;
-  if (mesh.order == 2)
-    for (const auto& t : mesh.tets)
-      for (int e = 0; e < 6; ++e)
-        middle[std::minmax(t[kTetEdges[e][0]], t[kTetEdges[e][1]])] = t[4 + e];
   const Eigen::MatrixXd mass = unit_mass(mesh.order);
   std::vector<FoundationFace> faces;
-  for (const Triangle& f : foundation.faces) {
+  for (const std::vector<int>& f : face_nodes(mesh, foundation.faces)) {
     FoundationFace face;
-    face.nodes.assign(f.begin(), f.end());
-    for (int e = 0; mesh.order == 2 && e < 3; ++e) {
-      const auto found = middle.find(std::minmax(f[e], f[(e + 1) % 3]));
-      if (found == middle.end())
-        fail_input("", "a face of the foundation is no face of the mesh", "take boundary faces");
-      face.nodes.push_back(found->second);
-    }
+    face.nodes = f;
     const Vec3 cross =
         (mesh.nodes[f[1]] - mesh.nodes[f[0]]).cross(mesh.nodes[f[2]] - mesh.nodes[f[0]]);
     const double area = cross.norm() / 2;

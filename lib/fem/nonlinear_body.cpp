@@ -23,6 +23,7 @@ struct NonlinearBody::Impl {
   NodeSystem system;
   std::vector<BodyAssembly::CliqueMatrix> touched;
   VectorXd u, prescribed;
+  VectorXd load, wanted_load;  // dead loads now and at the end of the next solve()
 
   static std::vector<char> free_nodes(const std::vector<int>& handle) {
     std::vector<char> free;
@@ -39,6 +40,7 @@ struct NonlinearBody::Impl {
     }
     u = VectorXd::Zero(3 * static_cast<Index>(handle.size()));
     prescribed = VectorXd::Zero(3 * handles);
+    load = wanted_load = VectorXd::Zero(u.size());
     assembly.set_state(u);
   }
 
@@ -79,13 +81,16 @@ struct NonlinearBody::Impl {
     return system.factorise();
   }
 
+  VectorXd residual() const { return assembly.forces() - load; }
+  double potential() const { return assembly.energy() - load.dot(u); }
+
   // Norms of the forces on the free and on the other nodes.
   struct Norms {
     double free, constrained;
   };
   Norms norms() const {
     Norms n{0, 0};
-    const VectorXd& r = assembly.forces();
+    const VectorXd r = residual();
     for (std::size_t i = 0; i < handle.size(); ++i) {
       const double s = r.segment<3>(3 * static_cast<Index>(i)).squaredNorm();
       (system.is_free(static_cast<int>(i)) ? n.free : n.constrained) += s;
@@ -102,15 +107,15 @@ struct NonlinearBody::Impl {
 
   SolveStatus line_search(const VectorXd& direction) {
     const VectorXd start = u;
-    const double energy = assembly.energy(), before = norms().free;
-    const double slope = assembly.forces().dot(direction);
+    const double energy = potential(), before = norms().free;
+    const double slope = residual().dot(direction);
     SolveStatus why = SolveStatus::kInverted;
     for (double share = 1; share > 0.02; share /= 2) {
       u = start + share * direction;
       if (!assembly.set_state(u)) continue;
       why = SolveStatus::kNoConvergence;
       // Close to the solution the energy's decrease drowns in rounding; there the forces decide.
-      if (assembly.energy() <= energy + 1e-4 * share * slope || norms().free < 0.5 * before)
+      if (potential() <= energy + 1e-4 * share * slope || norms().free < 0.5 * before)
         return SolveStatus::kConverged;
     }
     u = start;
@@ -119,18 +124,20 @@ struct NonlinearBody::Impl {
   }
 
   // One load step: predictor along the tangent, then Newton's method.
-  SolveStatus step(const VectorXd& change, const SolveOptions& options, int& newton_steps) {
+  SolveStatus step(const VectorXd& change, const VectorXd& new_load, const SolveOptions& options,
+                   int& newton_steps) {
     if (!factorise()) return SolveStatus::kUnstable;
     const MatrixXd field = spread(change);
-    const double before = norms().constrained;
+    const double before = std::max(norms().constrained, new_load.norm());
+    load = new_load;
     ++newton_steps;
-    u += field + system.solve(-assembly.forces() - times_touched(field));
+    u += field + system.solve(-residual() - times_touched(field));
     if (!assembly.set_state(u)) return SolveStatus::kInverted;
     for (int k = 0; k < options.newton_limit; ++k) {
       if (balanced(options, before)) return SolveStatus::kConverged;
       if (!factorise()) return SolveStatus::kUnstable;
       ++newton_steps;
-      const SolveStatus found = line_search(system.solve(-assembly.forces()));
+      const SolveStatus found = line_search(system.solve(-residual()));
       if (found != SolveStatus::kConverged) return found;
     }
     return balanced(options, before) ? SolveStatus::kConverged : SolveStatus::kNoConvergence;
@@ -164,11 +171,13 @@ SolveReport NonlinearBody::solve(const VectorXd& prescribed, const SolveOptions&
   assert(prescribed.size() == 3 * body.handles);
   SolveReport report;
   const VectorXd from = body.prescribed, way = prescribed - from;
+  const VectorXd first_load = body.load;
   double done = 0, step = 1;
   while (done < 1) {
     const VectorXd u = body.u;
     const double next = std::min(1.0, done + step);
-    const SolveStatus status = body.step((next - done) * way, options, report.newton_steps);
+    const VectorXd load = first_load + next * (body.wanted_load - first_load), before = body.load;
+    const SolveStatus status = body.step((next - done) * way, load, options, report.newton_steps);
     if (status == SolveStatus::kConverged) {
       ++report.load_steps;
       done = next;
@@ -176,6 +185,7 @@ SolveReport NonlinearBody::solve(const VectorXd& prescribed, const SolveOptions&
       continue;
     }
     body.u = u;
+    body.load = before;
     body.assembly.set_state(u);
     step = (next - done) / 2;
     if (step >= options.least_step) continue;
@@ -198,7 +208,13 @@ void NonlinearBody::set_scale(const std::vector<double>& scale) {
   impl_->assembly.set_state(impl_->u);
 }
 
+void NonlinearBody::set_load(const VectorXd& nodal) {
+  assert(nodal.size() == impl_->u.size());
+  impl_->wanted_load = nodal;
+}
+
 void NonlinearBody::reset() {
+  impl_->load.setZero();
   impl_->u.setZero();
   impl_->prescribed.setZero();
   impl_->assembly.set_state(impl_->u);

@@ -50,13 +50,16 @@ class NonlinearBody {
   // New constants or factors; the displacement is kept as the start of the next solve().
   void set_laws(const std::vector<LawPointer>& laws);
   void set_scale(const std::vector<double>& scale);
+  // Dead loads, 3 nodes [N]; the next solve() reaches them together with the displacement. Zero at
+  // first.
+  void set_load(const Eigen::VectorXd& nodal);
   void reset();  // back to the undeformed body
 
   int handles() const;
   int unknowns() const;
-  double energy() const;                        // [J]
+  double energy() const;                        // stored in the body [J]
   const Eigen::VectorXd& field() const;         // 3 nodes [m]
-  const Eigen::VectorXd& nodal_forces() const;  // 3 nodes: that hold the nodes [N]
+  const Eigen::VectorXd& nodal_forces() const;  // 3 nodes: that hold the nodes, loads included [N]
   Eigen::VectorXd reaction() const;             // 3 handles: force that moves the handles [N]
 
   // At the present equilibrium, by the implicit function theorem from one field a handle direction:
