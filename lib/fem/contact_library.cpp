@@ -71,7 +71,7 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
   base_hash_.add(radius_);
   base_hash_.add(options.rim_edge);
   base_hash_.add(kGrowth);
-  base_hash_.add(kExtrapolation);
+  base_hash_.add(kCoarser);
 }
 
 ContentHash ContactLibrary::key_of(const Material& material, const std::string& description) const {
@@ -149,10 +149,7 @@ std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& po
     for (std::size_t k = 0; k < nus.size(); ++k) {
       const StiffnessSolution& s = solutions[p * nus.size() + k];
       prepared[p].stiffness.add(nus[k], s.K, s.dK_dnu);
-      // What the extrapolation moved is known to about a fifth of itself.
-      const double moved = std::abs(s.normal.dot(s.mesh_error * s.normal));
-      prepared[p].mesh_uncertainty =
-          std::max(prepared[p].mesh_uncertainty, 0.2 * moved / s.normal.dot(s.K * s.normal));
+      prepared[p].mesh_uncertainty = std::max(prepared[p].mesh_uncertainty, mesh_uncertainty(s));
     }
     const StiffnessSolution& middle = solutions[p * nus.size() + nus.size() / 2];
     prepared[p].point = middle.point;

@@ -6,19 +6,13 @@
 #include "base/error.h"
 
 namespace hapsim {
-namespace {
-
-// lambda G + mu (G' + tr(G) I): stiffness block between nodes a and b.
-Eigen::Matrix3d stiffness_block(const Eigen::Matrix3d& g, const Lame& c) {
-  Eigen::Matrix3d k = c.lambda * g + c.mu * g.transpose();
-  k.diagonal().array() += c.mu * g.trace();
-  return k;
-}
-
-}  // namespace
-
-ElasticBody::ElasticBody(const TetMesh& mesh, const std::vector<int>& handle)
-    : mesh_(mesh), handle_(handle), block_of_node_(mesh.nodes.size(), -1) {
+ElasticBody::ElasticBody(const TetMesh& mesh, const std::vector<int>& handle,
+                         Dilatation dilatation)
+    : mesh_(mesh),
+      handle_(handle),
+      block_of_node_(mesh.nodes.size(), -1),
+      dilatation_(dilatation) {
+  assert(dilatation != Dilatation::kPatch);
   assert(handle.size() == mesh.nodes.size());
   const int nodes_per_tet = mesh.order == 1 ? 4 : 10;
   std::vector<char> used(mesh.nodes.size(), 0);
@@ -66,14 +60,14 @@ void ElasticBody::factorise(const std::vector<Lame>& lame_of_tet) {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   const int nodes_per_tet = mesh_.order == 1 ? 4 : 10;
   for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-    const ElementGradients element = element_gradients(mesh_, t);
+    const ElementStiffness element(mesh_, t, lame_[t], dilatation_);
     for (int a = 0; a < nodes_per_tet; ++a) {
       const int column = block_of_node_[mesh_.tets[t][a]];
       if (column < 0) continue;
       for (int b = 0; b < nodes_per_tet; ++b) {
         const int row = block_of_node_[mesh_.tets[t][b]];
         if (row < column) continue;
-        const Eigen::Matrix3d k = stiffness_block(gradient_product(element, b, a), lame_[t]);
+        const Eigen::Matrix3d k = element.block(b, a);
         for (int j = 0; j < 3; ++j) {
           const int* begin = matrix_.row.data() + matrix_.column_start[3 * column + j];
           const int* end = matrix_.row.data() + matrix_.column_start[3 * column + j + 1];
@@ -108,7 +102,7 @@ ElasticBody::Response ElasticBody::solve(const Eigen::MatrixXd& prescribed) cons
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(matrix_.size, m);
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
       if (!touched[t]) continue;
-      const ElementGradients element = element_gradients(mesh_, t);
+      const ElementStiffness element(mesh_, t, lame_[t], dilatation_);
       for (int a = 0; a < nodes_per_tet; ++a) {
         const int na = mesh_.tets[t][a];
         if (handle_[na] < 0) continue;
@@ -116,7 +110,7 @@ ElasticBody::Response ElasticBody::solve(const Eigen::MatrixXd& prescribed) cons
           const int row = block_of_node_[mesh_.tets[t][b]];
           if (row < 0) continue;
           load.middleRows(3 * row, 3).noalias() -=
-              stiffness_block(gradient_product(element, b, a), lame_[t]) *
+              element.block(b, a) *
               response.field.middleRows(3 * na, 3);
         }
       }
@@ -130,13 +124,13 @@ ElasticBody::Response ElasticBody::solve(const Eigen::MatrixXd& prescribed) cons
   response.reaction = Eigen::MatrixXd::Zero(3 * handles_, m);
   for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
     if (!touched[t]) continue;
-    const ElementGradients element = element_gradients(mesh_, t);
+    const ElementStiffness element(mesh_, t, lame_[t], dilatation_);
     for (int a = 0; a < nodes_per_tet; ++a) {
       const int h = handle_[mesh_.tets[t][a]];
       if (h < 0) continue;
       for (int b = 0; b < nodes_per_tet; ++b)
         response.reaction.middleRows(3 * h, 3).noalias() +=
-            stiffness_block(gradient_product(element, a, b), lame_[t]) *
+            element.block(a, b) *
             response.field.middleRows(3 * mesh_.tets[t][b], 3);
     }
   }

@@ -19,7 +19,9 @@ class ElasticBody {
  public:
   // `handle`: one a node, kFreeNode, kHeldNode or a handle's number 0..n-1. Nodes that no element
   // uses are held. The mesh must outlive the body. Cost: the analysis of the sparsity, once.
-  ElasticBody(const TetMesh& mesh, const std::vector<int>& handle);
+  // `dilatation`: kPointwise, or kElement, with which second order does not lock.
+  ElasticBody(const TetMesh& mesh, const std::vector<int>& handle,
+              Dilatation dilatation = Dilatation::kPointwise);
 
   // Assembles and factorises for one pair of Lame's constants an element [Pa].
   // Error(kNoConvergence) when the stiffness is not positive definite (body not held, nu >= 0.5).
@@ -43,6 +45,7 @@ class ElasticBody {
   std::vector<int> handle_;
   std::vector<int> block_of_node_;  // free block number, or -1
   int handles_ = 0;
+  Dilatation dilatation_;
   SymmetricSparse matrix_;
   std::unique_ptr<SparseCholesky> cholesky_;
   std::vector<Lame> lame_;

@@ -1,10 +1,11 @@
-// Isotropic linear elasticity on straight-sided tetrahedra of first and second order.
+// Isotropic linear elasticity on tetrahedra of first and second order.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 
 #include "base/vec3.h"
+#include "fem/dilatation.h"
 #include "geometry/tetmesh.h"
 
 namespace hapsim {
@@ -19,27 +20,45 @@ Lame lame(double youngs_modulus, double poisson_ratio);
 Lame lame_by_poisson(double youngs_modulus, double poisson_ratio);
 
 // Shape function gradients at the quadrature points of one tetrahedron; weights sum to its volume.
-// One point for 4 nodes, four (exact to second degree, all that straight sides need) for 10 nodes.
+// One point for 4 nodes; four for 10 nodes with every middle at the middle of its edge (exact to
+// second degree, all that is needed there); else isoparametric with 14 points (degree 5).
+// Error(kBadInput) where a curved element folds over (its number, its first corner).
 struct ElementGradients {
   int nodes = 0;
   int points = 0;
-  std::array<double, 4> weight{};
-  std::array<Eigen::Matrix<double, 3, 10>, 4> gradient;  // gradient[q].col(a) = grad N_a [1/m]
+  std::array<double, 14> weight;
+  std::array<Eigen::Matrix<double, 3, 10>, 14> gradient;  // gradient[q].col(a) = grad N_a [1/m]
 };
 ElementGradients element_gradients(const TetMesh& mesh, std::size_t tet);
 
-// Integral of grad N_a (x) grad N_b over the element [m]: the 3x3 block from which both stiffnesses
-// follow, lambda G + mu (G' + tr(G) I) (Zienkiewicz and Taylor, The Finite Element Method, vol. 1).
-Eigen::Matrix3d gradient_product(const ElementGradients& element, int a, int b);
+// The 3x3 block between nodes a and b of an element's stiffness [N/m]. With G the integral of
+// grad N_a (x) grad N_b [m]: lambda G + mu (G' + tr(G) I) (Zienkiewicz and Taylor, The Finite
+// Element Method, vol. 1); with kElement the first term takes the mean gradients instead,
+// lambda V g_a g_b'.
+class ElementStiffness {
+ public:
+  ElementStiffness(const TetMesh& mesh, std::size_t tet, const Lame& constants,
+                   Dilatation dilatation);
+  Eigen::Matrix3d block(int a, int b) const;
+
+ private:
+  ElementGradients element_;
+  Lame constants_;
+  bool averaged_;
+  double volume_ = 0;
+  Eigen::Matrix<double, 3, 10> mean_;
+};
 
 // For displacement fields u_1..u_m (columns, 3 x nodes unknowns), the element's
 // volumetric(i,j) = integral of div u_i div u_j and deviatoric(i,j) = integral of 2 eps_i : eps_j,
 // so that the bilinear form is lambda * volumetric + mu * deviatoric, with [m^3] for fields in m.
+// With kElement, div u is its mean over the element.
 struct ElementEnergies {
   Eigen::Matrix3d volumetric;
   Eigen::Matrix3d deviatoric;
 };
 ElementEnergies element_energies(const TetMesh& mesh, std::size_t tet,
-                                 const Eigen::Matrix<double, Eigen::Dynamic, 3>& fields);
+                                 const Eigen::Matrix<double, Eigen::Dynamic, 3>& fields,
+                                 Dilatation dilatation = Dilatation::kPointwise);
 
 }  // namespace hapsim

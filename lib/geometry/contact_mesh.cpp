@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -60,6 +62,25 @@ double mean_edge(const ContactRegion& region) {
   return sum / static_cast<double>(region.outline.size());
 }
 
+// The stress about the rim of a bonded flat tool grows as r^(-1/2). Moving the middles of the edges
+// that end at the rim to the quarter next to it lets second-order elements follow (Henshell and
+// Shaw, 1975; Barsoum, Int. J. Numer. Methods Eng. 10, 1976).
+void move_middles_to_quarters(TetMesh& mesh, const std::vector<Triangle>& patch) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const Triangle& t : patch)
+    for (int k = 0; k < 3; ++k) ++uses[std::minmax({t[k], t[(k + 1) % 3]})];
+  std::vector<std::uint8_t> rim(mesh.nodes.size(), 0);
+  for (const auto& [edge, count] : uses)
+    if (count == 1) rim[edge.first] = rim[edge.second] = 1;
+  for (const auto& tet : mesh.tets)
+    for (int e = 0; e < 6; ++e) {
+      int near = tet[kTetEdges[e][0]], far = tet[kTetEdges[e][1]];
+      if (rim[near] == rim[far]) continue;
+      if (rim[far]) std::swap(near, far);
+      mesh.nodes[tet[4 + e]] = 0.75 * mesh.nodes[near] + 0.25 * mesh.nodes[far];
+    }
+}
+
 ContactMesh finish(const TetgenResult& result, const ContactFrame& frame) {
   ContactMesh contact;
   contact.mesh = to_second_order(result.mesh);
@@ -72,12 +93,14 @@ ContactMesh finish(const TetgenResult& result, const ContactFrame& frame) {
   };
   contact.patch_nodes = nodes_of_faces(contact.mesh, marked(kPatch));
   fix_faces(contact.mesh, marked(kBonded));
+  std::vector<Triangle> patch;
   for (std::size_t f = 0; f < contact.mesh.faces.size(); ++f) {
     if (result.face_marker[f] != kPatch) continue;
-    const Triangle& t = contact.mesh.faces[f];
+    const Triangle& t = patch.emplace_back(contact.mesh.faces[f]);
     const auto& x = contact.mesh.nodes;
     contact.patch_area += 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm();
   }
+  move_middles_to_quarters(contact.mesh, patch);
   return contact;
 }
 
