@@ -11,6 +11,7 @@ pkg_check_modules(KDL REQUIRED IMPORTED_TARGET orocos-kdl)
 pkg_check_modules(URDF REQUIRED IMPORTED_TARGET urdfdom)
 pkg_check_modules(CONSOLE_BRIDGE REQUIRED IMPORTED_TARGET console_bridge)
 
+find_package(ZLIB REQUIRED)
 find_library(TET_LIBRARY tet REQUIRED)
 find_path(TET_INCLUDE_DIR tetgen.h REQUIRED)
 

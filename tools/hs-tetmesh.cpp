@@ -2,11 +2,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/tool.h"
+#include "geometry/body_input.h"
 #include "geometry/body_mesh.h"
+#include "geometry/contact_mesh.h"
+#include "geometry/curve_edges.h"
 #include "geometry/quality.h"
 #include "io/recording.h"
 
@@ -19,7 +25,7 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = kName;
   spec.summary = "fill a closed surface with tetrahedra";
-  spec.input = "surface: PLY or STL, closed";
+  spec.input = "surface: PLY, STL or OFF, closed; or a mesh: PLY, VTU, Gmsh, TetGen";
   spec.description = {
       "Reads a closed triangle surface, for example from hs-reconstruct, and writes the body: "
       "tetrahedra, boundary triangles and the nodes that are bonded to the support.",
@@ -27,13 +33,24 @@ ToolSpec specification() {
       "its bends and the outline of the bonded part, and split where it is coarser. With "
       "--preserve-surface its triangles stay as they are. Without a size the body gets some "
       "thousand tetrahedra: hs-identify and hs-simulate mesh each contact position finely "
-      "themselves and take the shape and the support from this body.",
-      "The tetrahedra are made by TetGen in a process of its own. The surface is checked "
-      "beforehand: open edges, doubled vertices, flat triangles, several parts, inverted "
-      "orientation and self-intersections are refused with their place, exit code 3.",
+      "themselves, with the tool's rim imprinted (--contact-meshes shows these meshes), and take "
+      "the shape and the support from this body.",
+      "By default this is a quality mesh, the constrained Delaunay tetrahedra refined until the "
+      "bounds hold. With --normal nothing is refined: the plain mesh, with which the thesis "
+      "compares it.",
+      "The tetrahedra are made by TetGen in a process of its own. The surface is checked: open "
+      "edges, doubled vertices, flat triangles, several parts, inverted orientation and "
+      "self-intersections are refused with their place, exit code 3.",
+      "A mesh of tetrahedra (PLY, VTU, Gmsh 2.2 and 4.1 in ASCII, TetGen's .node or .ele with the "
+      "other beside it) is not meshed again but checked, mended and written: nodes of no "
+      "tetrahedron and doubled tetrahedra are dropped, inverted ones turned, and it says so. Its "
+      "fixed nodes stay unless --fixed is given; --order 2 adds middles. Flat tetrahedra are "
+      "refused with their place. --remesh takes its boundary and meshes that.",
       "On standard error: number of tetrahedra and nodes, volume, fixed nodes, and the quality as "
       "minimum, median and maximum of circumradius over shortest edge (a regular tetrahedron has "
-      "0.61) and of each tetrahedron's smallest dihedral angle (70.5 degrees)."};
+      "0.61), of each tetrahedron's smallest dihedral angle (70.5 degrees) and of the aspect, "
+      "longest edge over inscribed radius scaled to 1 for a regular one; with --verbose their "
+      "counts and the ten worst with their places."};
   spec.options = {
       {.flag = "--edge",
        .kind = OptionKind::kNumber,
@@ -62,6 +79,9 @@ ToolSpec specification() {
        .default_text = "10",
        .minimum = 0,
        .maximum = 18},
+      {.flag = "--normal",
+       .kind = OptionKind::kSwitch,
+       .help = "The plain constrained Delaunay mesh of the surface: no bound on shapes or sizes."},
       {.flag = "--preserve-surface",
        .kind = OptionKind::kSwitch,
        .help = "Keep the surface's triangles: no coarsening, no new node on it."},
@@ -71,33 +91,100 @@ ToolSpec specification() {
        .help = "First order (4 nodes) or second (10 nodes, middles on straight edges).",
        .default_text = "1",
        .choices = {"1", "2"}},
+      {.flag = "--curved-to",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "With --order 2: lays the free boundary nodes, middles too, on this smooth surface. "
+               "Written so to every format; hapsim's linear solver takes edges as straight."},
       {.flag = "--fixed",
        .value = "WHERE",
-       .help = "What is bonded to the support: bottom (triangles flat on the lowest plane, within "
-               "0.5 % of the height), plane:Z (on the plane at height Z), below:Z, none. Z in "
-               "metres.",
+       .help = "What is bonded to the support: bottom (the plane a PLY's comment base_plane tells, "
+               "else triangles flat on the lowest plane; within 0.5 % of the height), plane:Z, "
+               "plane:NX,NY,NZ,H (where n.x = H), below:Z, box:X0,Y0,Z0,X1,Y1,Z1, file:PATH (CSV "
+               "with x,y,z: the nodes nearest to these points; or with node: their numbers from "
+               "0), none; several joined by +. Metres.",
        .default_text = "bottom"},
+      {.flag = "--region",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Closed surface inside the body; may be given again. Its tetrahedra get the "
+               "numbers 1, 2, ... and end at its triangles; where it touches or leaves the body, "
+               "they are chosen by their centres.",
+       .repeatable = true},
       {.flag = "--contacts",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Recording whose pressed positions are refined to half the tool's radius. Only "
-               "needed when this mesh itself is to be pressed."},
+       .help = "Recording whose pressed positions become nodes and are refined about. Only needed "
+               "when this mesh itself is to be pressed."},
       {.flag = "--tool-radius",
        .kind = OptionKind::kNumber,
        .value = "M",
        .help = "Radius of the tool [m]; otherwise the recording's metadata tool_radius.",
        .minimum = 1e-6,
        .maximum = 1},
+      {.flag = "--size",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "Edge length about the contacts [m]; otherwise half the tool's radius.",
+       .minimum = 1e-6,
+       .maximum = 1},
+      {.flag = "--growth",
+       .kind = OptionKind::kNumber,
+       .value = "SLOPE",
+       .help = "How much longer edges become over the distance from a contact.",
+       .default_text = "0.5",
+       .minimum = 0.01,
+       .maximum = 10},
+      {.flag = "--contact-meshes",
+       .kind = OptionKind::kText,
+       .value = "PREFIX",
+       .help =
+           "Also writes the second-order mesh of each contact position, graded to the imprinted "
+           "rim of the tool, as PREFIX-1.vtu, PREFIX-2.vtu, ...: what hs-identify solves."},
       {.flag = "--unit",
        .kind = OptionKind::kText,
        .value = "UNIT",
-       .help = "Unit of the surface's coordinates: m, mm, cm, um or in. The body is in metres.",
+       .help = "Unit of the input's coordinates: m, mm, cm, um or in. The body is in metres.",
        .default_text = "m"},
+      {.flag = "--remesh",
+       .kind = OptionKind::kSwitch,
+       .help = "Of a mesh of tetrahedra, take the boundary and mesh it anew."},
+      {.flag = "--time-limit",
+       .kind = OptionKind::kNumber,
+       .value = "S",
+       .help = "Ends TetGen after this time [s].",
+       .default_text = "600",
+       .minimum = 0.1,
+       .maximum = 1e6},
       {.flag = "--vtu",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes the body for ParaView."},
-      {.flag = "--ascii", .kind = OptionKind::kSwitch, .help = "Text instead of binary PLY."}};
+      {.flag = "--gmsh",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes the body for Gmsh, ASCII."},
+      {.flag = "--gmsh-version",
+       .kind = OptionKind::kChoice,
+       .value = "VERSION",
+       .help = "Format of --gmsh.",
+       .default_text = "2.2",
+       .choices = {"2.2", "4.1"}},
+      {.flag = "--inp",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes nodes, elements, sets and the boundary for Abaqus and CalculiX."},
+      {.flag = "--tetgen",
+       .kind = OptionKind::kText,
+       .value = "PREFIX",
+       .help = "Also writes PREFIX.node and PREFIX.ele."},
+      {.flag = "--json",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes sizes and quality, counts and worst tetrahedra as JSON."},
+      {.flag = "--ascii",
+       .kind = OptionKind::kSwitch,
+       .help = "Text instead of binary PLY and VTU."}};
   spec.tables = {
       {"Body (output, PLY)",
        {{"vertex x, y, z", "node [m]"},
@@ -106,36 +193,49 @@ ToolSpec specification() {
         {"tetrahedron vertex_indices",
          "4 corners; of second order 10 nodes, then the middles of the edges 01, 12, 02, 03, 13, "
          "23 as in VTK"},
-        {"tetrahedron region", "number of the region, 0"}}}};
+        {"tetrahedron region", "number of the region: 0, inner regions from 1"}}}};
   spec.examples = {
       {"hs-tetmesh surface.ply -o body.ply", "A body of some thousand tetrahedra."},
       {"hs-scan2ply scan.csv | hs-reconstruct | hs-tetmesh -o body.ply", "From a scan to a body."},
       {"hs-tetmesh part.stl --unit mm --edge 0.004 --order 2 --vtu body.vtu -o body.ply",
        "An STL in millimetres, edges of 4 mm, second order, also for ParaView."},
       {"hs-tetmesh surface.ply --fixed below:0.01 --contacts data.csv -o body.ply",
-       "Bonded up to 10 mm height, finer where the tool pressed."}};
+       "Bonded up to 10 mm height, finer where the tool pressed."},
+      {"hs-tetmesh surface.ply --region tumour.stl --inp body.inp -o body.ply",
+       "A second material inside, also for CalculiX."},
+      {"hs-tetmesh other.msh --fixed bottom -o body.ply", "A mesh made by Gmsh becomes a body."}};
   spec.see_also = {"hs-reconstruct(1)", "hs-identify(1)", "hs-simulate(1)"};
   return spec;
 }
 
-Surface read_scaled(const Arguments& arguments, std::string& where) {
+BodyInput read_scaled(const Arguments& arguments, const std::string& path, std::string& where) {
   const double factor = unit_factor(Quantity::kLength, arguments.text("--unit"));
-  Input input(arguments.input());
+  Input input(path);
   where = input.name();
-  Surface surface = read_surface(input);
+  BodyInput body = read_body_input(input, factor);
   double largest = 0;
-  for (Vec3& p : surface.vertices) {
-    p *= factor;
+  for (const Vec3& p : body.mesh ? body.mesh->mesh.nodes : body.surface.vertices)
     largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  }
   if (largest > 10)
     fail_input(where, fmt::format("coordinates reach {:.6g} m", largest),
                "give --unit mm if these are millimetres");
-  return surface;
+  return body;
+}
+
+// A surface given by a flag; of a mesh, its boundary.
+Surface read_side_surface(const Arguments& arguments, const std::string& path, std::string& where) {
+  if (path == "-" && arguments.input() == "-")
+    fail_usage("two inputs are to come from standard input", "give one of them as a file");
+  BodyInput body = read_scaled(arguments, path, where);
+  return body.mesh ? boundary_surface(body.mesh->mesh) : std::move(body.surface);
 }
 
 void read_contacts(const Arguments& arguments, BodyOptions& options) {
-  if (!arguments.given("--contacts")) return;
+  if (!arguments.given("--contacts")) {
+    if (arguments.given("--contact-meshes"))
+      fail_usage("--contact-meshes needs the positions", "give --contacts data.csv");
+    return;
+  }
   if (arguments.text("--contacts") == "-" && arguments.input() == "-")
     fail_usage("both the surface and --contacts are to come from standard input",
                "give one of them as a file");
@@ -152,54 +252,211 @@ void read_contacts(const Arguments& arguments, BodyOptions& options) {
                          options.contacts.end());
 }
 
-void summarise(const Arguments& arguments, const TetMesh& mesh, const std::string& where) {
-  const TetQuality quality = tet_quality(mesh);
-  const auto fixed = std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
-  say(arguments, kName,
-      fmt::format("{} tetrahedra, {} nodes, {} boundary triangles, {:.6g} m^3, unit {}",
-                  mesh.tets.size(), mesh.nodes.size(), mesh.faces.size(), quality.volume,
-                  arguments.text("--unit")));
-  say(arguments, kName,
-      fixed > 0 ? fmt::format("{} nodes fixed ({})", fixed, arguments.text("--fixed"))
-                : "no node fixed: fix some before this body is pressed");
-  const Vec3& at = quality.worst_place;
-  say(arguments, kName,
-      fmt::format("radius-edge {:.2f} / {:.2f} / {:.2f}, smallest dihedral {:.1f} / {:.1f} / "
-                  "{:.1f} deg, largest {:.1f} deg (min / median / max)",
-                  quality.radius_edge.minimum, quality.radius_edge.median,
-                  quality.radius_edge.maximum, quality.smallest_dihedral_deg.minimum,
-                  quality.smallest_dihedral_deg.median, quality.smallest_dihedral_deg.maximum,
-                  quality.largest_dihedral_deg));
-  say(arguments, kName,
-      fmt::format("worst tetrahedron {} at ({:.6g}, {:.6g}, {:.6g}), inverted {}", quality.worst,
-                  at.x(), at.y(), at.z(), quality.inverted));
-  if (quality.inverted > 0)
-    fail_numerics(where, fmt::format("{} tetrahedra are inverted", quality.inverted),
-                  "mesh with another --edge");
-}
-
-int run(const Arguments& arguments) {
+BodyOptions read_options(const Arguments& arguments) {
   BodyOptions options;
   options.support = parse_support(arguments.text("--fixed"));
   if (arguments.given("--edge")) options.edge = arguments.number("--edge");
   if (arguments.given("--max-volume")) options.max_volume = arguments.number("--max-volume");
   options.radius_edge = arguments.number("--radius-edge");
   options.min_dihedral = arguments.number("--min-dihedral");
+  options.plain = arguments.given("--normal");
   options.preserve_surface = arguments.given("--preserve-surface");
   options.order = static_cast<int>(arguments.integer("--order"));
+  if (arguments.given("--size")) options.contact_size = arguments.number("--size");
+  options.growth = arguments.number("--growth");
+  options.time_limit = arguments.number("--time-limit");
   std::string where;
-  const Surface surface = read_scaled(arguments, where);
-  read_contacts(arguments, options);
-  const TetMesh mesh = make_body_mesh(surface, options, where);
-  summarise(arguments, mesh, where);
-  if (arguments.given("--vtu")) {
-    Output vtu(arguments.text("--vtu"));
-    write_body_vtu(vtu.stream(), mesh);
-    vtu.commit();
+  if (arguments.given("--region"))
+    for (const std::string& path : arguments.list("--region")) {
+      Surface surface = read_side_surface(arguments, path, where);
+      options.inner.push_back({std::move(surface), where});
+    }
+  if (arguments.given("--curved-to")) {
+    if (options.order != 2)
+      fail_usage("--curved-to bends second-order edges", "give --order 2 too");
+    options.curved_to = read_side_surface(arguments, arguments.text("--curved-to"), where);
   }
-  Output output(arguments.output());
-  write_body_ply(output.stream(), mesh, arguments.given("--ascii"));
-  output.commit();
+  read_contacts(arguments, options);
+  return options;
+}
+
+// Parts on the surface's own bottom where its file tells that plane.
+void use_base(Support& support, const std::optional<Support>& base) {
+  if (!base) return;
+  for (Support& other : support.also) use_base(other, base);
+  if (support.kind != SupportKind::kBottom) return;
+  support.kind = base->kind;
+  support.normal = base->normal;
+  support.z = base->z;
+}
+
+// A mesh from elsewhere: its support, order and regions as asked.
+TetMesh finish_given(const Arguments& arguments, const BodyOptions& options, MeshFile& file,
+                     const std::string& where, std::vector<std::string>& notes) {
+  const MeshRepairs& r = file.repairs;
+  notes.push_back(fmt::format("{} of order {} taken as it is", file.format, file.mesh.order));
+  if (r.unused_nodes + r.turned + r.doubled > 0)
+    notes.push_back(
+        fmt::format("mended: {} nodes of no tetrahedron and {} doubled tetrahedra dropped, {} "
+                    "inverted ones turned",
+                    r.unused_nodes, r.doubled, r.turned));
+  TetMesh mesh = std::move(file.mesh);
+  if (!file.has_fixed || arguments.given("--fixed")) {
+    const auto bonded = bonded_faces(mesh.nodes, mesh.faces, options.support);
+    if (bonds_faces(options.support) && std::count(bonded.begin(), bonded.end(), 1) == 0)
+      fail_input(where, "no boundary triangle lies where the support is",
+                 "give --fixed below:Z, plane:Z or box:... in metres");
+    fix_faces(mesh, bonded);
+    fix_named_nodes(mesh, options.support, where);
+  }
+  if (options.order == 2) mesh = to_second_order(mesh);
+  if (arguments.given("--curved-to")) curve_edges(mesh, options.curved_to);
+  return mesh;
+}
+
+nlohmann::ordered_json as_json(const Spread& spread, const Histogram* histogram = nullptr) {
+  nlohmann::ordered_json json{
+      {"min", spread.minimum}, {"median", spread.median}, {"max", spread.maximum}};
+  if (histogram != nullptr) json["bins_from"] = histogram->edge;
+  if (histogram != nullptr) json["counts"] = histogram->count;
+  return json;
+}
+
+nlohmann::ordered_json as_json(const TetMesh& mesh, const TetQuality& q, const BodyReport& report) {
+  std::map<int, std::size_t> regions;
+  for (const int region : mesh.region) ++regions[region];
+  nlohmann::ordered_json json{
+      {"tetrahedra", mesh.tets.size()},
+      {"nodes", mesh.nodes.size()},
+      {"order", mesh.order},
+      {"boundary_triangles", mesh.faces.size()},
+      {"volume_m3", q.volume},
+      {"fixed_nodes", std::count(mesh.fixed.begin(), mesh.fixed.end(), 1)},
+      {"inverted", q.inverted},
+      {"edge_m", as_json(q.edge)},
+      {"radius_edge", as_json(q.radius_edge, &q.radius_edge_counts)},
+      {"smallest_dihedral_deg", as_json(q.smallest_dihedral_deg, &q.dihedral_counts)},
+      {"largest_dihedral_deg", q.largest_dihedral_deg},
+      {"aspect", as_json(q.aspect, &q.aspect_counts)}};
+  for (const auto& [region, count] : regions) json["regions"][std::to_string(region)] = count;
+  json["contact_nodes"] = report.contact_node;
+  for (const BadTet& t : q.worst_tets)
+    json["worst"].push_back({{"tetrahedron", t.tet},
+                             {"x", t.place.x()},
+                             {"y", t.place.y()},
+                             {"z", t.place.z()},
+                             {"smallest_dihedral_deg", t.smallest_dihedral_deg},
+                             {"radius_edge", t.radius_edge},
+                             {"aspect", t.aspect}});
+  json["notes"] = report.notes;
+  return json;
+}
+
+std::string counts(const char* what, const Histogram& histogram) {
+  std::string text = what;
+  for (std::size_t i = 0; i < histogram.count.size(); ++i)
+    text +=
+        fmt::format("{} from {:g}: {}", i == 0 ? "" : ",", histogram.edge[i], histogram.count[i]);
+  return text;
+}
+
+void summarise(const Arguments& arguments, const TetMesh& mesh, const TetQuality& q,
+               const BodyReport& report) {
+  const auto tell = [&](const std::string& text) { say(arguments, kName, text); };
+  const auto fixed = std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
+  for (const std::string& note : report.notes) tell(note);
+  tell(fmt::format("{} tetrahedra, {} nodes, {} boundary triangles, {:.6g} m^3, unit {}",
+                   mesh.tets.size(), mesh.nodes.size(), mesh.faces.size(), q.volume,
+                   arguments.text("--unit")));
+  tell(fixed > 0 ? fmt::format("{} nodes fixed", fixed)
+                 : "no node fixed: fix some before this body is pressed");
+  tell(fmt::format(
+      "radius-edge {:.2f} / {:.2f} / {:.2f}, smallest dihedral {:.1f} / {:.1f} / {:.1f} "
+      "deg, largest {:.1f} deg, aspect {:.2f} / {:.2f} / {:.2f} (min / median / max)",
+      q.radius_edge.minimum, q.radius_edge.median, q.radius_edge.maximum,
+      q.smallest_dihedral_deg.minimum, q.smallest_dihedral_deg.median,
+      q.smallest_dihedral_deg.maximum, q.largest_dihedral_deg, q.aspect.minimum, q.aspect.median,
+      q.aspect.maximum));
+  if (!arguments.verbose() && !q.worst_tets.empty()) {
+    const Vec3& at = q.worst_place;
+    tell(fmt::format("worst tetrahedron {} at ({:.6g}, {:.6g}, {:.6g})", q.worst, at.x(), at.y(),
+                     at.z()));
+  }
+  if (!arguments.verbose()) return;
+  tell(counts("radius-edge", q.radius_edge_counts));
+  tell(counts("smallest dihedral [deg]", q.dihedral_counts));
+  tell(counts("aspect", q.aspect_counts));
+  for (const BadTet& t : q.worst_tets)
+    tell(
+        fmt::format("tetrahedron {} at ({:.6g}, {:.6g}, {:.6g}): smallest dihedral {:.2f} deg, "
+                    "radius-edge {:.2f}, aspect {:.2f}",
+                    t.tet, t.place.x(), t.place.y(), t.place.z(), t.smallest_dihedral_deg,
+                    t.radius_edge, t.aspect));
+}
+
+// All outputs are written before the first is put in its place, and before anything is said: a
+// reader of standard error that goes away costs no result.
+void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality& quality,
+               const BodyReport& report) {
+  std::vector<std::unique_ptr<Output>> outputs;
+  const auto open = [&](const std::string& path) -> std::ostream& {
+    outputs.push_back(std::make_unique<Output>(path));
+    return outputs.back()->stream();
+  };
+  if (arguments.given("--vtu"))
+    write_mesh_vtu(open(arguments.text("--vtu")), mesh, arguments.given("--ascii"));
+  if (arguments.given("--gmsh"))
+    write_mesh_gmsh(open(arguments.text("--gmsh")), mesh,
+                    arguments.text("--gmsh-version") == "4.1" ? 41 : 22);
+  if (arguments.given("--inp")) write_mesh_abaqus(open(arguments.text("--inp")), mesh);
+  if (arguments.given("--tetgen")) {
+    std::ostream& node = open(arguments.text("--tetgen") + ".node");
+    write_mesh_tetgen(node, open(arguments.text("--tetgen") + ".ele"), mesh);
+  }
+  if (arguments.given("--json"))
+    open(arguments.text("--json")) << as_json(mesh, quality, report).dump(2) << '\n';
+  write_body_ply(open(arguments.output()), mesh, arguments.given("--ascii"));
+  for (const auto& output : outputs) output->commit();
+}
+
+void write_contact_meshes(const Arguments& arguments, const TetMesh& mesh,
+                          const BodyOptions& options) {
+  if (!arguments.given("--contact-meshes")) return;
+  const ContactBase base = make_contact_base(mesh);
+  Progress progress(arguments, "contact meshes", options.contacts.size());
+  for (std::size_t i = 0; i < options.contacts.size(); ++i) {
+    const double rim = options.contact_size > 0 ? options.contact_size : options.tool_radius / 8;
+    const ContactMesh contact =
+        make_contact_mesh(base, options.contacts[i], options.tool_radius, rim, options.growth);
+    Output output(fmt::format("{}-{}.vtu", arguments.text("--contact-meshes"), i + 1));
+    write_mesh_vtu(output.stream(), contact.mesh, arguments.given("--ascii"));
+    output.commit();
+    progress.step();
+  }
+}
+
+int run(const Arguments& arguments) {
+  BodyOptions options = read_options(arguments);
+  std::string where;
+  BodyInput input = read_scaled(arguments, arguments.input(), where);
+  use_base(options.support, input.base);
+  BodyReport report;
+  TetMesh mesh;
+  if (input.mesh && !arguments.given("--remesh")) {
+    mesh = finish_given(arguments, options, *input.mesh, where, report.notes);
+  } else {
+    if (input.mesh) input.surface = boundary_surface(input.mesh->mesh);
+    Progress progress(arguments, "meshing, fifths of a second", 0);
+    options.heartbeat = [&progress] { progress.step(); };
+    mesh = make_body_mesh(input.surface, options, where, &report);
+  }
+  const TetQuality quality = tet_quality(mesh);
+  if (quality.inverted > 0)
+    fail_numerics(where, fmt::format("{} tetrahedra are inverted", quality.inverted),
+                  "mesh with another --edge");
+  write_contact_meshes(arguments, mesh, options);
+  write_all(arguments, mesh, quality, report);
+  summarise(arguments, mesh, quality, report);
   return 0;
 }
 

@@ -6,11 +6,10 @@
 #include <cstdint>
 #include <utility>
 
+#include "geometry/tet_faces.h"
+
 namespace hapsim {
 namespace {
-
-// Corners of a tetrahedron's faces, counter-clockwise from outside when its volume is positive.
-constexpr int kFaceCorners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 using EdgeKey = std::uint64_t;
 
@@ -18,11 +17,6 @@ EdgeKey edge_key(int a, int b) {
   const auto [low, high] = std::minmax(a, b);
   return static_cast<EdgeKey>(low) << 32 | static_cast<EdgeKey>(high);
 }
-
-struct FaceEntry {
-  Triangle sorted, face;
-  bool operator<(const FaceEntry& other) const { return sorted < other.sorted; }
-};
 
 }  // namespace
 
@@ -42,24 +36,10 @@ double volume(const TetMesh& mesh) {
 }
 
 std::vector<Triangle> boundary_faces(const TetMesh& mesh) {
-  std::vector<FaceEntry> all;
-  all.reserve(4 * mesh.tets.size());
-  for (const auto& t : mesh.tets) {
-    for (const auto& corner : kFaceCorners) {
-      const Triangle face{t[corner[0]], t[corner[1]], t[corner[2]]};
-      Triangle sorted = face;
-      std::sort(sorted.begin(), sorted.end());
-      all.push_back({sorted, face});
-    }
-  }
-  std::sort(all.begin(), all.end());
   std::vector<Triangle> faces;
-  for (std::size_t i = 0; i < all.size();) {
-    std::size_t end = i + 1;
-    while (end < all.size() && all[end].sorted == all[i].sorted) ++end;
-    if (end == i + 1) faces.push_back(all[i].face);
-    i = end;
-  }
+  visit_faces(mesh, [&](std::size_t tet, int face, int tets) {
+    if (tets == 1) faces.push_back(face_of(mesh, tet, face));
+  });
   return faces;
 }
 

@@ -1,0 +1,24 @@
+// Surfaces inside a body that bound its regions: private to lib/geometry.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/body_mesh.h"
+#include "geometry/signed_distance.h"
+
+namespace hapsim {
+
+struct InnerParts {
+  std::vector<Surface> bounding;         // wholly inside: TetGen keeps them as faces
+  std::vector<SignedDistance> distance;  // one an inner region
+};
+
+// Error(kBadInput) when an inner surface is not closed, cuts itself, or lies outside of `outer`.
+InnerParts inner_parts(const Surface& outer, const std::vector<InnerRegion>& inner,
+                       const std::string& where, std::vector<std::string>& notes);
+
+// Each tetrahedron whose centre lies in the k-th inner region gets the number k + 1; the last wins.
+void colour_regions(TetMesh& mesh, const InnerParts& parts);
+
+}  // namespace hapsim
