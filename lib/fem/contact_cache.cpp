@@ -67,7 +67,7 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
   };
   read(s.K.data(), sizeof s.K);
   read(s.dK_dnu.data(), sizeof s.dK_dnu);
-  read(s.coarse_change.data(), sizeof s.mesh_error);
+  read(s.coarse_change.data(), sizeof s.coarse_change);
   read(s.point.data(), sizeof s.point);
   read(s.normal.data(), sizeof s.normal);
   s.dK_dmodulus.resize(head.groups);
@@ -86,7 +86,7 @@ void ContactCache::store(const std::string& key, const StiffnessSolution& s) con
   append(bytes, &head, sizeof head);
   append(bytes, s.K.data(), sizeof s.K);
   append(bytes, s.dK_dnu.data(), sizeof s.dK_dnu);
-  append(bytes, s.coarse_change.data(), sizeof s.mesh_error);
+  append(bytes, s.coarse_change.data(), sizeof s.coarse_change);
   append(bytes, s.point.data(), sizeof s.point);
   append(bytes, s.normal.data(), sizeof s.normal);
   for (const auto& k : s.dK_dmodulus) append(bytes, k.data(), sizeof k);
