@@ -73,7 +73,9 @@ ToolSpec specification() {
                     "missing, possible, indistinguishable, absent, not testable; of the model: "
                     "complete, incomplete, ambiguous, unexplained"},
                    {"rmse_now, rmse_after", "error without and with the effect [N]"},
-                   {"heldout_now, heldout_after", "the same on positions left out of the fit [N]"},
+                   {"heldout_now, heldout_after",
+                    "the same on positions left out of the fit [N]; after only for effects that "
+                    "pass the other tests"},
                    {"p_value", "chance of a false alarm, all effects tried counted"},
                    {"confused_with", "effects that do as well, separated by spaces"},
                    {"where", "where and when it acts"},
@@ -169,7 +171,7 @@ void report(const Arguments& arguments, const Diagnosis& d) {
       continue;
     }
     const std::string unseen =
-        std::isfinite(f.held_out_now)
+        std::isfinite(f.held_out_after)
             ? fmt::format(", unseen {:.3g} -> {:.3g} N", f.held_out_now, f.held_out_after)
             : "";
     line(fmt::format("  {:<13} {:<17} error {:.3g} -> {:.3g} N{}, false alarm {:.3f}; {}", f.effect,

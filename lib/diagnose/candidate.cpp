@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 
+#include "diagnose/offset_test.h"
 #include "effects/catalogue.h"
+#include "model/press_offsets.h"
 
 namespace hapsim {
 namespace {
@@ -49,8 +51,16 @@ HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
   return held_out_error(builder, w.dataset, folds, *w.body, fit_options(w));
 }
 
-// Columns of the new parameters at the candidate's fit; for effects made from locations one gain a
-// position, of which any regions are sums.
+// Parameters that the data have to pay for: free ones and offsets solved for press by press.
+double parameter_count(const Model& model) {
+  auto count = static_cast<double>(model.free_parameters().size());
+  if (const Effect* effect = offset_effect(model))
+    for (const Parameter& p : model.parameters) count += p.effect == effect->card().name;
+  return count;
+}
+
+// Columns of the new parameters at the candidate's fit, and the finite change of the forces that it
+// makes; for effects made from locations one gain a position, of which any regions are sums.
 Eigen::MatrixXd new_columns(const Effect& effect, const FitResult& fitted, const Baseline& base,
                             const Workspace& w) {
   const Selection all = all_episodes(w.dataset);
@@ -72,11 +82,35 @@ Eigen::MatrixXd new_columns(const Effect& effect, const FitResult& fitted, const
   for (std::size_t c = 0; c < free.size(); ++c)
     if (fitted.model.parameters[free[c]].effect == effect.card().name)
       chosen.push_back(static_cast<int>(c));
-  return signal.df(Eigen::all, chosen);
+  Eigen::MatrixXd columns(signal.f.size(), static_cast<Eigen::Index>(chosen.size()) + 1);
+  columns.leftCols(columns.cols() - 1) = signal.df(Eigen::all, chosen);
+  columns.rightCols<1>() =
+      signal.f - model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  return columns;
+}
+
+// Whether any start of the effect changes the forces by more than a trace of the noise.
+bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Baseline& base,
+                const Workspace& w) {
+  const Selection all = all_episodes(w.dataset);
+  const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  for (const Model& start : starts) {
+    const Signal signal = model_forces(start, w.dataset, all, *w.body, true);
+    if ((signal.f - f).norm() > w.noise.value) return true;
+    const std::vector<int> free = start.free_parameters();
+    for (std::size_t c = 0; c < free.size(); ++c) {
+      const Parameter& p = start.parameters[free[c]];
+      if (p.effect != effect.card().name) continue;
+      const double typical = parameter_card(effect, p.name)->scale;
+      if (typical * signal.df.col(static_cast<Eigen::Index>(c)).norm() > w.noise.value) return true;
+    }
+  }
+  return false;
 }
 
 // Scores by press of the columns with what the baseline's own parameters can do taken out.
 CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const Workspace& w) {
+  if (y.offsets) take_out_press_means(w.dataset, all_episodes(w.dataset), columns);
   y.weights.whiten(columns);
   if (y.jacobian.cols() > 0) {
     const auto qr = y.jacobian.colPivHouseholderQr();
@@ -106,7 +140,7 @@ Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
 }
 
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, Workspace& w,
-                                    const Folds& folds, std::string& lack) {
+                                    std::string& lack) {
   const EffectCard& card = effect.card();
   lack = lacking_for(card, w.dataset);
   if (!lack.empty()) return std::nullopt;
@@ -115,11 +149,18 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   Candidate candidate;
   candidate.effect = &effect;
   candidate.one_more_term = model.has(card.name);
-  candidate.fitted =
-      fit_best(with_effect(model, card.name, w.dataset, all, *w.body, extend_options(w)), w.dataset,
-               all, *w.body, fit_options(w));
-  if (!folds.held_out.empty()) candidate.held_out = held_out_of(candidate.fitted.model, w, folds);
+  const std::vector<Model> starts =
+      with_effect(model, card.name, w.dataset, all, *w.body, extend_options(w));
+  if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, w)) {
+    lack = "nothing in these presses depends on it; record " + card.separated_by;
+    return std::nullopt;
+  }
+  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w));
   return candidate;
+}
+
+void hold_out(Candidate& candidate, Workspace& w, const Folds& folds) {
+  if (!folds.held_out.empty()) candidate.held_out = held_out_of(candidate.fitted.model, w, folds);
 }
 
 Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& candidates,
@@ -130,7 +171,9 @@ Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& can
   const Selection all = all_episodes(w.dataset);
   const Signal signal = model_forces(base.fitted.model, w.dataset, all, *w.body, true);
   Yardstick y{Weights(w.dataset, all, signal.f, noise, w.floor), noise,
-              measured_forces(w.dataset, all) - signal.f, signal.df};
+              measured_forces(w.dataset, all) - signal.f, signal.df,
+              offset_effect(base.fitted.model) != nullptr};
+  if (y.offsets) take_out_press_means(w.dataset, all, y.jacobian);
   y.weights.whiten(y.residual);
   y.weights.whiten(y.jacobian);
   return y;
@@ -145,11 +188,22 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
   Measured m;
   m.sum_of_squares = residual.squaredNorm();
   // Which region each position belongs to is chosen by the data as well, and is paid for.
-  const double extra = candidate.effect->card().from_locations
-                           ? static_cast<double>(w.dataset.positions.size()) - 1
-                           : static_cast<double>(candidate.fitted.model.free_parameters().size()) -
-                                 static_cast<double>(base.fitted.model.free_parameters().size());
+  const double extra =
+      candidate.effect->card().from_locations
+          ? static_cast<double>(w.dataset.positions.size()) - 1
+          : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
   m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
+  if (candidate.effect->card().by_press) {
+    const Selection every = all_episodes(w.dataset);
+    const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, every, *w.body, false).f;
+    const OffsetTest test =
+        test_offsets(w.dataset, (measured_forces(w.dataset, every) - f) / y.noise, f);
+    m.p_value = test.p_value;
+    m.sum_of_squares = y.residual.squaredNorm() - test.gain;
+    m.explained = test.gain * y.noise * y.noise / static_cast<double>(residual.size());
+    m.smallest_seen = y.noise * std::sqrt((m.penalty + 10) / static_cast<double>(residual.size()));
+    return m;
+  }
   m.scores = press_scores(new_columns(*candidate.effect, candidate.fitted, base, w), y, w);
   m.scores.penalty = m.penalty;
   const double information = m.scores.information(0, 0);

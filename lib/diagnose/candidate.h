@@ -1,6 +1,7 @@
 // One candidate effect: fitted, scored, and judged on unseen positions.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "diagnose/diagnose.h"
@@ -29,19 +30,25 @@ struct Yardstick {
   double noise = 0;          // [N]
   Eigen::VectorXd residual;  // of the baseline, whitened
   Eigen::MatrixXd jacobian;  // of the baseline, whitened
+  bool offsets = false;      // the baseline solves for an offset of each press
 };
 
 struct Measured {
   double sum_of_squares = 0;  // of the candidate's whitened residuals
   double penalty = 0;         // extra parameters times log n
-  CandidateScores scores;
+  // Fall of the mean squared residual [N^2]; NaN: that of the fit.
+  double explained = std::numeric_limits<double>::quiet_NaN();
+  CandidateScores scores;    // empty when the effect has a test of its own
+  double p_value = 1;        // by that test
   double smallest_seen = 0;  // size of the first parameter that would show
 };
 
 Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
-// Nothing when the data cannot test it (`lack` says why).
+// Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
-                                    Workspace& workspace, const Folds& folds, std::string& lack);
+                                    Workspace& workspace, std::string& lack);
+// Its error on held-out positions, by true refits.
+void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
                          const Workspace& workspace);
 Measured measure(const Candidate& candidate, const Baseline& baseline, const Yardstick& yardstick,

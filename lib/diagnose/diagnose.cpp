@@ -53,13 +53,29 @@ bool passes(const Finding& f, const Gates& gates, bool can_hold_out) {
          f.share >= gates.share && (!can_hold_out || held_out_fall(f) >= gates.held_out_fall);
 }
 
+// Family-wise chances of a false alarm: by sign flips, and where an effect has a test of its own by
+// that, times the number of effects tried (Bonferroni).
+std::vector<double> p_values(const std::vector<Measured>& measured, int flips, Random& random) {
+  std::vector<CandidateScores> scores;
+  for (const Measured& m : measured)
+    if (m.scores.by_group.size() > 0) scores.push_back(m.scores);
+  const std::vector<double> flipped = sign_flip_p_values(scores, flips, random);
+  std::vector<double> p;
+  std::size_t next = 0;
+  for (const Measured& m : measured)
+    p.push_back(m.scores.by_group.size() > 0
+                    ? flipped[next++]
+                    : std::min(1.0, m.p_value * static_cast<double>(measured.size())));
+  return p;
+}
+
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
   for (const Effect* effect : untried(base.fitted.model)) {
     if (options.progress) options.progress(effect->card().name);
     std::string lack;
-    if (auto candidate = try_effect(*effect, base, w, folds, lack)) {
+    if (auto candidate = try_effect(*effect, base, w, lack)) {
       round.candidates.push_back(std::move(*candidate));
       continue;
     }
@@ -72,37 +88,51 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
   }
   const Yardstick yardstick = make_yardstick(base, round.candidates, w);
   std::vector<Measured> measured;
-  std::vector<CandidateScores> scores;
-  for (const Candidate& c : round.candidates) {
-    measured.push_back(measure(c, base, yardstick, w));
-    scores.push_back(measured.back().scores);
-  }
-  const std::vector<double> p = sign_flip_p_values(scores, options.flips, random);
+  for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, w));
+  const std::vector<double> p = p_values(measured, options.flips, random);
   const double before = yardstick.residual.squaredNorm();
   const double noise = w.noise.value * w.noise.value;
   const double beyond_noise = base.fitted.rmse * base.fitted.rmse - noise;
   for (std::size_t k = 0; k < round.candidates.size(); ++k) {
-    const Candidate& c = round.candidates[k];
+    Candidate& c = round.candidates[k];
     const Measured& m = measured[k];
     Finding f;
     f.effect = c.effect->card().name;
     f.one_more_term = c.one_more_term;
     f.rmse_now = base.fitted.rmse;
     f.rmse_after = c.fitted.rmse;
-    f.held_out_now = base.held_out.rmse;
-    f.held_out_after = c.held_out.rmse;
     f.p_value = p[k];
     f.criterion_gain = before - m.sum_of_squares - m.penalty;
+    const double fall = base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse;
     if (beyond_noise > 0.01 * noise)
-      f.share = std::clamp(
-          (base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse) / beyond_noise, 0.0,
-          1.0);
+      f.share = std::clamp((std::isnan(m.explained) ? fall : m.explained) / beyond_noise, 0.0, 1.0);
+    // Refits for held-out positions cost most and only matter to what passes otherwise.
+    if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share)
+      hold_out(c, w, folds);
+    f.held_out_now = base.held_out.rmse;
+    f.held_out_after = c.held_out.rmse;
     f.where = describe_where(c, w);
     f.evidence = describe_evidence(c, m, f);
     f.next_measurement = c.effect->card().separated_by;
     round.findings.push_back(f);
   }
   return round;
+}
+
+// The effect to add: of those that pass the gates the one with the largest gain. Offsets of each
+// press imitate any misfit in part, at the price of many parameters, and come after all else.
+std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
+  std::size_t best = round.findings.size();
+  const auto better = [&](std::size_t k) {
+    if (best == round.findings.size()) return true;
+    const bool late = round.candidates[k].effect->card().by_press;
+    const bool best_late = round.candidates[best].effect->card().by_press;
+    if (late != best_late) return best_late;
+    return round.findings[k].criterion_gain > round.findings[best].criterion_gain;
+  };
+  for (std::size_t k = 0; k < round.findings.size(); ++k)
+    if (passes(round.findings[k], gates, can_hold_out) && better(k)) best = k;
+  return best;
 }
 
 // Rivals that do as well as the best: another effect that passes the gates too and reaches nearly
@@ -114,6 +144,7 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
   for (std::size_t k = 0; k < round.findings.size(); ++k) {
     const Finding& f = round.findings[k];
     if (k == best || !passes(f, gates, can_hold_out)) continue;
+    if (round.candidates[k].effect->card().by_press) continue;
     if (contains(*round.candidates[best].effect, f.effect) ||
         contains(*round.candidates[k].effect, winner.effect))
       continue;
@@ -192,12 +223,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
   bool ambiguous = false;
   for (int step = 0; step < options.gates.most_effects; ++step) {
     Round round = try_all(base, w, folds, options, random);
-    std::size_t best = round.findings.size();
-    for (std::size_t k = 0; k < round.findings.size(); ++k)
-      if (passes(round.findings[k], options.gates, can_hold_out) &&
-          (best == round.findings.size() ||
-           round.findings[k].criterion_gain > round.findings[best].criterion_gain))
-        best = k;
+    const std::size_t best = best_of(round, options.gates, can_hold_out);
     last = std::move(round);
     if (best == last.findings.size()) break;
     std::vector<std::size_t> rivals = rivals_of(best, last, options.gates, can_hold_out);

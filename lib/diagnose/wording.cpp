@@ -58,7 +58,7 @@ std::string describe_evidence(const Candidate& candidate, const Measured& measur
     if (p.effect == card.name && p.state == ParameterState::kFree && named++ < 6)
       text += fmt::format("; {} = {}", p.name, with_error(p.value, p.std_error, p.unit));
   const ParameterCard& first = card.parameters.front();
-  if (measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
+  if (!first.fixed && measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
     text += fmt::format("; would show from {} = {}", first.name,
                         with_error(measured.smallest_seen, std::nan(""), first.unit));
   return text;

@@ -35,6 +35,9 @@ class Damper : public Effect {
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
       signal.f.segment<3>(row) -= c.value * rate;
       if (c.column >= 0) signal.df.block<3, 1>(row, c.column) -= rate;
+      if (press.du.cols() > 0 && signal.df.cols() > 0)
+        signal.df.middleRows(row, 3) -=
+            c.value / dt * (press.du.middleRows(row, 3) - press.du.middleRows(row - 3, 3));
     }
   }
 

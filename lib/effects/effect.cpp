@@ -5,7 +5,14 @@
 
 namespace hapsim {
 
+void Motion::make_du() {
+  if (du.cols() == 0 && columns > 0)
+    du = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(u.size()), columns);
+}
+
 void Effect::describe(const Values&, MaterialSpec&) const {}
+
+void Effect::move(const PressView&, const Values&, Motion&) const {}
 
 void Effect::apply(const PressView&, const Values&, Signal&) const {}
 

@@ -10,8 +10,8 @@
 
 namespace hapsim {
 
-// In the order in which a force passes through them.
-enum class Stage { kBody, kSupport, kContact, kSensor };
+// In the order in which a press passes through them: the tool's motion, then the force.
+enum class Stage { kMotion, kBody, kSupport, kContact, kSensor };
 
 // One parameter of an effect. `identity` is the value at which the effect does nothing.
 struct ParameterCard {
@@ -25,6 +25,7 @@ struct ParameterCard {
   double scale = 1;                                             // size of a typical change
   bool logarithmic = false;                                     // stepped in its logarithm
   double log_limit = std::numeric_limits<double>::quiet_NaN();  // stepped in log(limit - value)
+  bool fixed = false;                                           // a switch: set, never fitted
 };
 
 // Constant data on an effect; man pages, diagnoses and generic tests derive from it.
@@ -36,11 +37,16 @@ struct EffectCard {
   std::string source;
   std::string assumptions;
   std::vector<ParameterCard> parameters;
-  bool terms = false;            // may be repeated: E1, tau1, E2, tau2, ...
-  bool needs_time = false;       // not testable without a t column
-  bool needs_positions = false;  // not testable with a single contact position
-  bool from_locations = false;   // built from each position's own modulus (from_locations())
-  std::string signature;         // what its absence looks like in the residuals
+  bool terms = false;              // may be repeated: E1, tau1, E2, tau2, ...
+  bool needs_time = false;         // not testable without a t column
+  bool needs_positions = false;    // not testable with a single contact position
+  bool needs_temperature = false;  // not testable unless the column temp varies
+  bool needs_sideways = false;     // not testable without tangential displacement
+  bool needs_return = false;       // not testable unless a recorded press moves out again
+  bool needs_repeats = false;      // not testable unless a place is pressed again
+  bool by_press = false;  // three offsets of the force a press (numbered), after all other effects
+  bool from_locations = false;  // built from each position's own modulus (from_locations())
+  std::string signature;        // what its absence looks like in the residuals
   std::vector<std::string> confounders;
   std::string separated_by;           // the measurement that tells it from them
   std::vector<std::string> contains;  // effects that this one includes as a special case
@@ -61,10 +67,15 @@ struct PressView {
   std::vector<double> t;        // [s] since the press began; empty without time
   std::vector<double> session;  // [s] since the recording began; empty without time
   std::vector<Vec3> u;          // displacement of the tool [m]
+  Eigen::MatrixXd du;           // 3 n x parameters, derivative of u; no columns: u is as recorded
   std::vector<char> in_air;     // 1: no contact
-  Vec3 normal = Vec3::UnitZ();  // outward, at the contact
-  double radius = 0;            // of the tool [m]
-  double modulus = 0;           // E of region 0 [Pa]
+  std::vector<double> temperature;  // [degC]; empty without
+  Vec3 normal = Vec3::UnitZ();      // outward, at the contact
+  Vec3 direction = -Vec3::UnitZ();  // unit, of the deepest displacement of the press
+  double past_depth = 0;            // deepest |u| of earlier presses here that is not healed [m]
+  int number = 1;                   // of the press, from 1, in the order of the recording
+  double radius = 0;                // of the tool [m]
+  double modulus = 0;               // E of region 0 [Pa]
   int modulus_column = -1;
   std::size_t size() const { return u.size(); }
 };
@@ -73,6 +84,14 @@ struct PressView {
 struct Signal {
   Eigen::VectorXd f;   // 3 n: fx, fy, fz of sample 0, then of sample 1 ... [N]
   Eigen::MatrixXd df;  // 3 n x parameters; no columns when derivatives are not wanted
+};
+
+// The tool's displacements of one press and their derivatives by the free parameters.
+struct Motion {
+  std::vector<Vec3> u;       // [m]
+  Eigen::MatrixXd du;        // 3 n x columns, or no columns while nothing depends on parameters
+  Eigen::Index columns = 0;  // of the derivative; 0: not wanted
+  void make_du();            // gives du its columns
 };
 
 // What body effects say of the material.
@@ -96,6 +115,8 @@ struct DataSummary {
   double modulus = 1e4;       // E of the model at hand [Pa]
   double peak_force = 1;      // [N]
   double peak_stiffness = 1;  // [N/m]
+  double temperature = 20;    // to count from [degC]
+  double depth = 2e-3;        // deepest displacement [m]
 };
 
 class Effect {
@@ -105,6 +126,8 @@ class Effect {
 
   // Body effects: fills in what the stiffness solutions need.
   virtual void describe(const Values& values, MaterialSpec& material) const;
+  // Motion effects: changes the displacements that all later effects see.
+  virtual void move(const PressView& press, const Values& values, Motion& motion) const;
   // Other effects: changes the force and carries all columns of the derivative through; adds its
   // own.
   virtual void apply(const PressView& press, const Values& values, Signal& signal) const;

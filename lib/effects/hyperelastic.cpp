@@ -45,6 +45,10 @@ class Hyperelastic : public Effect {
       signal.df.middleRows(row, 3) *= factor;
       if (b1.column >= 0) signal.df.block<3, 1>(row, b1.column) += q * f;
       if (b2.column >= 0) signal.df.block<3, 1>(row, b2.column) += q * q * f;
+      if (press.du.cols() > 0 && q > 0)
+        signal.df.middleRows(row, 3) += (b1.value + 2 * b2.value * q) /
+                                        (press.radius * press.u[i].norm()) * f *
+                                        (press.u[i].transpose() * press.du.middleRows(row, 3));
     }
   }
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -48,6 +49,7 @@ Dataset make_dataset(Recording recording, double same) {
       dataset.episodes.emplace_back();
       dataset.episodes.back().position = position;
       dataset.episodes.back().view.radius = radius;
+      dataset.episodes.back().view.number = static_cast<int>(dataset.episodes.size());
     }
     Episode& episode = dataset.episodes.back();
     const double start =
@@ -56,6 +58,7 @@ Dataset make_dataset(Recording recording, double same) {
       episode.rows.push_back(row);
       episode.view.u.push_back(recording.u[row]);
       episode.view.in_air.push_back(recording.in_air(row) ? 1 : 0);
+      if (!recording.temp.empty()) episode.view.temperature.push_back(recording.temp[row]);
       if (recording.t.empty()) continue;
       episode.view.t.push_back(recording.t[row] - start);
       episode.view.session.push_back(recording.t[row] - session_start);
@@ -66,7 +69,21 @@ Dataset make_dataset(Recording recording, double same) {
 }
 
 void set_normals(Dataset& dataset, const std::vector<Vec3>& normals) {
-  for (Episode& e : dataset.episodes) e.view.normal = normals[e.position];
+  const bool heals = dataset.recording.metadata.find("recovery").value_or("") == "full";
+  std::vector<double> deepest(dataset.positions.size(), 0.0);
+  for (Episode& e : dataset.episodes) {
+    e.view.normal = normals[e.position];
+    e.view.direction = -e.view.normal;
+    if (!heals) e.view.past_depth = deepest[e.position];
+    double depth = 0;
+    for (std::size_t i = 0; i < e.view.size(); ++i) {
+      const Vec3& u = e.view.u[i];
+      if (u.norm() <= depth || u.dot(e.view.normal) > 0 || e.view.in_air[i]) continue;
+      depth = u.norm();
+      e.view.direction = u / depth;
+    }
+    deepest[e.position] = std::max(deepest[e.position], depth);
+  }
 }
 
 Noise force_noise(const Dataset& dataset) {
@@ -95,6 +112,11 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   summary.has_time = !dataset.recording.t.empty();
   summary.modulus = modulus;
   summary.peak_force = 1e-12;
+  const std::vector<double>& temp = dataset.recording.temp;
+  if (!temp.empty())
+    summary.temperature = dataset.recording.metadata.number("temp_ref", dataset.recording.name)
+                              .value_or(std::accumulate(temp.begin(), temp.end(), 0.0) /
+                                        static_cast<double>(temp.size()));
   std::vector<double> steps, durations;
   double deepest = 0;
   for (const Episode& e : dataset.episodes) {
@@ -110,6 +132,7 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   }
   summary.sample_step = median(steps);
   summary.press_duration = median(durations);
+  if (deepest > 0) summary.depth = deepest;
   if (deepest > 0) summary.peak_stiffness = summary.peak_force / deepest;
   return summary;
 }

@@ -13,7 +13,7 @@ namespace hapsim {
 struct Episode {
   int position = 0;
   std::vector<int> rows;  // of the recording
-  PressView view;         // normal is filled in by set_normals()
+  PressView view;         // normal, direction, past_depth are filled in by set_normals()
 };
 
 struct Dataset {
@@ -26,6 +26,8 @@ struct Dataset {
 // Contact points closer than `same` are one position. Error(kBadInput) when a press moves its
 // contact point by more than that.
 Dataset make_dataset(Recording recording, double same = 1e-4);
+// Normals by position, and what follows from them: each press's direction and the deepest press
+// before it at its place (none with `recovery: full`).
 void set_normals(Dataset& dataset, const std::vector<Vec3>& normals);
 
 // Standard deviation of the force noise per component [N]: metadata `force_noise`, or second
@@ -36,6 +38,7 @@ struct Noise {
 };
 Noise force_noise(const Dataset& dataset);
 
+// The temperature to count from is the metadata `temp_ref`, else the mean.
 DataSummary summarise(const Dataset& dataset, double modulus);
 
 }  // namespace hapsim

@@ -1,7 +1,10 @@
 #include "model/extend.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
@@ -68,6 +71,43 @@ Model with_locations(const Model& fitted, const Effect& effect, const Dataset& d
   return model;
 }
 
+constexpr double kLeastWarming = 0.5;  // [K]
+constexpr double kSideways = 0.2;      // of the depth
+constexpr double kReturn = 0.8;        // of the deepest displacement
+
+// Between the coldest and the warmest press, so that a thermometer's noise does not count.
+double temperature_range(const Dataset& dataset) {
+  double low = 1e300, high = -1e300;
+  for (const Episode& e : dataset.episodes) {
+    const std::vector<double>& t = e.view.temperature;
+    const double mean = std::accumulate(t.begin(), t.end(), 0.0) /
+                        static_cast<double>(std::max<std::size_t>(1, t.size()));
+    low = std::min(low, mean);
+    high = std::max(high, mean);
+  }
+  return high - low;
+}
+
+bool moves_sideways(const PressView& view) {
+  double along = 0, across = 0;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (view.in_air[i]) continue;
+    along = std::max(along, -view.u[i].dot(view.normal));
+    across = std::max(across, (view.u[i] - view.u[i].dot(view.normal) * view.normal).norm());
+  }
+  return across > kSideways * along;
+}
+
+bool comes_back(const PressView& view) {
+  double deepest = 0;
+  for (const Vec3& u : view.u) {
+    const double depth = u.dot(view.direction);
+    if (depth < kReturn * deepest) return true;
+    deepest = std::max(deepest, depth);
+  }
+  return false;
+}
+
 }  // namespace
 
 Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body) {
@@ -105,7 +145,9 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
   std::erase_if(base.parameters, [&](const Parameter& p) {
     return std::find(card.contains.begin(), card.contains.end(), p.effect) != card.contains.end();
   });
-  int terms = card.terms ? options.terms : 1;
+  int terms = card.terms      ? options.terms
+              : card.by_press ? static_cast<int>(dataset.episodes.size())
+                              : 1;
   if (fitted.has(name)) {
     int present = 0;
     for (const Parameter& p : fitted.parameters) present += p.effect == name;
@@ -133,6 +175,23 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
   }
   if (effect.needs_positions && dataset.positions.size() < 4)
     return "too few contact positions: press at four places or more";
+  if (effect.needs_temperature) {
+    if (dataset.recording.temp.empty())
+      return "the recording has no column temp: record the body's temperature";
+    if (temperature_range(dataset) < kLeastWarming)
+      return fmt::format("the temperature changes by {:.2g} K only: press the body warm and cold",
+                         temperature_range(dataset));
+  }
+  const auto some = [&](auto&& condition) {
+    return std::any_of(dataset.episodes.begin(), dataset.episodes.end(),
+                       [&](const Episode& e) { return condition(e.view); });
+  };
+  if (effect.needs_sideways && !some(moves_sideways))
+    return "no press moves sideways: move the tool along the surface while it presses";
+  if (effect.needs_return && !some(comes_back))
+    return "no press is recorded on its way out: record until the tool has left";
+  if (effect.needs_repeats && !some([](const PressView& v) { return v.past_depth > 0; }))
+    return "each place is pressed only once, or healed in between: press one place three times";
   return "";
 }
 

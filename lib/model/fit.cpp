@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "estimate/least_squares.h"
+#include "model/press_offsets.h"
 
 namespace hapsim {
 namespace {
@@ -56,6 +57,8 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   const Eigen::VectorXd measured = measured_forces(dataset, selection);
   LeastSquaresResult solution;
   const MaterialSpec asked = material_of(start);
+  const bool offsets = offset_effect(start) != nullptr;
+  if (offsets) set_offsets(result.model, dataset, {}, {}, 0);
   const bool inhomogeneous = asked.modulus.size() > 1 && !asked.local && options.exact_regions;
   const auto minimise_again = [&] {
     Model trial = result.model;
@@ -64,6 +67,9 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
       Signal signal = model_forces(trial, dataset, selection, body, J != nullptr);
       r = (signal.f - measured) / options.noise;
       if (J != nullptr) *J = signal.df / options.noise;
+      if (!offsets) return;
+      take_out_press_means(dataset, selection, r);
+      if (J != nullptr) take_out_press_means(dataset, selection, *J);
     };
     solution = minimise(unknowns(result.model), residuals);
     set_values(result.model, solution.x);
@@ -78,8 +84,15 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   }
   if (inhomogeneous) body.solve(material_of(result.model));
 
-  const Signal signal = model_forces(result.model, dataset, selection, body, true);
-  const Eigen::VectorXd residual = measured - signal.f;
+  Signal signal = model_forces(result.model, dataset, selection, body, true);
+  Eigen::VectorXd residual = measured - signal.f;
+  if (offsets) {
+    const Eigen::MatrixXd means = press_means(dataset, selection, residual);
+    take_out_press_means(dataset, selection, residual);
+    set_offsets(result.model, dataset, selection, means,
+                std::max(options.noise, component_rms(residual)));
+    take_out_press_means(dataset, selection, signal.df);
+  }
   result.rmse = component_rms(residual);
   result.residuals = residual.size();
   result.converged = solution.converged;
@@ -91,11 +104,12 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
       std::max(1.0, solution.sum_of_squares / freedom) * solution.covariance;
   if (options.floor > 0) {
     // A gain error of each position, carried through to the parameters (sandwich).
-    const Eigen::MatrixXd through =
-        solution.covariance *
-        (signal.df.transpose() * gain_directions(dataset, selection, signal.f)) *
-        (options.floor / (options.noise * options.noise));
-    covariance += through * through.transpose();
+    for (const GainBlock& block : gain_directions(dataset, selection, signal.f)) {
+      const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
+      const Eigen::MatrixXd through = solution.covariance * (rows.transpose() * block.Z) *
+                                      (options.floor / (options.noise * options.noise));
+      covariance += through * through.transpose();
+    }
   }
   for (std::size_t c = 0; c < free.size(); ++c) {
     Parameter& p = result.model.parameters[free[c]];
@@ -151,8 +165,9 @@ HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, cons
     for (const int e : all_episodes(dataset))
       if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
     const FitResult fitted = fit_best(builder(training), dataset, training, body, options);
-    const Eigen::VectorXd r = measured_forces(dataset, held_out) -
-                              model_forces(fitted.model, dataset, held_out, body, false).f;
+    Eigen::VectorXd r = measured_forces(dataset, held_out) -
+                        model_forces(fitted.model, dataset, held_out, body, false).f;
+    if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);
     result.squares.push_back(r.squaredNorm());
     result.components.push_back(static_cast<double>(r.size()));
     squares += result.squares.back();

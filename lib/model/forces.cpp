@@ -85,6 +85,10 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
     PressView view = episode.view;
     view.modulus = material.modulus[0];
     view.modulus_column = derivatives ? material.modulus_column[0] : -1;
+    Motion motion{view.u, {}, columns};
+    for (const Instance& i : effects) i.effect->move(view, i.values, motion);
+    view.u = std::move(motion.u);
+    view.du = std::move(motion.du);
     const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
     Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
     for (std::size_t i = 0; i < view.size(); ++i) {
@@ -92,11 +96,13 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
       signal.f.segment<3>(row) = -s.K * view.u[i];
       if (columns == 0) continue;
+      if (view.du.cols() > 0)
+        signal.df.middleRows(row, 3).noalias() = -s.K * view.du.middleRows(row, 3);
       if (material.nu_column >= 0)
-        signal.df.block<3, 1>(row, material.nu_column) = -s.dK_dnu * view.u[i];
+        signal.df.block<3, 1>(row, material.nu_column) -= s.dK_dnu * view.u[i];
       for (std::size_t g = 0; g < material.modulus.size(); ++g)
         if (material.modulus_column[g] >= 0)
-          signal.df.block<3, 1>(row, material.modulus_column[g]) = -s.dK_dmodulus[g] * view.u[i];
+          signal.df.block<3, 1>(row, material.modulus_column[g]) -= s.dK_dmodulus[g] * view.u[i];
     }
     // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
     bool at_sensor = false;

@@ -51,7 +51,7 @@ std::pair<std::string, int> split_term(const std::string& name) {
 const ParameterCard* parameter_card(const Effect& effect, const std::string& name) {
   for (const ParameterCard& p : effect.card().parameters) {
     if (p.name == name) return &p;
-    if (!effect.card().terms) continue;
+    if (!effect.card().terms && !effect.card().by_press) continue;
     const auto [stem, term] = split_term(name);
     if (term > 0 && split_term(p.name).first == stem) return &p;
   }
@@ -65,12 +65,15 @@ std::vector<Parameter> effect_rows(const Effect& effect, int terms,
     for (const ParameterCard& card : effect.card().parameters) {
       Parameter p;
       p.effect = effect.card().name;
-      p.name =
-          effect.card().terms ? split_term(card.name).first + std::to_string(k + 1) : card.name;
+      const bool numbered = effect.card().terms || effect.card().by_press;
+      p.name = numbered ? split_term(card.name).first + std::to_string(k + 1) : card.name;
       p.value = values[rows.size()];
       p.unit = card.unit;
       p.lower = card.lower;
       p.upper = card.upper;
+      p.state = effect.card().by_press ? ParameterState::kDerived
+                : card.fixed           ? ParameterState::kFixed
+                                       : ParameterState::kFree;
       rows.push_back(p);
     }
   return rows;

@@ -43,7 +43,8 @@ struct Model {
 // "E1". Null when the effect has no such parameter.
 const ParameterCard* parameter_card(const Effect& effect, const std::string& name);
 
-// The rows of an effect with `terms` terms, at given values (one a card parameter and term).
+// The rows of an effect with `terms` terms (or presses), at given values (one a card parameter and
+// term). Switches are fixed, what is solved for press by press is derived, the rest is free.
 std::vector<Parameter> effect_rows(const Effect& effect, int terms,
                                    const std::vector<double>& values);
 

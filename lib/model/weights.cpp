@@ -1,6 +1,8 @@
 #include "model/weights.h"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -26,40 +28,46 @@ std::map<int, Place> places_of(const Dataset& dataset, const Selection& selectio
   return places;
 }
 
+// A basis of the symmetric matrices, in the frame of a normal.
+std::array<Eigen::Matrix3d, 6> symmetric_basis(const Vec3& n) {
+  const Vec3 s = n.unitOrthogonal(), t = n.cross(s);
+  const auto pair = [](const Vec3& a, const Vec3& b) -> Eigen::Matrix3d {
+    return std::sqrt(0.5) * (a * b.transpose() + b * a.transpose());
+  };
+  return {n * n.transpose(), s * s.transpose(), t * t.transpose(),
+          pair(s, t),        pair(n, s),        pair(n, t)};
+}
+
 }  // namespace
 
-Eigen::MatrixXd gain_directions(const Dataset& dataset, const Selection& selection,
-                                const Eigen::VectorXd& reference) {
-  const std::map<int, Place> places = places_of(dataset, selection);
-  Eigen::MatrixXd Z =
-      Eigen::MatrixXd::Zero(reference.size(), 2 * static_cast<Eigen::Index>(places.size()));
-  Eigen::Index column = 0;
-  for (const auto& [position, place] : places) {
+std::vector<GainBlock> gain_directions(const Dataset& dataset, const Selection& selection,
+                                       const Eigen::VectorXd& reference) {
+  std::vector<GainBlock> blocks;
+  for (const auto& [position, place] : places_of(dataset, selection)) {
+    const auto basis = symmetric_basis(place.normal);
+    GainBlock block;
+    block.Z.resize(3 * static_cast<Eigen::Index>(place.starts.size()), 6);
+    Eigen::Index at = 0;
     for (const Eigen::Index row : place.starts) {
-      const Vec3 f = reference.segment<3>(row);
-      const Vec3 along = place.normal.dot(f) * place.normal;
-      Z.block<3, 1>(row, column) = along;
-      Z.block<3, 1>(row, column + 1) = f - along;
+      for (int k = 0; k < 3; ++k) block.rows.push_back(row + k);
+      for (Eigen::Index c = 0; c < 6; ++c)
+        block.Z.block<3, 1>(at, c) = basis[static_cast<std::size_t>(c)] * reference.segment<3>(row);
+      at += 3;
     }
-    column += 2;
+    blocks.push_back(std::move(block));
   }
-  return Z;
+  return blocks;
 }
 
 Weights::Weights(const Dataset& dataset, const Selection& selection,
                  const Eigen::VectorXd& reference, double noise, double floor)
     : noise_(noise) {
   if (floor <= 0) return;
-  const Eigen::MatrixXd all = gain_directions(dataset, selection, reference);
-  Eigen::Index column = 0;
-  for (const auto& [position, place] : places_of(dataset, selection)) {
+  for (GainBlock& gains : gain_directions(dataset, selection, reference)) {
+    // Z Z' = Q diag(s^2) Q'.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(gains.Z, Eigen::ComputeThinU);
     Block block;
-    for (const Eigen::Index row : place.starts)
-      for (int k = 0; k < 3; ++k) block.rows.push_back(row + k);
-    const Eigen::MatrixXd Z = all.middleCols(column, 2)(block.rows, Eigen::all);
-    column += 2;
-    // Z Z' = Q diag(s^2) Q'; the two columns are orthogonal only sample by sample, hence the SVD.
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Z, Eigen::ComputeThinU);
+    block.rows = std::move(gains.rows);
     block.Q = svd.matrixU();
     const Eigen::VectorXd s = svd.singularValues();
     block.shrink = 1 - (1 + (floor / noise * s.array()).square()).sqrt().inverse();

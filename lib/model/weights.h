@@ -8,13 +8,18 @@
 
 namespace hapsim {
 
-// Covariance by position V = noise^2 I + floor^2 Z Z', Z two columns: the force along the
-// position's normal and the force across it, as gains. So a model is not blamed for a gain of a few
-// per cent that differs from position to position, which is what a mesh and a scanned surface are
-// worth. The directions Z: for each position that the selection visits two columns, stacked rows (3
-// x rows).
-Eigen::MatrixXd gain_directions(const Dataset& dataset, const Selection& selection,
-                                const Eigen::VectorXd& reference);
+// Covariance by position V = noise^2 I + floor^2 Z Z'. Z has six columns: the symmetric relative
+// changes of the position's stiffness, in the frame of its normal n and two tangents, as they act
+// on the force: f_n n (a gain along the normal), three for the tangential plane, and n t' + t n'
+// for both tangents (a tilted normal). So a model is not blamed for what a mesh and a scanned
+// surface are worth: a stiffness that errs by a few per cent, differently at each position.
+struct GainBlock {
+  std::vector<Eigen::Index> rows;  // of the stacked vectors (3 x rows)
+  Eigen::MatrixXd Z;               // the same rows x 6 [N]
+};
+// One block for each position that the selection visits. `reference`: stacked forces.
+std::vector<GainBlock> gain_directions(const Dataset& dataset, const Selection& selection,
+                                       const Eigen::VectorXd& reference);
 
 class Weights {
  public:

@@ -9,10 +9,12 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "effects/effects.h"
 
 namespace hapsim {
 namespace {
 
+// In the air, in, out again, beyond the surface; oblique, over an earlier press, warming up.
 PressView example_press() {
   PressView press;
   Random random(3);
@@ -20,28 +22,44 @@ PressView example_press() {
   for (int i = 0; i < 40; ++i) {
     press.t.push_back(t);
     press.session.push_back(100 + t);
+    press.temperature.push_back(21 + 0.1 * i);
     t += 0.01 + 0.02 * random.uniform();
-    const double depth = i < 4 ? 0 : 0.003 * std::sin(0.08 * (i - 3));
+    const double depth = i < 4 ? 0 : 0.003 * std::sin(0.095 * (i - 3));
     press.u.push_back({0.2 * depth, -0.1 * depth, -depth});
     press.in_air.push_back(i < 4 ? 1 : 0);
   }
+  press.direction = Vec3(0.2, -0.1, -1).normalized();
+  press.past_depth = 0.0025;
   press.radius = 0.004;
   press.modulus = 2e4;
   return press;
 }
 
-// A force that depends on an outside parameter s, with its derivative in column 0.
-Signal incoming(const PressView& press, double s, Eigen::Index columns) {
-  Signal signal;
+// What an effect makes of a press. Two outside parameters come before it: s scales the force that
+// arrives (column 0), r moves the tool (column 1).
+Signal pass(const Effect& effect, PressView press, const Values& values, double s, double r,
+            Eigen::Index columns) {
   const auto n = 3 * static_cast<Eigen::Index>(press.size());
-  signal.f.resize(n);
-  signal.df = Eigen::MatrixXd::Zero(n, columns);
+  Motion motion{press.u, {}, columns};
+  motion.make_du();
   for (std::size_t i = 0; i < press.size(); ++i) {
-    const auto row = 3 * static_cast<Eigen::Index>(i);
-    const Vec3 slope = press.in_air[i] ? Vec3(0, 0, 0) : Vec3(-150 * press.u[i]);
-    signal.f.segment<3>(row) = (1 + s) * slope;
-    if (columns > 0) signal.df.block<3, 1>(row, 0) = slope;
+    const Vec3 way = std::sin(0.3 * static_cast<double>(i)) * Vec3(1e-4, 2e-4, 3e-4);
+    motion.u[i] += r * way;
+    if (columns > 0) motion.du.block<3, 1>(3 * static_cast<Eigen::Index>(i), 1) = way;
   }
+  effect.move(press, values, motion);
+  press.u = motion.u;
+  press.du = motion.du;
+  Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
+  for (std::size_t i = 0; i < press.size(); ++i) {
+    if (press.in_air[i]) continue;
+    const auto row = 3 * static_cast<Eigen::Index>(i);
+    signal.f.segment<3>(row) = -150 * (1 + s) * press.u[i];
+    if (columns == 0) continue;
+    signal.df.middleRows(row, 3) = -150 * (1 + s) * press.du.middleRows(row, 3);
+    signal.df.block<3, 1>(row, 0) = -150 * press.u[i];
+  }
+  effect.apply(press, values, signal);
   return signal;
 }
 
@@ -49,7 +67,7 @@ Values values_at(const Effect& effect, const std::vector<double>& numbers, bool 
   Values values;
   for (std::size_t k = 0; k < numbers.size(); ++k)
     values.push_back(
-        {0, effect.card().parameters[k].name, numbers[k], columns ? static_cast<int>(k) + 1 : -1});
+        {0, effect.card().parameters[k].name, numbers[k], columns ? static_cast<int>(k) + 2 : -1});
   return values;
 }
 
@@ -77,49 +95,59 @@ TEST_P(EveryEffect, DoesNothingAtItsIdentity) {
   std::vector<double> identity;
   for (const ParameterCard& p : effect.card().parameters) identity.push_back(p.identity);
   const PressView press = example_press();
-  Signal signal = incoming(press, 0.3, 0);
-  const Eigen::VectorXd before = signal.f;
-  effect.apply(press, values_at(effect, identity, false), signal);
-  EXPECT_EQ(signal.f, before);
+  const Signal with = pass(effect, press, values_at(effect, identity, false), 0.3, 0.1, 0);
+  const Signal without = pass(elastic_effect(), press, {}, 0.3, 0.1, 0);
+  EXPECT_EQ(with.f, without.f);
 }
 
 TEST_P(EveryEffect, DerivativesAreDifferences) {
   const Effect& effect = *GetParam();
+  if (effect.card().stage == Stage::kBody && effect.card().from_locations) return;
   PressView press = example_press();
+  const auto& cards = effect.card().parameters;
   DataSummary data{true, 0.02, 0.8, 100, 2e4, 1, 300};
+  std::vector<std::vector<double>> points;
   for (std::vector<double> start : effect.starts(data, 1)) {
-    for (std::size_t k = 0; k < start.size(); ++k)
-      if (start[k] == 0) start[k] = 0.1;  // an interior value where the start is the identity
-    const auto m = static_cast<Eigen::Index>(start.size());
-    press.modulus_column = static_cast<int>(m) + 1;
-    Signal signal = incoming(press, 0.3, m + 2);
-    effect.apply(press, values_at(effect, start, true), signal);
-    const auto forces = [&](const std::vector<double>& x, double s, double modulus) {
+    for (double& x : start)
+      if (x == 0) x = 0.1;  // an interior value where the start is the identity
+    points.push_back(start);
+    for (std::size_t k = 0; k < start.size(); ++k)  // and near the identity, or the bound
+      start[k] = cards[k].logarithmic ? 0.3 * start[k] : cards[k].identity + 1e-2 * cards[k].scale;
+    points.push_back(start);
+  }
+  for (const std::vector<double>& point : points) {
+    const auto m = static_cast<Eigen::Index>(point.size());
+    press.modulus_column = static_cast<int>(m) + 2;
+    const Signal signal = pass(effect, press, values_at(effect, point, true), 0.3, 0.1, m + 3);
+    const auto forces = [&](const std::vector<double>& x, double s, double r, double modulus) {
       PressView other = press;
       other.modulus = modulus;
       other.modulus_column = -1;
-      Signal result = incoming(other, s, 0);
-      effect.apply(other, values_at(effect, x, false), result);
-      return result.f;
+      return pass(effect, other, values_at(effect, x, false), s, r, 0).f;
     };
-    const double scale = signal.f.norm();
+    const double scale = signal.f.norm(), E = press.modulus;
     for (Eigen::Index k = 0; k < m; ++k) {
-      std::vector<double> up = start, down = start;
-      const double step = 1e-5 * std::max(std::abs(start[k]), 1e-3);
+      std::vector<double> up = point, down = point;
+      const double step = 1e-5 * std::max(std::abs(point[k]), 1e-3 * cards[k].scale);
       up[k] += step;
       down[k] -= step;
       const Eigen::VectorXd difference =
-          (forces(up, 0.3, press.modulus) - forces(down, 0.3, press.modulus)) / (2 * step);
-      EXPECT_LT((signal.df.col(k + 1) - difference).norm(),
+          (forces(up, 0.3, 0.1, E) - forces(down, 0.3, 0.1, E)) / (2 * step);
+      EXPECT_LT((signal.df.col(k + 2) - difference).norm(),
                 1e-6 * std::max(difference.norm(), scale))
-          << effect.card().parameters[k].name;
+          << cards[k].name << " at " << point[k];
     }
+    const double h = 1e-5;
     const Eigen::VectorXd through =
-        (forces(start, 0.301, press.modulus) - forces(start, 0.299, press.modulus)) / 0.002;
+        (forces(point, 0.3 + h, 0.1, E) - forces(point, 0.3 - h, 0.1, E)) / (2 * h);
     EXPECT_LT((signal.df.col(0) - through).norm(), 1e-6 * scale) << "carried through";
+    const Eigen::VectorXd moved =
+        (forces(point, 0.3, 0.1 + h, E) - forces(point, 0.3, 0.1 - h, E)) / (2 * h);
+    EXPECT_LT((signal.df.col(1) - moved).norm(), 1e-6 * std::max(moved.norm(), scale))
+        << "by the motion";
     const Eigen::VectorXd by_modulus =
-        (forces(start, 0.3, press.modulus + 1) - forces(start, 0.3, press.modulus - 1)) / 2;
-    EXPECT_LT((signal.df.col(m + 1) - by_modulus).norm(), 1e-6 * scale) << "by E";
+        (forces(point, 0.3, 0.1, E + 1) - forces(point, 0.3, 0.1, E - 1)) / 2;
+    EXPECT_LT((signal.df.col(m + 2) - by_modulus).norm(), 1e-6 * scale) << "by E";
   }
 }
 
@@ -138,8 +166,25 @@ TEST(Catalogue, NamesAreUniqueAndFound) {
     for (const std::string& other : effect->card().contains)
       EXPECT_NE(find_effect(other), nullptr) << other;
   }
+  // Names that cards may speak of although the catalogue does not have them all.
+  const std::set<std::string> vocabulary{"anisotropic", "layer", "inclusion",
+                                         "base",        "shift", "tip"};
+  for (const Effect* effect : catalogue())
+    for (const std::string& other : effect->card().confounders) {
+      EXPECT_TRUE(names.count(other) + vocabulary.count(other) > 0) << other;
+      EXPECT_NE(other, effect->card().name);
+    }
   EXPECT_EQ(find_effect("magic"), nullptr);
   EXPECT_THROW(require_effect("magic"), Error);
+}
+
+TEST(Catalogue, EffectsActInTheOrderOfTheirStages) {
+  for (std::size_t k = 1; k < catalogue().size(); ++k)
+    EXPECT_LE(catalogue()[k - 1]->card().stage, catalogue()[k]->card().stage)
+        << catalogue()[k]->card().name;
+  // Offsets by press are solved for as what is added last.
+  for (std::size_t k = 0; k + 1 < catalogue().size(); ++k)
+    EXPECT_FALSE(catalogue()[k]->card().by_press) << catalogue()[k]->card().name;
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+// The table of trials, kept on disk so that a run goes on where it stopped.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace hapsim::bench {
+
+struct Trial {
+  std::string truth, effect;  // as in Truth
+  double level = 0;           // misfit over noise
+  int seed = 0;
+  std::string verdict;  // of the model
+  std::string missing;  // effects called missing, in order, separated by spaces
+  std::string rivals;   // effects called indistinguishable
+  double seconds = 0;
+};
+
+std::vector<Trial> read_trials(const std::string& path);  // none when there is no file
+void append_trial(const std::string& path, const Trial& trial);
+
+// To standard output: outcomes by truth and level, what was named instead, rates, time.
+void print_summary(const std::vector<Trial>& trials);
+
+}  // namespace hapsim::bench

@@ -1,0 +1,21 @@
+// Whether the presses have offsets of their own.
+#pragma once
+
+#include "model/weights.h"
+
+namespace hapsim {
+
+struct OffsetTest {
+  double gain = 0;     // fall of the sum of squares, in units of the noise's variance
+  double p_value = 1;  // of offsets that differ as much, when only what varies within presses works
+};
+
+// Constants of each press against its residual (stacked, over the noise), beyond what a wrong
+// stiffness does in that press (gain_directions() of `forces`, stacked): that shows as an offset
+// too, but not where the force is small. The p-value is Fisher's F of the presses' means
+// over the means of ten stretches of each press; signs of whole presses cannot test offsets, which
+// are as likely with either sign.
+OffsetTest test_offsets(const Dataset& dataset, const Eigen::VectorXd& residual,
+                        const Eigen::VectorXd& forces);
+
+}  // namespace hapsim

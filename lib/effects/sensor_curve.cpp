@@ -1,0 +1,57 @@
+// A force sensor whose reading is not proportional to the force.
+#include <cmath>
+
+#include "effects/effects.h"
+
+namespace hapsim {
+namespace {
+
+class SensorCurve : public Effect {
+ public:
+  const EffectCard& card() const override {
+    static const EffectCard card{
+        .name = "sensor-curve",
+        .stage = Stage::kSensor,
+        .title = "the force sensor's reading is not proportional to the force",
+        .equation =
+            "f = f_true + c2 |f_true| f_true + c3 f_true^3 on each axis; x and y share theirs",
+        .source = "non-linearity of strain-gauge force sensors, second and third order",
+        .assumptions = "odd in the force: pulling reads as pressing; no hysteresis",
+        .parameters = {{"c2", "1/N", "second order, z axis", 0, 0, -10, 10, 0.02, false},
+                       {"c3", "1/N^2", "third order, z axis", 0, 0, -10, 10, 0.02, false},
+                       {"d2", "1/N", "second order, x and y axes", 0, 0, -10, 10, 0.02, false},
+                       {"d3", "1/N^2", "third order, x and y axes", 0, 0, -10, 10, 0.02, false}},
+        .signature = "an error that follows the force, whatever place, depth or direction made it",
+        .confounders = {"hyperelastic", "tip", "deadband"},
+        .separated_by =
+            "calibration weights up to the largest force; the same force at a stiff and at a soft "
+            "place"};
+    return card;
+  }
+
+  void apply(const PressView& press, const Values& values, Signal& signal) const override {
+    for (int k = 0; k < 3; ++k) {
+      const auto& names = card().parameters;
+      const ParameterValue& second = find_value(values, names[k == 2 ? 0 : 2].name);
+      const ParameterValue& third = find_value(values, names[k == 2 ? 1 : 3].name);
+      for (std::size_t i = 0; i < press.size(); ++i) {
+        const Eigen::Index row = 3 * static_cast<Eigen::Index>(i) + k;
+        const double f = signal.f[row], size = std::abs(f);
+        signal.f[row] += second.value * size * f + third.value * f * f * f;
+        if (signal.df.cols() == 0) continue;
+        signal.df.row(row) *= 1 + 2 * second.value * size + 3 * third.value * f * f;
+        if (second.column >= 0) signal.df(row, second.column) += size * f;
+        if (third.column >= 0) signal.df(row, third.column) += f * f * f;
+      }
+    }
+  }
+};
+
+}  // namespace
+
+const Effect& sensor_curve_effect() {
+  static const SensorCurve effect;
+  return effect;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,77 @@
+// Stress softening: the first press to a depth is stiffer than those after it.
+#include <cmath>
+
+#include "effects/effects.h"
+
+namespace hapsim {
+namespace {
+
+class Softening : public Effect {
+ public:
+  const EffectCard& card() const override {
+    static const EffectCard card{
+        .name = "softening",
+        .stage = Stage::kBody,
+        .title = "the material is softer where it was pressed before",
+        .equation =
+            "f = f_before (1 - s (1 - (q/q_max)^m)), q the depth, q_max the deepest so far at this "
+            "place; on new depths q = q_max and nothing is lost",
+        .source =
+            "Mullins effect in the manner of Ogden and Roxburgh, Proc. R. Soc. A 455 (1999), with "
+            "the depth for the energy",
+        .assumptions =
+            "no recovery between presses unless the metadata say 'recovery: full'; places do not "
+            "soften each other; presses come in the order of the recording",
+        .parameters = {{"s", "1", "share of the stiffness lost well below the deepest press", 0,
+                        0.2, 0, 0.95, 0.2, false},
+                       {"m", "1", "how sharply the loss sets in", 2, 2, 0.2, 30, 2, true}},
+        .needs_repeats = true,
+        .signature = "too stiff in all presses after the first at a place, and on the way out",
+        .confounders = {"viscoelastic", "temperature", "sensor-drift", "backlash", "adhesion"},
+        .separated_by =
+            "the same place pressed three times to one depth, then deeper, all at one speed"};
+    return card;
+  }
+
+  void apply(const PressView& press, const Values& values, Signal& signal) const override {
+    const ParameterValue& s = find_value(values, "s");
+    const ParameterValue& m = find_value(values, "m");
+    const bool through = press.du.cols() > 0 && signal.df.cols() > 0;
+    double most = press.past_depth;
+    Eigen::RowVectorXd dmost = Eigen::RowVectorXd::Zero(press.du.cols()), dq = dmost;
+    for (std::size_t i = 0; i < press.size(); ++i) {
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+      const double q = press.u[i].norm();
+      if (press.in_air[i] || q <= 0 || press.u[i].dot(press.normal) > 0) continue;
+      if (through) dq = press.u[i].transpose() / q * press.du.middleRows(row, 3);
+      if (q >= most) {
+        most = q;
+        dmost = dq;
+        continue;
+      }
+      const double x = q / most, power = std::pow(x, m.value);
+      const double factor = 1 - s.value * (1 - power);
+      const Eigen::Vector3d f = signal.f.segment<3>(row);
+      signal.f.segment<3>(row) *= factor;
+      if (signal.df.cols() == 0) continue;
+      signal.df.middleRows(row, 3) *= factor;
+      if (s.column >= 0) signal.df.block<3, 1>(row, s.column) -= (1 - power) * f;
+      if (m.column >= 0) signal.df.block<3, 1>(row, m.column) += s.value * power * std::log(x) * f;
+      if (through)
+        signal.df.middleRows(row, 3) += s.value * m.value * power / q * f * (dq - x * dmost);
+    }
+  }
+
+  std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
+    return {{0.15, 1}, {0.15, 6}};
+  }
+};
+
+}  // namespace
+
+const Effect& softening_effect() {
+  static const Softening effect;
+  return effect;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,39 @@
+// Temperature and softening against their closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "one_press.h"
+
+namespace hapsim {
+namespace {
+
+using test::forces_after;
+using test::kStiffness;
+
+TEST(Temperature, HalvesTheStiffnessOverItsHalvingRange) {
+  PressView press = test::press_to({1e-3, 1e-3, 1e-3});
+  press.temperature = {20, 30, 10};
+  const auto f = forces_after(temperature_effect(), press,
+                              {{0, "beta", std::log(2.0) / 10}, {0, "T_ref", 20}});
+  EXPECT_NEAR(f[0].z(), 0.2, 1e-12);
+  EXPECT_NEAR(f[1].z(), 0.1, 1e-12);
+  EXPECT_NEAR(f[2].z(), 0.4, 1e-12);
+}
+
+TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
+  PressView press = test::press_to({1e-3, 2e-3, 1e-3, 2e-3, 3e-3});
+  const Values values{{0, "s", 0.3}, {0, "m", 2}};
+  const auto first = forces_after(softening_effect(), press, values);
+  const double fresh[] = {0.2, 0.4, 0.2 * (1 - 0.3 * 0.75), 0.4, 0.6};
+  press.past_depth = 4e-3;
+  const auto again = forces_after(softening_effect(), press, values);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double x = press.u[i].norm() / 4e-3;
+    EXPECT_NEAR(first[i].z(), fresh[i], 1e-12) << i;
+    EXPECT_NEAR(again[i].z(), kStiffness * press.u[i].norm() * (1 - 0.3 * (1 - x * x)), 1e-12) << i;
+  }
+}
+
+}  // namespace
+}  // namespace hapsim

@@ -1,0 +1,71 @@
+// Effects of the force sensor against their closed forms.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "one_press.h"
+
+namespace hapsim {
+namespace {
+
+using test::forces_after;
+
+// Forces of 0.2 N and more along chosen axes.
+const std::vector<Vec3> kPath{{0, 0, -1e-3}, {-2e-3, 0, 0}, {0, 1e-3, -2e-3}};
+
+TEST(SensorRotation, AQuarterTurnExchangesAxes) {
+  const auto f = forces_after(sensor_rotation_effect(), test::press_along(kPath),
+                              {{0, "rx", 0}, {0, "ry", M_PI / 2}, {0, "rz", 0}});
+  EXPECT_NEAR((f[0] - Vec3(0.2, 0, 0)).norm(), 0, 1e-12);   // z becomes x
+  EXPECT_NEAR((f[1] - Vec3(0, 0, -0.4)).norm(), 0, 1e-12);  // x becomes -z
+}
+
+TEST(SensorRotation, TurnsAboutItsVectorAndKeepsTheSize) {
+  const Vec3 r(0.2, -0.1, 0.4);
+  const auto f = forces_after(sensor_rotation_effect(), test::press_along({-1e-3 * r, kPath[2]}),
+                              {{0, "rx", r.x()}, {0, "ry", r.y()}, {0, "rz", r.z()}});
+  EXPECT_NEAR((f[0] - 0.2 * r).norm(), 0, 1e-12);
+  EXPECT_NEAR(f[1].norm(), test::kStiffness * kPath[2].norm(), 1e-12);
+}
+
+TEST(SensorGain, ScalesOneAxis) {
+  const auto f =
+      forces_after(sensor_gain_effect(), test::press_along(kPath), {{0, "gx", 1.5}, {0, "gy", 1}});
+  EXPECT_NEAR((f[1] - Vec3(0.6, 0, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[2] - Vec3(0, -0.2, 0.4)).norm(), 0, 1e-12);
+}
+
+TEST(SensorCurve, BendsEachAxisOddly) {
+  const Values values{{0, "c2", 0.1}, {0, "c3", 0.5}, {0, "d2", -0.2}, {0, "d3", 0}};
+  const auto f = forces_after(sensor_curve_effect(),
+                              test::press_along({{-2e-3, 0, -1e-3}, {2e-3, 0, 1e-3}}), values);
+  EXPECT_NEAR(f[0].x(), 0.4 - 0.2 * 0.16, 1e-12);
+  EXPECT_NEAR(f[0].z(), 0.2 + 0.1 * 0.04 + 0.5 * 0.008, 1e-12);
+  EXPECT_NEAR((f[1] + f[0]).norm(), 0, 1e-12);
+}
+
+TEST(Deadband, IsBlindBelowAndTrueOrShortAbove) {
+  const PressView press = test::press_to({0.1e-3, 0.39e-3, 0.61e-3, 2e-3, -2e-3});
+  const auto truth = forces_after(deadband_effect(), press, {{0, "d", 0.1}, {0, "k", 0}});
+  const auto from_threshold = forces_after(deadband_effect(), press, {{0, "d", 0.1}, {0, "k", 1}});
+  const double depths[] = {0, 0, 0.61e-3, 2e-3, -2e-3};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const double f = test::kStiffness * depths[i];
+    EXPECT_NEAR(truth[i].z(), f, 1e-12) << i;
+    EXPECT_NEAR(from_threshold[i].z(), f - (f > 0 ? 0.1 : f < 0 ? -0.1 : 0), 1e-12) << i;
+  }
+}
+
+TEST(Tare, IsTheOffsetOfItsOwnPress) {
+  PressView press = test::press_along(kPath);
+  const Values values{{0, "bx1", 1}, {0, "by1", 2}, {0, "bz1", 3},
+                      {0, "bx2", 4}, {0, "by2", 5}, {0, "bz2", 6}};
+  press.number = 2;
+  const auto f = forces_after(tare_effect(), press, values);
+  EXPECT_NEAR((f[1] - Vec3(4.4, 5, 6)).norm(), 0, 1e-12);
+  press.number = 3;  // of another recording
+  EXPECT_NEAR((forces_after(tare_effect(), press, values)[1] - Vec3(0.4, 0, 0)).norm(), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace hapsim
