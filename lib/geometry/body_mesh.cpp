@@ -134,7 +134,7 @@ TetMesh make_body_mesh(const Surface& surface, const BodyOptions& options, const
   const TetgenOptions tetgen = tetgen_options(options);
   TetgenResult result = options.preserve_surface ? run_checked(input, tetgen, surface, where)
                                                  : run_tetgen(input, tetgen, where);
-  colour_regions(result.mesh, inner);
+  colour_regions(result.mesh, inner, options.inner);
   TetMesh mesh = options.order == 2 ? to_second_order(result.mesh) : std::move(result.mesh);
   std::vector<std::uint8_t> held;
   held.reserve(result.face_marker.size());

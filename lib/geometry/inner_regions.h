@@ -14,11 +14,12 @@ struct InnerParts {
   std::vector<SignedDistance> distance;  // one an inner region
 };
 
-// Error(kBadInput) when an inner surface is not closed, cuts itself, or lies outside of `outer`.
+// Error(kBadInput) when an inner surface is not closed or cuts itself.
 InnerParts inner_parts(const Surface& outer, const std::vector<InnerRegion>& inner,
                        const std::string& where, std::vector<std::string>& notes);
 
 // Each tetrahedron whose centre lies in the k-th inner region gets the number k + 1; the last wins.
-void colour_regions(TetMesh& mesh, const InnerParts& parts);
+// Error(kBadInput) when a region has none.
+void colour_regions(TetMesh& mesh, const InnerParts& parts, const std::vector<InnerRegion>& inner);
 
 }  // namespace hapsim

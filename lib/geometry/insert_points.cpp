@@ -9,6 +9,7 @@
 namespace hapsim {
 namespace {
 
+constexpr double kSame = 0.1;         // of an edge length: points this close share a vertex
 constexpr double kBeside = 0.3;       // of an edge length: that vertex is taken
 constexpr double kOnEdge = 0.1;       // of a triangle's height: its edge is divided
 constexpr double kLeastCosine = 0.7;  // between a face's normals before and after
@@ -23,6 +24,12 @@ class Inserter {
       : faces_(classed.surface.faces), x_(classed.surface.vertices), class_(classed.face_class) {}
 
   int insert(const Vec3& p, const SurfacePoint& at) {
+    taken_.push_back(place(p, at));
+    return taken_.back();
+  }
+
+ private:
+  int place(const Vec3& p, const SurfacePoint& at) {
     const Triangle f = faces_[at.face];
     double shortest = 1e300;
     for (int k = 0; k < 3; ++k)
@@ -31,7 +38,9 @@ class Inserter {
     for (const int v : f)
       if ((x_[v] - at.point).norm() < (x_[beside] - at.point).norm()) beside = v;
     const double gap = (x_[beside] - at.point).norm();
-    if (gap < kBeside * shortest && move(beside, p)) return beside;
+    const bool taken = std::find(taken_.begin(), taken_.end(), beside) != taken_.end();
+    if (taken && gap < kSame * shortest) return beside;
+    if (!taken && gap < kBeside * shortest && move(beside, p)) return beside;
     if (gap < 1e-3 * shortest) return beside;
 
     const double area = normal(x_[f[0]], x_[f[1]], x_[f[2]]).norm();
@@ -50,7 +59,6 @@ class Inserter {
     return v;
   }
 
- private:
   int add(const Vec3& p) {
     x_.push_back(p);
     return static_cast<int>(x_.size()) - 1;
@@ -107,6 +115,7 @@ class Inserter {
   std::vector<Triangle>& faces_;
   std::vector<Vec3>& x_;
   std::vector<std::uint8_t>& class_;
+  std::vector<int> taken_;  // by points before
 };
 
 }  // namespace

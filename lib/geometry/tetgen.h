@@ -23,10 +23,8 @@ struct TetgenOptions {
                              // no node is added but where the surface cannot be kept otherwise
   double min_dihedral = 0;   // [deg], wished; 0 to 18
   double max_volume = 0;     // of one tetrahedron [m^3]; 0: no bound
-  bool preserve_surface = true;  // no new node on the surface
-  double time_limit = 120;       // [s]
-  // Wished edge length about a place inside [m]; called in the child. Needs radius_edge.
-  std::function<double(const Vec3&)> size;
+  bool preserve_surface = true;     // no new node on the surface
+  double time_limit = 120;          // [s]
   std::function<void()> heartbeat;  // called some times a second while TetGen runs
 };
 

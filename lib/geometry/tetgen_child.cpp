@@ -33,9 +33,6 @@ struct Head {
 
 // Exit status of a child that TetGen left by throwing its number n: kThrew + n.
 constexpr int kThrew = 10;
-// A tetrahedron is split when its longest edge exceeds this many wished edge lengths; edges then
-// have the wished length on average.
-constexpr double kLongest = 1.7;
 constexpr auto kBeat = std::chrono::milliseconds(200);
 
 std::string switches(const TetgenInput& input, const TetgenOptions& options) {
@@ -97,19 +94,6 @@ void fill_facets(tetgenio& io, const TetgenInput& input) {
   }
 }
 
-// TetGen's callback takes no data of ours; the child has one run and one thread.
-const TetgenOptions* child_options = nullptr;
-
-bool too_large(REAL* a, REAL* b, REAL* c, REAL* d, REAL*, REAL) {
-  const std::array<Vec3, 4> p{Vec3(a[0], a[1], a[2]), Vec3(b[0], b[1], b[2]),
-                              Vec3(c[0], c[1], c[2]), Vec3(d[0], d[1], d[2])};
-  double longest = 0;
-  for (int i = 0; i < 4; ++i)
-    for (int k = i + 1; k < 4; ++k) longest = std::max(longest, (p[i] - p[k]).squaredNorm());
-  const double limit = kLongest * child_options->size(0.25 * (p[0] + p[1] + p[2] + p[3]));
-  return longest > limit * limit;
-}
-
 bool write_all(int file, const void* data, std::size_t count) {
   const char* p = static_cast<const char*>(data);
   while (count > 0) {
@@ -153,10 +137,6 @@ bool send(int file, const tetgenio& out) {
       tetgenio in;
       fill_points(in, input);
       fill_facets(in, input);
-      if (options.size) {
-        child_options = &options;
-        in.tetunsuitable = too_large;
-      }
       std::string text = switches(input, options);
       tetrahedralize(text.data(), &in, &out);
     }
