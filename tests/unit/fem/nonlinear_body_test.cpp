@@ -10,6 +10,7 @@
 #include "fem/elastic_body.h"
 #include "fem/hooke_law.h"
 #include "fem/hyperelastic_law.h"
+#include "linalg/conjugate_gradients.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {
@@ -293,6 +294,32 @@ TEST(NonlinearBody, FoundationCarriesTheBody) {
     const auto d = body.linearise();
     EXPECT_NEAR(d.by_foundation(2, 0), -area * 0.002, 1e-3 * area * 0.002);
     EXPECT_NEAR(d.by_foundation(0, 1), area * 0.001, 1e-3 * area * 0.002);
+  }
+}
+
+// The stiffness of a body by conjugate gradients, nearly incompressible included.
+TEST(NonlinearBody, StiffnessBySteps) {
+  for (const double nu : {0.3, 0.49}) {
+    const TetMesh mesh = test::block_mesh({0.04, 0.05, 0.03}, 5, 5, 5, 2, 0.15);
+    BodyModel model{&mesh, {isotropic_law(1e4, nu)}};
+    model.dilatation = Dilatation::kElement;
+    BodyAssembly assembly(model);
+    std::vector<char> free;
+    for (const auto f : mesh.fixed) free.push_back(f == 0);
+    NodeSystem system(free, assembly.cliques());
+    std::vector<BodyAssembly::CliqueMatrix> kept;
+    ASSERT_TRUE(
+        assembly.set_state(VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()))));
+    assembly.tangent(system, std::vector<char>(mesh.nodes.size(), 0), kept);
+    ConjugateGradients cg;
+    ASSERT_TRUE(cg.prepare(system.matrix()));
+    const VectorXd b = VectorXd::Ones(system.unknowns());
+    VectorXd x = VectorXd::Zero(b.size());
+    const IterationReport report = cg.solve(system.matrix(), b, x, 1e-9);
+    EXPECT_TRUE(report.converged);
+    std::printf("nu %.2f: %d steps for %d unknowns, shift %.3g\n", nu, report.iterations,
+                system.unknowns(), cg.shift());
+    EXPECT_LT(report.iterations, nu < 0.4 ? 150 : 400);
   }
 }
 
