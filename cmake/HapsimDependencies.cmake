@@ -11,7 +11,18 @@ pkg_check_modules(KDL REQUIRED IMPORTED_TARGET orocos-kdl)
 pkg_check_modules(URDF REQUIRED IMPORTED_TARGET urdfdom)
 pkg_check_modules(CONSOLE_BRIDGE REQUIRED IMPORTED_TARGET console_bridge)
 
+# Volumes: the CMake files of Teem and GDCM ask for more than is linked here.
 find_package(ZLIB REQUIRED)
+find_library(TEEM_LIBRARY teem REQUIRED)
+find_path(TEEM_INCLUDE_DIR teem/nrrd.h REQUIRED)
+find_library(NIFTI_LIBRARY nifti2 REQUIRED)
+find_path(NIFTI_INCLUDE_DIR nifti/nifti2_io.h REQUIRED)
+find_path(GDCM_INCLUDE_DIR gdcmImageReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)
+foreach(part MSFF DSED DICT Common)
+  find_library(GDCM_${part}_LIBRARY gdcm${part} REQUIRED)
+  list(APPEND GDCM_LIBRARIES ${GDCM_${part}_LIBRARY})
+endforeach()
+
 find_library(TET_LIBRARY tet REQUIRED)
 find_path(TET_INCLUDE_DIR tetgen.h REQUIRED)
 

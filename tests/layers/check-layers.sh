@@ -29,7 +29,7 @@ CGAL/: geometry
 tetgen\.h: geometry
 (suitesparse/)?cholmod\.h|Eigen/CholmodSupport: linalg
 (coin/|coin-or/)?Ip[A-Z][A-Za-z]*\.hpp: estimate
-kdl/|urdf_|console_bridge/: scan
+kdl/|urdf_|console_bridge/|gdcm|nifti/|teem/: scan
 CLI/: cli
 "
 

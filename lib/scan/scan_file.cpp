@@ -1,0 +1,150 @@
+#include "scan/scan_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "io/ply.h"
+#include "io/stl.h"
+#include "scan/pcd.h"
+#include "scan/sections.h"
+#include "scan/table_columns.h"
+#include "scan/volume.h"
+
+namespace hapsim {
+namespace {
+
+bool looks_like_stl(const std::string& bytes) {
+  if (bytes.size() >= 84) {
+    std::uint32_t count = 0;
+    std::copy_n(bytes.data() + 80, 4, reinterpret_cast<char*>(&count));
+    if (bytes.size() == 84 + 50 * static_cast<std::size_t>(count)) return true;
+  }
+  return bytes.starts_with("solid ") || bytes.starts_with("solid\n");
+}
+
+// The first row holds numbers between spaces, tabs, commas or semicolons.
+bool looks_plain(const std::string& bytes) {
+  std::size_t at = 0;
+  while (at < bytes.size()) {
+    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
+    const std::string line = bytes.substr(at, std::min<std::size_t>(end - at, 200));
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string::npos && line[first] != '#') {
+      return std::string("+-.0123456789").find(line[first]) != std::string::npos;
+    }
+    at = end + 1;
+  }
+  return false;
+}
+
+PointCloud corners(const std::string& bytes, const std::string& name) {
+  PointCloud cloud;
+  for (const auto& triangle : parse_stl(bytes, name)) {
+    cloud.points.insert(cloud.points.end(), triangle.begin(), triangle.end());
+  }
+  return cloud;  // equal corners are dropped with the doubles
+}
+
+void take_ply_zones(const std::string& bytes, const std::string& name, Scan& scan) {
+  const PlyFile file = parse_ply(bytes, name);
+  const PlyElement* vertex = file.find("vertex");
+  const PlyProperty* zone = vertex == nullptr ? nullptr : vertex->find("zone");
+  if (zone == nullptr || zone->is_list) return;
+  for (const double z : zone->values) {
+    const std::string text = format_number(z);
+    const auto at = std::find(scan.zone_names.begin(), scan.zone_names.end(), text);
+    scan.zone.push_back(static_cast<int>(at - scan.zone_names.begin()));
+    if (at == scan.zone_names.end()) scan.zone_names.push_back(text);
+  }
+}
+
+Scan table_scan(const CsvTable& table, const ScanFileOptions& options) {
+  if (options.robot != nullptr) return robot_scan(table, *options.robot, options.beam);
+  if (options.sections || !find_column(table, {"section", "slice"}).empty()) {
+    return sections_scan(read_sections(table, options.unit, options.section_distance));
+  }
+  Scan scan;
+  scan.cloud.points = vector_columns(table, "x", "y", "z");
+  if (table.find("nx") >= 0 && table.find("ny") >= 0 && table.find("nz") >= 0) {
+    scan.cloud.normals = vector_columns(table, "nx", "ny", "nz");
+  }
+  for (Vec3& p : scan.cloud.points) p *= options.unit;
+  std::vector<int> all(table.rows());
+  std::iota(all.begin(), all.end(), 0);
+  take_zones(table, all, scan);
+  take_touch_force(table, all, scan);
+  return scan;
+}
+
+}  // namespace
+
+Scan read_scan(Input& input, const ScanFileOptions& options) {
+  const std::string name = input.name();
+  std::string bytes = input.read_all();
+  Scan scan;
+  bool scaled = false;
+  if (looks_like_volume(bytes)) fail_no_threshold(read_volume(bytes, name), name);
+  if (looks_like_pcd(bytes)) {
+    std::size_t lost = 0;
+    scan.cloud = read_pcd(bytes, name, lost);
+    if (lost > 0) scan.notes.push_back(fmt::format("{} points without a place left out", lost));
+  } else if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
+    Input again = Input::from_bytes(bytes, name);
+    scan.cloud = read_points(again);
+    take_ply_zones(bytes, name, scan);
+  } else if (looks_like_stl(bytes)) {
+    scan.cloud = corners(bytes, name);
+  } else {
+    const bool plain = options.robot == nullptr && looks_plain(bytes);
+    Input again = Input::from_bytes(std::move(bytes), name);
+    if (plain) {
+      scan.cloud = read_points(again);
+    } else {
+      scan = table_scan(read_csv(again), options);
+      scaled = true;
+    }
+  }
+  if (scan.cloud.points.empty()) fail_input(name, "there are no points", "give rows of x,y,z");
+  if (!scaled) {
+    for (Vec3& p : scan.cloud.points) p *= options.unit;
+  }
+  accept_normals(scan.cloud);
+  return scan;
+}
+
+void check_extent(const std::vector<Vec3>& points, const std::string& unit,
+                  const std::string& name) {
+  double size = 0;
+  std::vector<double> along(points.size());
+  const auto cut = static_cast<std::size_t>(0.02 * static_cast<double>(points.size()));
+  for (int k = 0; k < 3 && !points.empty(); ++k) {
+    for (std::size_t i = 0; i < points.size(); ++i) along[i] = points[i][k];
+    std::sort(along.begin(), along.end());
+    size = std::max(size, along[along.size() - 1 - cut] - along[cut]);
+  }
+  if (size > 5) {
+    fail_input(name, fmt::format("the scan is {:.3g} m wide when read in {}", size, unit),
+               "give its unit, as --unit mm");
+  }
+  if (size < 1e-3 && size > 0) {
+    fail_input(name, fmt::format("the scan is {:.3g} mm wide when read in {}", 1e3 * size, unit),
+               "give its unit, as --unit m");
+  }
+}
+
+void accept_normals(PointCloud& cloud) {
+  for (Vec3& n : cloud.normals) {
+    const double length = n.norm();
+    if (!(length > 1e-6 && std::isfinite(length))) {
+      cloud.normals.clear();
+      return;
+    }
+    n /= length;
+  }
+}
+
+}  // namespace hapsim
