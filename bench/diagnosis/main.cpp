@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 #include <set>
 #include <sstream>
@@ -106,6 +107,12 @@ Trial run(const Truth& truth, Pair& pair, double level, int seed) {
   const Diagnosis d = diagnose(model, w, {});
   trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   trial.verdict = verdict_name(d.verdict);
+  if (std::getenv("VERBOSE") != nullptr)
+    for (const Finding& finding : d.findings)
+      fmt::print(stderr, "{} {:g} {}: {} {}, gain {:.1f}, p {:.3f}, unseen {:.4g} -> {:.4g}; {}\n",
+                 truth.name, level, seed, finding.effect, verdict_name(finding.verdict),
+                 finding.criterion_gain, finding.p_value, finding.held_out_now,
+                 finding.held_out_after, finding.evidence);
   for (const Finding& finding : d.findings) {
     std::string* list = finding.verdict == Verdict::kMissing             ? &trial.missing
                         : finding.verdict == Verdict::kIndistinguishable ? &trial.rivals

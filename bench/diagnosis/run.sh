@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # run.sh BUILD OUT [SEEDS [LEVELS [TRUTH...]]]: trials of the diagnosis on the shipped phantom. The
 # results in OUT/trials.csv are gone on with when it is run again; delete the file to begin anew.
+# VERBOSE=1 prints what each diagnosis found.
 set -euo pipefail
 build=$1 out=$2 seeds=${3:-3} levels=${4:-0.5,1,3}
 shift $(($# < 4 ? $# : 4))

@@ -85,7 +85,7 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s, 25};
   }));
   t.push_back(own_form("softening", "softening", 0.9, [](double s) {
-    return std::vector<double>{s, 3};
+    return std::vector<double>{s, 3, 1};
   }));
   t.push_back(
       own_form("backlash", "backlash", 3e-3, [](double s) { return std::vector<double>{s}; }));
@@ -107,7 +107,7 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{1 / (1 + s), 1 / (1 + s)};
   }));
   t.push_back(own_form("sensor-curve", "sensor-curve", 1, [](double s) {
-    return std::vector<double>{-s, 0, -s, 0};
+    return std::vector<double>{-s, 0, -s, 0, 0};
   }));
   t.push_back(
       own_form("sensor-lag", "sensor-lag", 1, [](double s) { return std::vector<double>{s}; }));

@@ -14,8 +14,8 @@ class Softening : public Effect {
         .stage = Stage::kBody,
         .title = "the material is softer where it was pressed before",
         .equation =
-            "f = f_before (1 - s (1 - (q/q_max)^m)), q the depth, q_max the deepest so far at this "
-            "place; on new depths q = q_max and nothing is lost",
+            "f = f_before (1 - s ((1 - c) min(1, (q_past/q)^2) + c (1 - (q/q_max)^m))), q the "
+            "depth, q_past the deepest of earlier presses at this place, q_max the deepest so far",
         .source =
             "Mullins effect in the manner of Ogden and Roxburgh, Proc. R. Soc. A 455 (1999), with "
             "the depth for the energy",
@@ -24,7 +24,11 @@ class Softening : public Effect {
             "soften each other; presses come in the order of the recording",
         .parameters = {{"s", "1", "share of the stiffness lost well below the deepest press", 0,
                         0.2, 0, 0.95, 0.2, false},
-                       {"m", "1", "how sharply the loss sets in", 2, 2, 0.2, 30, 2, true}},
+                       {"m", "1", "how sharply the loss sets in", 2, 2, 0.2, 30, 2, true},
+                       {"c", "1",
+                        "share that acts below the deepest point, at once: 1 Mullins effect, 0 all "
+                        "presses after the first alike",
+                        1, 0.9, 0, 1, 0.3, false}},
         .needs_repeats = true,
         .signature = "too stiff in all presses after the first at a place, and on the way out",
         .confounders = {"viscoelastic", "temperature", "sensor-drift", "backlash", "adhesion"},
@@ -36,8 +40,10 @@ class Softening : public Effect {
   void apply(const PressView& press, const Values& values, Signal& signal) const override {
     const ParameterValue& s = find_value(values, "s");
     const ParameterValue& m = find_value(values, "m");
+    const ParameterValue& c = find_value(values, "c");
     const bool through = press.du.cols() > 0 && signal.df.cols() > 0;
-    double most = press.past_depth;
+    const double past = press.past_depth;
+    double most = past;
     Eigen::RowVectorXd dmost = Eigen::RowVectorXd::Zero(press.du.cols()), dq = dmost;
     for (std::size_t i = 0; i < press.size(); ++i) {
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
@@ -47,23 +53,27 @@ class Softening : public Effect {
       if (q >= most) {
         most = q;
         dmost = dq;
-        continue;
       }
-      const double x = q / most, power = std::pow(x, m.value);
-      const double factor = 1 - s.value * (1 - power);
+      const double x = q / most, power = std::pow(x, m.value), now = 1 - power;
+      const double before = q > past ? past * past / (q * q) : 1;
+      const double share = (1 - c.value) * before + c.value * now;
       const Eigen::Vector3d f = signal.f.segment<3>(row);
-      signal.f.segment<3>(row) *= factor;
+      signal.f.segment<3>(row) *= 1 - s.value * share;
       if (signal.df.cols() == 0) continue;
-      signal.df.middleRows(row, 3) *= factor;
-      if (s.column >= 0) signal.df.block<3, 1>(row, s.column) -= (1 - power) * f;
-      if (m.column >= 0) signal.df.block<3, 1>(row, m.column) += s.value * power * std::log(x) * f;
-      if (through)
-        signal.df.middleRows(row, 3) += s.value * m.value * power / q * f * (dq - x * dmost);
+      signal.df.middleRows(row, 3) *= 1 - s.value * share;
+      if (s.column >= 0) signal.df.block<3, 1>(row, s.column) -= share * f;
+      if (c.column >= 0) signal.df.block<3, 1>(row, c.column) -= s.value * (now - before) * f;
+      if (m.column >= 0)
+        signal.df.block<3, 1>(row, m.column) += s.value * c.value * power * std::log(x) * f;
+      if (!through) continue;
+      Eigen::RowVectorXd dshare = -c.value * m.value * power / q * (dq - x * dmost);
+      if (q > past) dshare -= (1 - c.value) * 2 * before / q * dq;
+      signal.df.middleRows(row, 3) -= s.value * f * dshare;
     }
   }
 
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
-    return {{0.15, 1}, {0.15, 6}};
+    return {{0.15, 1, 0.9}, {0.15, 6, 0.9}, {0.15, 6, 0.05}};
   }
 };
 

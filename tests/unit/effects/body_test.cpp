@@ -23,7 +23,7 @@ TEST(Temperature, HalvesTheStiffnessOverItsHalvingRange) {
 
 TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3, 2e-3, 3e-3});
-  const Values values{{0, "s", 0.3}, {0, "m", 2}};
+  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 1}};
   const auto first = forces_after(softening_effect(), press, values);
   const double fresh[] = {0.2, 0.4, 0.2 * (1 - 0.3 * 0.75), 0.4, 0.6};
   press.past_depth = 4e-3;
@@ -32,6 +32,20 @@ TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
     const double x = press.u[i].norm() / 4e-3;
     EXPECT_NEAR(first[i].z(), fresh[i], 1e-12) << i;
     EXPECT_NEAR(again[i].z(), kStiffness * press.u[i].norm() * (1 - 0.3 * (1 - x * x)), 1e-12) << i;
+  }
+}
+
+TEST(Softening, MayTouchLaterPressesAlone) {
+  PressView press = test::press_to({1e-3, 2e-3, 1e-3, 3e-3});
+  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 0}};
+  const auto first = forces_after(softening_effect(), press, values);
+  press.past_depth = 2e-3;
+  const auto again = forces_after(softening_effect(), press, values);
+  const double factor[] = {0.7, 0.7, 0.7, 1 - 0.3 * 4 / 9};
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double f = kStiffness * press.u[i].norm();
+    EXPECT_NEAR(first[i].z(), f, 1e-12) << i;
+    EXPECT_NEAR(again[i].z(), f * factor[i], 1e-12) << i;
   }
 }
 
