@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "fem/surface_load.h"
+#include "fem/face_quadrature.h"
 
 namespace hapsim {
 
@@ -14,48 +14,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-// Integral of lambda_i N_b over a triangle of unit area.
-MatrixXd hat_mass(int order) {
-  if (order == 1) return (Eigen::Matrix3d::Ones() + Eigen::Matrix3d::Identity()) / 12;
-  MatrixXd m(3, 6);
-  m << 2, -1, -1, 8, 4, 8,  //
-      -1, 2, -1, 8, 8, 4,   //
-      -1, -1, 2, 4, 8, 8;
-  return m / 60;
-}
-
-// Seven points of degree 5 on a triangle (Radon, 1948): barycentric, weight.
-struct SurfacePoint7 {
-  std::array<double, 3> l;
-  double weight;
-};
-const std::vector<SurfacePoint7>& radon() {
-  static const std::vector<SurfacePoint7> rule = [] {
-    const double r = std::sqrt(15.0), third = 1.0 / 3;
-    std::vector<SurfacePoint7> points{{{third, third, third}, 9.0 / 40}};
-    for (const double sign : {-1.0, 1.0}) {
-      const double a = (6 + sign * r) / 21, w = (155 + sign * r) / 1200;
-      for (int k = 0; k < 3; ++k) {
-        SurfacePoint7 p{{a, a, a}, w};
-        p.l[static_cast<std::size_t>(k)] = 1 - 2 * a;
-        points.push_back(p);
-      }
-    }
-    return points;
-  }();
-  return rule;
-}
-
-}  // namespace
-
 struct SphereContact::Impl {
   BodyAssembly assembly;
   NodeSystem system;
   Vec3 point, normal;
   const TetMesh* mesh;
   std::vector<Triangle> faces;
+  struct SurfacePoint {
+    std::array<int, 3> hat;
+    std::array<double, 3> corner;  // values of the hats
+    double area, r, z;             // share of the area; from the axis; above `point`
+  };
+  std::vector<SurfacePoint> points;
   std::vector<int> hat;   // one a node, -1: none
   std::vector<char> rim;  // one a hat, 1: on the boundary of the prepared surface
   VectorXd area, moment;  // integrals of each hat, and of it times r^2 about the axis
@@ -100,18 +70,21 @@ struct SphereContact::Impl {
     const Index hats = static_cast<Index>(rim.size());
     MatrixXd load = MatrixXd::Zero(3 * static_cast<Index>(mesh->nodes.size()), hats);
     area = moment = VectorXd::Zero(hats);
-    const MatrixXd mass = hat_mass(mesh->order);
-    for (const std::vector<int>& f : face_nodes(*mesh, faces)) {
-      const double size = face_area(f[0], f[1], f[2]);
-      for (const SurfacePoint7& q : radon())
-        for (std::size_t i = 0; i < 3; ++i)
-          moment[hat[f[i]]] += size * q.weight * q.l[i] * place(f, q).r * place(f, q).r;
-      for (int i = 0; i < 3; ++i) {
-        area[hat[f[i]]] += size / 3;
-        for (std::size_t b = 0; b < f.size(); ++b)
-          load.block<3, 1>(3 * f[b], hat[f[i]]) -= size * mass(i, static_cast<Index>(b)) * normal;
+    for (const std::vector<int>& f : face_nodes(*mesh, faces))
+      for (const FacePoint& p : face_points(*mesh, f)) {
+        const Vec3 x = p.position - point;
+        SurfacePoint s{{}, p.corner, p.area.norm(), 0, x.dot(normal)};
+        s.r = (x - s.z * normal).norm();
+        for (std::size_t i = 0; i < 3; ++i) {
+          const int h = s.hat[i] = hat[f[i]];
+          const double share = s.area * s.corner[i];
+          area[h] += share;
+          moment[h] += share * s.r * s.r;
+          for (std::size_t b = 0; b < f.size(); ++b)
+            load.block<3, 1>(3 * f[b], h) -= share * p.shape[b] * normal;
+        }
+        points.push_back(s);
       }
-    }
     assembly.set_state(VectorXd::Zero(load.rows()));
     std::vector<BodyAssembly::CliqueMatrix> none;
     system.clear();
@@ -124,36 +97,18 @@ struct SphereContact::Impl {
     compliance = (0.5 * (compliance + compliance.transpose())).eval();
   }
 
-  struct Place {
-    double r, z;  // from the axis, above `point`
-  };
-  template <class Face>
-  Place place(const Face& face, const SurfacePoint7& q) const {
-    Vec3 x = -point;
-    for (std::size_t i = 0; i < 3; ++i) x += q.l[i] * mesh->nodes[face[i]];
-    const double z = x.dot(normal);
-    return {(x - z * normal).norm(), z};
-  }
-  double face_area(int a, int b, int c) const {
-    return 0.5 * (mesh->nodes[b] - mesh->nodes[a]).cross(mesh->nodes[c] - mesh->nodes[a]).norm();
-  }
-
   // Integral over each hat of the undeformed gap to a tip that just touches `point`, and of its
   // derivative by the tip's radius. Beyond the tip's equator the gap is that of its slope there.
   void gaps(double R, VectorXd& gap, VectorXd& by_radius) const {
     gap = by_radius = VectorXd::Zero(area.size());
-    for (const Triangle& f : faces) {
-      const double size = face_area(f[0], f[1], f[2]);
-      for (const SurfacePoint7& q : radon()) {
-        const auto [r, z] = place(f, q);
-        const double edge = 0.99 * R;
-        const double inside = std::min(r, edge), root = std::sqrt(R * R - inside * inside);
-        const double height = R - root + (r - inside) * inside / root;
-        const double slope = r < edge ? 1 - R / root : 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-          gap[hat[f[i]]] += size * q.weight * q.l[i] * (height - z);
-          by_radius[hat[f[i]]] += size * q.weight * q.l[i] * slope;
-        }
+    const double edge = 0.99 * R;
+    for (const SurfacePoint& p : points) {
+      const double inside = std::min(p.r, edge), root = std::sqrt(R * R - inside * inside);
+      const double height = R - root + (p.r - inside) * inside / root;
+      const double slope = p.r < edge ? 1 - R / root : 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        gap[p.hat[i]] += p.area * p.corner[i] * (height - p.z);
+        by_radius[p.hat[i]] += p.area * p.corner[i] * slope;
       }
     }
   }

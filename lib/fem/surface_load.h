@@ -17,8 +17,4 @@ Eigen::VectorXd traction_load(const TetMesh& mesh, const std::vector<Triangle>& 
 Eigen::VectorXd pressure_load(const TetMesh& mesh, const std::vector<Triangle>& faces,
                               double pressure);
 
-// The nodes of a boundary face: its corners a, b, c and, of second order, the middles of ab, bc,
-// ca.
-std::vector<std::vector<int>> face_nodes(const TetMesh& mesh, const std::vector<Triangle>& faces);
-
 }  // namespace hapsim
