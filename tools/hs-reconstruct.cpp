@@ -1,11 +1,14 @@
 // hs-reconstruct: points of a surface to the closed surface of a body.
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "cli/tool.h"
 #include "geometry/reconstruct.h"
+#include "geometry/repair.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -14,40 +17,67 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-reconstruct";
-  spec.summary = "closed surface of a body from scanned points";
-  spec.input = "points from hs-scan2ply (PLY), or CSV with x,y,z[,nx,ny,nz] in metres";
+  spec.summary = "closed surface of a body from scanned points, or from damaged triangles";
+  spec.input =
+      "points from hs-scan2ply (PLY), or CSV with x,y,z[,nx,ny,nz]; or triangles, PLY or STL";
   spec.description = {
       "Makes a closed, outward, manifold surface of one part without self-intersection, of even "
       "triangles, for hs-tetmesh. What cannot be scanned, the bottom, is put on a plane; it is "
-      "exactly flat, so that hs-tetmesh finds and fixes it.",
+      "exactly flat, so that hs-tetmesh finds and fixes it. Triangles that are given are repaired "
+      "instead (see below).",
       "Method height, for points of the upper side only: a smooth outline about the points in plan "
       "view, heights over it by least squares whose smoothness is chosen by cross-validation, "
-      "upright walls down to the bottom plane. Method poisson, for points of the side too, or from "
-      "all round: Poisson reconstruction; with a bottom plane the points are mirrored at it first "
-      "and the result is cut there, so that walls run down to it and may overhang. The surface is "
-      "then remeshed and fitted to the points by robust least squares; sharp edges are restored "
-      "where "
-      "the normals of the points fall into groups 45 degrees apart and the points come nearer to "
-      "the "
-      "surface for it.",
+      "upright walls down to the bottom plane.",
+      "The other methods are for points of the side too, or from all round. With a bottom plane "
+      "the points are mirrored at it first and the result is cut there, so that walls run down to "
+      "it and may overhang. Method poisson: Poisson reconstruction, which bridges gaps and "
+      "averages noise. Method power-crust: the power diagram of the poles of the points' Voronoi "
+      "cells (Amenta, Choi, Kolluri 2001). Method delaunay: the Delaunay triangles between "
+      "tetrahedra inside and outside, told by the points' normals, for nearly uniform samples. "
+      "Method advancing-front: Delaunay triangles added from the surest on; gaps are closed "
+      "afterwards. Method wrap: a wrap about the points that bridges gaps of three spacings. "
+      "After each the surface is made even and fitted to the points by robust least squares.",
+      "Sharp edges: the points fall into smooth patches, grown over normals that do not blur at an "
+      "edge, joined where they meet at less than 40 degrees; each has a plane, or quadratic fits "
+      "where it is bent. The surface is cut along the seams of the patches and moved onto them. "
+      "The summary says whether that brought the points nearer.",
       "Method auto takes poisson when more than half of the plan view was seen from below, or when "
-      "steep points reach the lowest level in more than 70 % of the directions; else height. The "
-      "summary names the method and why, the base plane and why, and how far the points lie from "
-      "the surface.",
+      "steep points reach the lowest level in more than 70 % of the directions; else height. Where "
+      "poisson fails, or leaves a tenth of the points farther off than a quarter of their spacing, "
+      "the others are tried and the nearest is taken. The summary and the comments of the PLY name "
+      "the method and why, the base plane and why.",
       "The base plane is, unless --base or --base-depth say otherwise: z = 0 when the lowest "
-      "points "
-      "(their 0.5 % quantile) come within twice their spacing, or 5 % of the height, of it; for "
-      "poisson the lowest points' level; for height a quarter of the patch's width below them, "
-      "which "
-      "is a guess. A body scanned from all round is cut flat 5 % of its height "
-      "above its lowest points, unless --no-base."};
+      "points (their 0.5 % quantile) come within twice their spacing, or 5 % of the height, of it; "
+      "for the lowest points' level; for height a quarter of the patch's width below them, which "
+      "is a guess. A body scanned from all round is cut flat 5 % of its height above its lowest "
+      "points, unless --no-base.",
+      "Repair of triangles, each step counted in the summary: vertices at one place merged; "
+      "triangles without area or given twice dropped; open edges that nearly meet merged; sides "
+      "split where a vertex lies on them; all turned alike and outward; touching parts taken "
+      "apart; holes closed; triangles that cut each other replaced; overlapping parts joined; "
+      "loose parts but the largest, and inner shells, removed. The triangles are otherwise left as "
+      "they are, unless --edge asks for even ones. What cannot be mended is refused with its "
+      "place; --method wrap then makes a surface about the triangles. --method poisson and the "
+      "others take the vertices as points."};
   spec.options = {
       {.flag = "--method",
        .kind = OptionKind::kChoice,
        .value = "METHOD",
        .help = "How to reconstruct.",
        .default_text = "auto",
-       .choices = {"auto", "height", "poisson"}},
+       .choices = reconstruct_methods()},
+      {.flag = "--unit",
+       .kind = OptionKind::kChoice,
+       .value = "UNIT",
+       .help = "Unit of the coordinates; the output is in metres.",
+       .default_text = "m",
+       .choices = {"m", "mm", "cm", "um", "in"}},
+      {.flag = "--repair",
+       .kind = OptionKind::kSwitch,
+       .help = "Repairs triangles; on without being asked for. With points: refused."},
+      {.flag = "--no-repair",
+       .kind = OptionKind::kSwitch,
+       .help = "Triangles must be sound already: what would be mended is refused."},
       {.flag = "--base",
        .kind = OptionKind::kNumber,
        .value = "Z",
@@ -84,16 +114,23 @@ ToolSpec specification() {
        .default_text = "1",
        .minimum = 0,
        .maximum = 4e9},
+      {.flag = "--json",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes what was done as JSON."},
       {.flag = "--ascii", .kind = OptionKind::kSwitch, .help = "Writes an ASCII PLY."}};
   spec.tables = {{"Output, PLY",
                   {{"vertex x, y, z", "point [m], double"},
                    {"face vertex_indices", "three corners, counter-clockwise from outside"},
+                   {"comment method", "the method and why it was taken"},
                    {"comment base_plane", "nx ny nz h: the bottom is n.x = h [m]"}}}};
   spec.examples = {
       {"hs-scan2ply scan.csv | hs-reconstruct | hs-tetmesh -o body.ply", "A body from a scan."},
       {"hs-reconstruct points.ply --base 0 -o surface.ply", "The object stood on the plane z = 0."},
       {"hs-reconstruct touched.ply --method height --base-depth 0.02 -o surface.ply",
        "Touched points of an organ's top, 20 mm of tissue below the lowest."}};
+  spec.examples.push_back({"hs-reconstruct damaged.stl --unit mm --json done.json -o surface.ply",
+                           "Repairs a surface in millimetres."});
   spec.see_also = {"hs-scan2ply(1)", "hs-tetmesh(1)"};
   return spec;
 }
@@ -114,13 +151,14 @@ std::optional<Vec3> parse_up(const std::string& text) {
   return up;
 }
 
-int run(const Arguments& arguments) {
+ReconstructOptions options_of(const Arguments& arguments) {
   ReconstructOptions options;
-  const std::string method = arguments.text("--method");
-  if (method == "height") options.method = ReconstructMethod::kHeight;
-  if (method == "poisson") options.method = ReconstructMethod::kPoisson;
+  options.method = method_named(arguments.text("--method"));
   if (arguments.given("--base") && arguments.given("--base-depth")) {
     fail_usage("--base and --base-depth contradict each other", "give one of them");
+  }
+  if (arguments.given("--repair") && arguments.given("--no-repair")) {
+    fail_usage("--repair and --no-repair contradict each other", "give one of them");
   }
   if (arguments.given("--base")) options.base = arguments.number("--base");
   if (arguments.given("--base-depth")) options.base_depth = arguments.number("--base-depth");
@@ -128,35 +166,117 @@ int run(const Arguments& arguments) {
   options.no_base = arguments.given("--no-base");
   options.up = parse_up(arguments.text("--up"));
   options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  return options;
+}
 
-  Input input(arguments.input());
-  const PointCloud cloud = read_points(input);
+// What came of it, for the summary, the comments and --json.
+struct Result {
+  Surface surface;
+  std::string summary;
+  std::vector<std::string> comments;
+  nlohmann::json json;
+};
+
+Result from_points(const Arguments& arguments, const PointCloud& cloud, const std::string& name) {
+  ReconstructOptions options = options_of(arguments);
+  Result result;
   ReconstructReport report;
-  const Surface surface = reconstruct(cloud, options, input.name(), report);
-
-  std::vector<std::string> comments{
-      fmt::format("hs-reconstruct: method {}, seed {}", report.method, options.seed)};
+  {
+    Progress progress(arguments, "reconstructing", 0);
+    options.step = [&] { progress.step(); };
+    result.surface = reconstruct(cloud, options, name, report);
+  }
+  const std::string& method = method_name(report.method);
+  result.comments = {fmt::format("hs-reconstruct: method {}, seed {}", method, options.seed),
+                     fmt::format("method {}: {}", method, report.why)};
   std::string base = "no flat bottom";
   if (report.has_base) {
     const std::string plane =
         fmt::format("{} {} {} {}", format_number(report.up.x()), format_number(report.up.y()),
                     format_number(report.up.z()), format_number(report.base));
-    comments.push_back("base_plane " + plane);
+    result.comments.push_back("base_plane " + plane);
     base = report.tilted ? "base n.x = h with (nx ny nz h) = (" + plane + ")"
                          : fmt::format("base z = {:.4g} m", report.base);
     base += " (" + report.base_why + ")";
   }
+  result.summary = fmt::format(
+      "method {}: {}; {} points ({} after evening out) to {} vertices, {} faces of edge {:.2g} mm, "
+      "{}; volume {:.4g} cm^3; {}; points lie {:.2g} mm rms off the surface, {:.1f} % farther than "
+      "3 times that",
+      method, report.why, cloud.points.size(), report.points, result.surface.vertices.size(),
+      result.surface.faces.size(), 1e3 * report.edge,
+      report.sharp ? "with sharp edges" : "without sharp edges",
+      1e6 * signed_volume(result.surface), base, 1e3 * report.rms, 100 * report.far_share);
+  result.json = {{"method", method},
+                 {"why", report.why},
+                 {"points", cloud.points.size()},
+                 {"points_used", report.points},
+                 {"edge", report.edge},
+                 {"sharp_edges", report.sharp},
+                 {"rms", report.rms},
+                 {"far_share", report.far_share}};
+  if (report.has_base) result.json["base"] = report.base;
+  return result;
+}
+
+Result from_triangles(const Arguments& arguments, const Surface& given, const std::string& name) {
+  const ReconstructOptions options = options_of(arguments);
+  Result result;
+  RepairReport report;
+  const bool wrapped = options.method == ReconstructMethod::kWrap;
+  {
+    Progress progress(arguments, "repairing", 0);
+    result.surface =
+        wrapped ? wrap_surface(given, options.edge, name) : repair_surface(given, name, report);
+    progress.step();
+  }
+  if (arguments.given("--no-repair") && report.total() > 0) {
+    fail_input(name, "the surface is not sound: " + report.text(), "leave --no-repair out");
+  }
+  if (options.edge > 0) result.surface = even_surface(result.surface, options.edge);
+  const std::string method = wrapped ? "wrap" : "repair";
+  const std::string why = wrapped ? "asked for" : "the input has triangles";
+  result.comments = {fmt::format("hs-reconstruct: method {}", method),
+                     fmt::format("method {}: {}", method, why)};
+  result.summary = fmt::format(
+      "method {}: {}; {} triangles to {} vertices, {} faces; volume {:.6g} cm^3; {}", method, why,
+      given.faces.size(), result.surface.vertices.size(), result.surface.faces.size(),
+      1e6 * signed_volume(result.surface), wrapped ? "wrapped, nothing mended" : report.text());
+  result.json = {{"method", method}, {"why", why}, {"triangles", given.faces.size()}};
+  if (!wrapped) result.json["repairs"] = nlohmann::json::parse(report.json());
+  return result;
+}
+
+int run(const Arguments& arguments) {
+  Input input(arguments.input());
+  Shape shape = read_shape(input);
+  const std::string unit = arguments.text("--unit");
+  const double factor = unit_factor(Quantity::kLength, unit);
+  for (Vec3& p : shape.cloud.points) p *= factor;
+  for (Vec3& p : shape.surface.vertices) p *= factor;
+  check_size(shape.has_triangles ? shape.surface.vertices : shape.cloud.points, unit, input.name());
+  const ReconstructMethod method = method_named(arguments.text("--method"));
+  const bool mend = shape.has_triangles &&
+                    (method == ReconstructMethod::kAuto || method == ReconstructMethod::kWrap);
+  if (shape.has_triangles && !mend) shape.cloud = points_of_triangles(shape.surface);
+  if (!mend && (arguments.given("--repair") || arguments.given("--no-repair"))) {
+    fail_usage("--repair is for triangles that are kept", "leave it or --method out");
+  }
+  Result result = mend ? from_triangles(arguments, shape.surface, input.name())
+                       : from_points(arguments, shape.cloud, input.name());
+
   Output output(arguments.output());
-  write_surface_ply(output.stream(), surface, arguments.given("--ascii"), comments);
+  write_surface_ply(output.stream(), result.surface, arguments.given("--ascii"), result.comments);
   output.commit();
-  say(arguments, "hs-reconstruct",
-      fmt::format(
-          "method {}: {}; {} points ({} after evening out) to {} vertices, {} faces of edge "
-          "{:.2g} mm; volume {:.4g} cm^3; {}; points lie {:.2g} mm rms off the surface, "
-          "{:.1f} % farther than 3 times that",
-          report.method, report.why, cloud.points.size(), report.points, surface.vertices.size(),
-          surface.faces.size(), 1e3 * report.edge, 1e6 * signed_volume(surface), base,
-          1e3 * report.rms, 100 * report.far_share));
+  if (arguments.given("--json")) {
+    result.json["vertices"] = result.surface.vertices.size();
+    result.json["faces"] = result.surface.faces.size();
+    result.json["volume"] = signed_volume(result.surface);
+    Output json(arguments.text("--json"));
+    json.stream() << result.json.dump(2) << '\n';
+    json.commit();
+  }
+  say(arguments, "hs-reconstruct", result.summary);
   return 0;
 }
 

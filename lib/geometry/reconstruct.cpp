@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kSeenBelow = 0.5;  // share of the plan view: a scan from all round
 constexpr double kRest = 0.05;      // share of the height cut off such a body so that it can stand
+constexpr double kFarOff = 0.25;    // of the spacing: others are tried when points lie farther off
 constexpr double kFaces = 2000;     // wished when --edge is not given
 
 // The direction that is up, from the normals when it is to be found.
@@ -42,27 +43,24 @@ std::string percent(double share) {
   return fmt::format("{:.0f} %", 100 * share);
 }
 
-// Chooses height or poisson and says why; sets has_base.
+// Chooses the method and says why; sets has_base.
 void choose_method(const ScanView& view, const ReconstructOptions& options,
                    ReconstructReport& report) {
   const bool all_round = view.under_cover > kSeenBelow;
   const bool has_sides = view.ring_cover >= 0.7;
   report.has_base = !(all_round && options.no_base);
-  if (options.method == ReconstructMethod::kHeight) {
-    report.method = "height";
+  if (options.method != ReconstructMethod::kAuto) {
+    report.method = options.method;
     report.why = "asked for";
-    report.has_base = true;
-  } else if (options.method == ReconstructMethod::kPoisson) {
-    report.method = "poisson";
-    report.why = "asked for";
+    if (options.method == ReconstructMethod::kHeight) report.has_base = true;
   } else if (all_round) {
-    report.method = "poisson";
+    report.method = ReconstructMethod::kPoisson;
     report.why = percent(view.under_cover) + " of the plan view was seen from below too";
   } else if (has_sides) {
-    report.method = "poisson";
+    report.method = ReconstructMethod::kPoisson;
     report.why = "side walls reach down in " + percent(view.ring_cover) + " of the directions";
   } else {
-    report.method = "height";
+    report.method = ReconstructMethod::kHeight;
     report.why = "side walls reach down in only " + percent(view.ring_cover) + " of the directions";
   }
 }
@@ -86,7 +84,7 @@ void choose_base(const ScanView& view, const ReconstructOptions& options, const 
     report.base_why = fmt::format("{:.6g} m below the lowest points", *options.base_depth);
     return;
   }
-  if (view.under_cover > kSeenBelow && report.method == "poisson") {
+  if (view.under_cover > kSeenBelow && report.method != ReconstructMethod::kHeight) {
     report.base = view.low + kRest * (view.high - view.low);
     report.base_why =
         "cut flat as a support 5 % above the lowest points; --no-base leaves it round";
@@ -98,7 +96,7 @@ void choose_base(const ScanView& view, const ReconstructOptions& options, const 
   if (std::abs(view.low) < reach && !report.tilted) {
     report.base = 0;
     report.base_why = fmt::format("the frame's z = 0, {:.2g} m from the lowest points", view.low);
-  } else if (report.method == "poisson") {
+  } else if (report.method != ReconstructMethod::kHeight) {
     report.base = view.low;
     report.base_why = "the lowest level of the points; --base sets another";
   } else {
@@ -120,6 +118,16 @@ void require_body(const Surface& surface, const std::string& name) {
   }
 }
 
+// 90 % of the points lie nearer than this [m].
+double typical_distance(const Surface& surface, const std::vector<Vec3>& points) {
+  const SurfaceTree tree(surface);
+  std::vector<double> distance;
+  for (const Vec3& p : points) distance.push_back(tree.nearest(p).distance);
+  const auto at = distance.begin() + static_cast<std::ptrdiff_t>(0.9 * distance.size());
+  std::nth_element(distance.begin(), at, distance.end());
+  return *at;
+}
+
 void measure(const Surface& surface, const std::vector<Vec3>& points, ReconstructReport& report) {
   const SurfaceTree tree(surface);
   double sum = 0;
@@ -136,7 +144,95 @@ void measure(const Surface& surface, const std::vector<Vec3>& points, Reconstruc
       n;
 }
 
+Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMethod method,
+                const std::string& name, bool& sharp) {
+  sharp = false;
+  Surface surface = method == ReconstructMethod::kHeight
+                        ? reconstruct_height(cloud, frame)
+                        : reconstruct_closed(cloud, frame, method, sharp);
+  require_body(surface, name);
+  return surface;
+}
+
+// By the chosen method; when that was chosen by us and fails, or leaves the points far off, by the
+// best of the others.
+Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
+                  const ReconstructOptions& options, const std::string& name,
+                  ReconstructReport& report) {
+  const bool free =
+      options.method == ReconstructMethod::kAuto && report.method != ReconstructMethod::kHeight;
+  if (!free) return attempt(cloud, frame, report.method, name, report.sharp);
+  Surface best;
+  double least = 1e300;
+  std::string failure;
+  for (const ReconstructMethod method :
+       {report.method, ReconstructMethod::kDelaunay, ReconstructMethod::kPowerCrust,
+        ReconstructMethod::kAdvancingFront, ReconstructMethod::kWrap}) {
+    try {
+      bool sharp = false;
+      Surface surface = attempt(cloud, frame, method, name, sharp);
+      const double off = typical_distance(surface, cloud.points);
+      // Another must be clearly better than what the points' kind asks for.
+      if (off < (best.faces.empty() ? 1 : 0.8) * least) {
+        if (!best.faces.empty()) {
+          report.why +=
+              fmt::format("; {} left the points {:.2g} mm off, {} {:.2g} mm",
+                          method_name(report.method), 1e3 * least, method_name(method), 1e3 * off);
+          report.method = method;
+        } else if (method != report.method) {
+          report.why += fmt::format("; but {} failed there", method_name(report.method));
+          report.method = method;
+        }
+        least = off;
+        best = std::move(surface);
+        report.sharp = sharp;
+      }
+    } catch (const Error& error) {
+      if (failure.empty()) failure = error.what();
+    }
+    if (least < kFarOff * std::max(frame.spacing, frame.edge / 3)) return best;
+  }
+  if (best.faces.empty()) fail_numerics("", failure, "try another --edge or --method");
+  return best;
+}
+
 }  // namespace
+
+const std::vector<std::string>& reconstruct_methods() {
+  static const std::vector<std::string> names{
+      "auto", "height", "delaunay", "power-crust", "poisson", "advancing-front", "wrap"};
+  return names;
+}
+
+const std::string& method_name(ReconstructMethod method) {
+  return reconstruct_methods()[static_cast<std::size_t>(method)];
+}
+
+ReconstructMethod method_named(const std::string& name) {
+  const auto& names = reconstruct_methods();
+  const auto at = std::find(names.begin(), names.end(), name);
+  return at == names.end() ? ReconstructMethod::kAuto
+                           : static_cast<ReconstructMethod>(at - names.begin());
+}
+
+void check_size(const std::vector<Vec3>& points, const std::string& unit, const std::string& name) {
+  double size = 0;
+  std::vector<double> along(points.size());
+  const auto cut = static_cast<std::size_t>(0.02 * static_cast<double>(points.size()));
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < points.size(); ++i) along[i] = points[i][k];
+    std::sort(along.begin(), along.end());
+    if (!along.empty()) size = std::max(size, along[along.size() - 1 - cut] - along[cut]);
+  }
+  if (size > 5) {
+    fail_input(name, fmt::format("the surface is {:.3g} m wide when read in {}", size, unit),
+               "give its unit, as --unit mm");
+  }
+  if (size < 1e-3 && size > 0) {
+    fail_input(name, fmt::format("the surface is {:.3g} mm wide when read in {}", 1e3 * size, unit),
+               "give its unit, as --unit m");
+  }
+}
 
 Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                     const std::string& name, ReconstructReport& report) {
@@ -170,15 +266,14 @@ Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
   frame.edge = report.edge;
   frame.spacing = view.spacing;
   frame.seed = options.seed;
+  frame.step = options.step;
   const PointCloud even = even_points(scan, view.spacing, report.edge);
   require_surface_points(even.points, name);
   report.points = even.points.size();
-  Surface surface = report.method == "height" ? reconstruct_height(even, frame)
-                                              : reconstruct_poisson(even, frame);
+  Surface surface = by_method(even, frame, options, name, report);
   if (report.tilted) {
     for (Vec3& p : surface.vertices) p = turn.transpose() * p;
   }
-  require_body(surface, name);
   measure(surface, cloud.points, report);
   return surface;
 }

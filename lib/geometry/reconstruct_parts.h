@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "geometry/reconstruct.h"
 
 namespace hapsim {
 
@@ -32,10 +32,15 @@ struct BodyFrame {
   double edge = 0;         // [m]
   double spacing = 0;      // of the points [m]
   std::uint64_t seed = 1;
+  std::function<void()> step;
 };
 
-// Points with normals, of side and upper surface (or all round without a base).
-Surface reconstruct_poisson(const PointCloud& cloud, const BodyFrame& frame);
+// Points with normals, of side and upper surface (or all round without a base), by any method but
+// kHeight: triangles by the method, cut flat, made even, fitted, sharp edges restored.
+// Error(kNoConvergence, kBadInput) where the method gives no closed surface.
+// `sharp`: whether there were any.
+Surface reconstruct_closed(const PointCloud& cloud, const BodyFrame& frame,
+                           ReconstructMethod method, bool& sharp);
 // Points of the upper surface.
 Surface reconstruct_height(const PointCloud& cloud, const BodyFrame& frame);
 

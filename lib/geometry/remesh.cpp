@@ -1,60 +1,31 @@
 #include "geometry/remesh.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/clip.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "base/error.h"
+#include "geometry/cgal_mesh.h"
 
 namespace hapsim {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 namespace PMP = CGAL::Polygon_mesh_processing;
+using cgal::Kernel;
+using cgal::Mesh;
 
 Mesh to_cgal(const Surface& surface) {
-  std::vector<Kernel::Point_3> points;
-  for (const Vec3& p : surface.vertices) points.emplace_back(p.x(), p.y(), p.z());
-  std::vector<std::array<std::size_t, 3>> faces;
-  for (const Triangle& f : surface.faces) {
-    faces.push_back({static_cast<std::size_t>(f[0]), static_cast<std::size_t>(f[1]),
-                     static_cast<std::size_t>(f[2])});
-  }
-  if (!PMP::is_polygon_soup_a_polygon_mesh(faces)) {
+  Mesh mesh;
+  if (!cgal::to_mesh(surface, mesh)) {
     fail_numerics("", "the raw surface has edges of more than two triangles",
                   "use another --edge, or --method height");
   }
-  Mesh mesh;
-  PMP::polygon_soup_to_polygon_mesh(points, faces, mesh);
   return mesh;
-}
-
-Surface from_cgal(Mesh& mesh) {
-  mesh.collect_garbage();
-  Surface surface;
-  for (const auto v : mesh.vertices()) {
-    const auto& p = mesh.point(v);
-    surface.vertices.emplace_back(p.x(), p.y(), p.z());
-  }
-  for (const auto f : mesh.faces()) {
-    Triangle face;
-    int k = 0;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) {
-      face[k++] = static_cast<int>(v.idx());
-    }
-    surface.faces.push_back(face);
-  }
-  return surface;
 }
 
 // A face is of the bottom when its three corners have the bottom's height, to the bit.
@@ -86,7 +57,7 @@ Surface cut_flat(const Surface& surface, double z) {
     auto& p = mesh.point(v);
     if (std::abs(p.z() - z) < 1e-9 * height) p = Kernel::Point_3(p.x(), p.y(), z);
   }
-  return from_cgal(mesh);
+  return cgal::to_surface(mesh);
 }
 
 Surface remesh(const Surface& surface, const RemeshOptions& options) {
@@ -100,6 +71,7 @@ Surface remesh(const Surface& surface, const RemeshOptions& options, std::vector
   // Seams, and the rim of the bottom, are the borders between patches.
   auto patch = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:patch", 0).first;
   auto seam = mesh.add_property_map<Mesh::Edge_index, bool>("e:seam", false).first;
+  if (options.crease_deg < 180) PMP::detect_sharp_edges(mesh, options.crease_deg, seam);
   const int least = *std::min_element(label.begin(), label.end());
   for (const auto f : mesh.faces()) {
     const auto own = static_cast<std::size_t>(label[static_cast<std::size_t>(f)] - least);
@@ -107,7 +79,7 @@ Surface remesh(const Surface& surface, const RemeshOptions& options, std::vector
   }
   for (const auto e : mesh.edges()) {
     const auto h = mesh.halfedge(e);
-    seam[e] = patch[mesh.face(h)] != patch[mesh.face(mesh.opposite(h))];
+    if (patch[mesh.face(h)] != patch[mesh.face(mesh.opposite(h))]) seam[e] = true;
   }
   PMP::isotropic_remeshing(
       mesh.faces(), options.edge, mesh,
@@ -129,7 +101,7 @@ Surface remesh(const Surface& surface, const RemeshOptions& options, std::vector
   mesh.collect_garbage();  // which reorders
   label.clear();
   for (const auto f : mesh.faces()) label.push_back(static_cast<int>(patch[f] / 2) + least);
-  return from_cgal(mesh);
+  return cgal::to_surface(mesh);
 }
 
 }  // namespace hapsim

@@ -17,6 +17,7 @@ struct RemeshOptions {
   int rounds = 5;
   // Height of a flat bottom, kept exactly flat with its rim; NaN: none.
   double base = std::numeric_limits<double>::quiet_NaN();
+  double crease_deg = 180;  // edges with a sharper turn are kept as lines
 };
 
 // Isotropic remeshing (Botsch, Kobbelt 2004): split, collapse, flip, relax, project. The surface

@@ -101,7 +101,6 @@ Surface surface_from_ply(const PlyFile& file, const std::string& name) {
                                static_cast<int>(list->values[begin + k])});
     }
   }
-  drop_unused(surface);
   return surface;
 }
 
@@ -116,10 +115,7 @@ Surface surface_from_soup(const TriangleSoup& soup) {
       if (added) surface.vertices.push_back(p);
       face[k] = at->second;
     }
-    // A corner that met another leaves no area, only an edge that would look open.
-    if (face[0] != face[1] && face[1] != face[2] && face[2] != face[0]) {
-      surface.faces.push_back(face);
-    }
+    surface.faces.push_back(face);
   }
   return surface;
 }
@@ -234,6 +230,15 @@ PlyFile ply_of_points(const std::vector<Vec3>& points, bool ascii) {
 }  // namespace
 
 Surface read_surface(Input& input) {
+  Surface surface = read_surface_as_given(input);
+  // A corner that met another leaves no area, only an edge that would look open.
+  std::erase_if(surface.faces,
+                [](const Triangle& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; });
+  drop_unused(surface);
+  return surface;
+}
+
+Surface read_surface_as_given(Input& input) {
   const std::string bytes = input.read_all();
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
     return surface_from_ply(parse_ply(bytes, input.name()), input.name());

@@ -60,7 +60,7 @@ PointCloud cut_ball(double r, double c, double low, int n, double size, std::uin
 TEST(Reconstruct, Hemisphere) {
   ReconstructReport report;
   const Surface s = sound(cut_ball(0.04, 0, 0, 1500, 1e-4, 1), {}, report);
-  EXPECT_EQ(report.method, "poisson");
+  EXPECT_EQ(method_name(report.method), "poisson");
   EXPECT_EQ(report.base, 0);
   EXPECT_NEAR(signed_volume(s) / (2 * M_PI / 3 * std::pow(0.04, 3)), 1, 0.02);
 }
@@ -111,6 +111,56 @@ TEST(Reconstruct, CuboidKeepsItsEdges) {
   }
 }
 
+// Every method on points of an upper and side surface, without a bottom.
+class EveryMethod : public testing::TestWithParam<ReconstructMethod> {};
+
+TEST_P(EveryMethod, GivesABodyOfTheRightVolume) {
+  const double r = 0.05, c = 0.02, h = c + r;
+  ReconstructOptions options;
+  options.method = GetParam();
+  ReconstructReport report;
+  const Surface s = sound(cut_ball(r, c, 0, 2000, 1e-4, 11), options, report);
+  EXPECT_EQ(report.method, GetParam());
+  EXPECT_EQ(report.why, "asked for");
+  EXPECT_NEAR(signed_volume(s) / (M_PI * h * h * (r - h / 3)), 1, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryMethod,
+                         testing::Values(ReconstructMethod::kDelaunay,
+                                         ReconstructMethod::kPowerCrust,
+                                         ReconstructMethod::kPoisson,
+                                         ReconstructMethod::kAdvancingFront,
+                                         ReconstructMethod::kWrap),
+                         [](const auto& one) {
+                           std::string name = method_name(one.param);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+// Points without a volume are refused in one line, by every method.
+TEST(Reconstruct, PointsWithoutVolumeAreRefused) {
+  std::vector<Vec3> none, one{{0, 0, 0}}, three{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, line, same;
+  for (int i = 0; i < 50; ++i) {
+    line.emplace_back(0.001 * i, 0.002 * i, 0);
+    same.emplace_back(0.1, 0.1, 0.1);
+  }
+  for (const std::string& name : reconstruct_methods()) {
+    ReconstructOptions options;
+    options.method = method_named(name);
+    for (const auto& points : {none, one, three, line, same}) {
+      PointCloud cloud;
+      cloud.points = points;
+      ReconstructReport report;
+      try {
+        reconstruct(cloud, options, "scan.csv", report);
+        ADD_FAILURE() << name << " took " << points.size() << " points";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ExitCode::kBadInput) << name << ": " << error.what();
+      }
+    }
+  }
+}
+
 // Touched points of an organ's top: irregular, uneven, with a hole and doubled passes.
 double organ(double x, double y) {
   return 0.03 - 6 * x * x - 9 * y * y + 0.002 * std::sin(60 * x);
@@ -136,7 +186,7 @@ TEST(Reconstruct, TouchedPatchBecomesABlockWithASmoothTop) {
   options.base_depth = 0.02;
   ReconstructReport report;
   const Surface s = sound(touched_patch(219, 4e-4, 4), options, report);
-  EXPECT_EQ(report.method, "height");
+  EXPECT_EQ(method_name(report.method), "height");
   double sum = 0;
   int count = 0;
   for (const Vec3& p : s.vertices) {
@@ -192,7 +242,7 @@ TEST(Reconstruct, TouchedKidneyAllRound) {
   options.no_base = true;
   ReconstructReport report;
   const Surface s = sound(kidney(-1), options, report);
-  EXPECT_EQ(report.method, "poisson");
+  EXPECT_EQ(method_name(report.method), "poisson");
   EXPECT_FALSE(report.has_base);
   EXPECT_NEAR(signed_volume(s) / (4 * M_PI / 3 * 0.052 * 0.027 * 0.022), 1, 0.04);
 }

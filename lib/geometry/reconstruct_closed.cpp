@@ -7,8 +7,10 @@
 #include "geometry/crease.h"
 #include "geometry/normals.h"
 #include "geometry/poisson.h"
+#include "geometry/raw_surface.h"
 #include "geometry/reconstruct_parts.h"
 #include "geometry/remesh.h"
+#include "geometry/repair.h"
 #include "geometry/surface_fit.h"
 #include "geometry/surface_tree.h"
 #include "geometry/tetgen.h"
@@ -82,6 +84,14 @@ PointCloud mirrored(const PointCloud& cloud, const BodyFrame& frame) {
   return both;
 }
 
+// Of the points' spacing: noise makes smaller balls; gaps up to which a wrap bridges; how far
+// outside the points it lies before it is fitted.
+constexpr double kLeastBall = 1.0;
+constexpr double kWrapGap = 3.0;
+constexpr double kWrapOffset = 0.3;
+constexpr double kTight = 0.1;  // of the edge: a wrap about triangles
+constexpr int kWrapAttempts = 6;
+constexpr double kDoubleSkin = 3;  // volume over offset and area: a double skin has about 1
 constexpr double kCreaseDeg = 40;
 // Each pass brings more of the rounded edge within reach.
 constexpr int kCreasePasses = 4;
@@ -110,12 +120,12 @@ double trimmed_rms(const Surface& surface, const std::vector<Vec3>& points) {
                    static_cast<double>(std::max<std::ptrdiff_t>(kept, 1)));
 }
 
-// The surface with sharp edges where the points have them: taken when they then lie clearly nearer
-// to it and it is still sound, else the surface as it was.
-Surface sharper(const Surface& smooth, const PointCloud& cloud, const BodyFrame& frame,
-                const RemeshOptions& even) {
+// Sharp edges where the points have them: taken when the points then lie clearly nearer to the
+// surface and it is still sound; else it stays as it was, and false.
+bool sharpen(Surface& smooth, const PointCloud& cloud, const BodyFrame& frame,
+             const RemeshOptions& even) {
   const Segmentation segmentation = find_patches(cloud, frame.spacing, kCreaseDeg);
-  if (segmentation.patches.size() < 2) return smooth;
+  if (segmentation.patches.size() < 2) return false;
   CreaseOptions crease;
   crease.edge = frame.edge;
   crease.spacing = frame.spacing;
@@ -129,38 +139,90 @@ Surface sharper(const Surface& smooth, const PointCloud& cloud, const BodyFrame&
       sharp.surface = remesh(sharp.surface, pass + 1 < kCreasePasses ? passing : even, sharp.label);
     }
     const int bad = project_to_patches(sharp, segmentation, crease);
-    if (bad > 0 || smallest_angle_deg(sharp.surface) < kThinAngle) return smooth;
+    if (bad > 0 || smallest_angle_deg(sharp.surface) < kThinAngle) return false;
     check_self_intersection(sharp.surface, "");
-    const double better = trimmed_rms(sharp.surface, cloud.points);
-    return better < 0.9 * trimmed_rms(smooth, cloud.points) ? sharp.surface : smooth;
+    const double now = trimmed_rms(sharp.surface, cloud.points);
+    if (now > 0.9 * trimmed_rms(smooth, cloud.points)) return false;
+    smooth = std::move(sharp.surface);
+    return true;
   } catch (const Error&) {
-    return smooth;
+    return false;
+  }
+}
+
+// Bridges ever wider gaps until there is an inside: through a gap too wide the wrap creeps in and
+// becomes a double skin.
+template <class Wrap>
+Surface wrapped(double gap, double offset, const Wrap& wrap) {
+  Surface surface;
+  for (int attempt = 0; attempt < kWrapAttempts; ++attempt, gap *= 1.5) {
+    surface = largest_part(wrap(gap, offset));
+    if (signed_volume(surface) > kDoubleSkin * offset * surface_area(surface)) break;
+  }
+  return surface;
+}
+
+// Triangles that a method left open or crossing: repaired or, where that cannot be, wrapped
+// tightly.
+Surface closed(const Surface& raw, const BodyFrame& frame, bool repair) {
+  if (repair) {
+    try {
+      RepairReport mended;
+      return repair_surface(raw, "the triangles between the points", mended);
+    } catch (const Error&) {
+    }
+  }
+  return wrapped(frame.edge, kTight * frame.edge,
+                 [&](double gap, double offset) { return wrap_triangles(raw, gap, offset); });
+}
+
+// By the method, one closed manifold part.
+Surface raw_surface(const PointCloud& cloud, const BodyFrame& frame, ReconstructMethod method) {
+  switch (method) {
+    case ReconstructMethod::kPowerCrust:
+      // Its many slivers cross by rounding.
+      return closed(power_crust(cloud, kLeastBall * frame.spacing), frame, false);
+    case ReconstructMethod::kDelaunay:
+      return closed(restricted_delaunay(cloud), frame, true);
+    case ReconstructMethod::kAdvancingFront:
+      return closed(advancing_front(cloud.points), frame, true);
+    case ReconstructMethod::kWrap:
+      return wrapped(
+          kWrapGap * frame.spacing, kWrapOffset * frame.spacing,
+          [&](double gap, double offset) { return wrap_points(cloud.points, gap, offset); });
+    default:
+      return largest_part(poisson_surface(cloud, frame.edge / 2, frame.seed));
   }
 }
 
 }  // namespace
 
-Surface reconstruct_poisson(const PointCloud& scan, const BodyFrame& frame) {
+Surface reconstruct_closed(const PointCloud& scan, const BodyFrame& frame, ReconstructMethod method,
+                           bool& sharp) {
+  const auto step = [&] {
+    if (frame.step) frame.step();
+  };
   // Planes through neighbours round the normals off at sharp edges, and with them the surface.
   PointCloud cloud = scan;
   sharpen_normals(cloud, 2.5 * frame.spacing, 30, 5);
-  const double cell = frame.edge / 2;
   RemeshOptions even;
   even.edge = frame.edge;
   SurfaceFitOptions fit;
-  Surface surface;
+  const bool mirror = frame.has_base && !frame.all_round;
+  Surface surface = raw_surface(mirror ? mirrored(cloud, frame) : cloud, frame, method);
+  step();
   if (frame.has_base) {
-    surface = largest_part(
-        poisson_surface(frame.all_round ? cloud : mirrored(cloud, frame), cell, frame.seed));
     surface = largest_part(cut_flat(surface, frame.base));
     even.base = frame.base;
     fit.base = frame.base;
-  } else {
-    surface = largest_part(poisson_surface(cloud, cell, frame.seed));
   }
   surface = remesh(surface, even);
+  step();
   fit_surface(surface, cloud.points, fit);
-  return sharper(surface, cloud, frame, even);
+  step();
+  sharp = sharpen(surface, cloud, frame, even);
+  step();
+  return surface;
 }
 
 }  // namespace hapsim
