@@ -30,6 +30,17 @@ double wished_edge(const Surface& surface, const BodyOptions& options) {
   return std::cbrt(3 * signed_volume(surface)) / 16;
 }
 
+// Memory ends at some hundred bytes a tetrahedron before time does.
+void check_number(const Surface& surface, double edge, const BodyOptions& options,
+                  const std::string& where) {
+  constexpr double kMost = 3e7;
+  double one = edge * edge * edge / (6 * std::sqrt(2.0));
+  if (options.max_volume > 0) one = std::min(one, options.max_volume);
+  if (const double count = signed_volume(surface) / one; count > kMost)
+    fail_input(where, fmt::format("the wished size makes about {:.2g} tetrahedra", count),
+               "give a larger --edge or --max-volume, or the right --unit");
+}
+
 double size_at(const Vec3& p, double edge, const BodyOptions& options) {
   if (options.contacts.empty()) return edge;
   double squared = 1e300;
@@ -112,6 +123,7 @@ TetMesh make_body_mesh(const Surface& surface, const BodyOptions& options, const
   if (report == nullptr) report = &unread;
   check_surface(surface, where);
   const double edge = wished_edge(surface, options);
+  check_number(surface, edge, options, where);
   const auto size = [&](const Vec3& p) { return size_at(p, edge, options); };
   ClassedSurface classed{surface, bonded_or_fail(surface, options.support, where)};
   const std::vector<Vec3> contacts = contacts_on(surface, options);
