@@ -224,9 +224,11 @@ int choose_fixed(const Scan& scan, const std::vector<Match>& matches, const std:
 // Standard error of each zone's shift along its least certain direction.
 void standard_errors(const Equations& e, int fixed, RegisterReport& report) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(e.A);
-  // Each overlap is counted from both sides, so half the weights are independent.
+  // Each overlap is counted from both sides, so half the weights are independent; and the errors of
+  // a surface, which neighbouring matches share, do not average out as those of single points do:
+  // 2 sigma^2 a pair of points instead of 1.375 (6 coefficients from 16 neighbours).
   const double freedom = std::max(1.0, e.weights / 2 - static_cast<double>(e.A.rows()));
-  const double variance = 2 * (e.squares / 2) / freedom;
+  const double variance = 1.45 * e.squares / freedom;
   Eigen::VectorXd inverse = solver.eigenvalues();
   const double largest = inverse.maxCoeff();
   for (double& v : inverse) v = v > 1e-12 * largest ? 1 / v : 1e12 / largest;

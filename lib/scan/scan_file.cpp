@@ -41,6 +41,18 @@ bool looks_plain(const std::string& bytes) {
   return false;
 }
 
+// Leading comments of rows without a header become blank lines, so that the rows keep their numbers
+// and are not taken for a table.
+void blank_comments(std::string& bytes) {
+  std::string head;
+  std::size_t at = 0;
+  while (at < bytes.size() && (bytes[at] == '#' || bytes[at] == '\n' || bytes[at] == '\r')) {
+    head += " \n";
+    at = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
+  }
+  bytes.replace(0, at, head);
+}
+
 PointCloud corners(const std::string& bytes, const std::string& name) {
   PointCloud cloud;
   for (const auto& triangle : parse_stl(bytes, name)) {
@@ -100,6 +112,7 @@ Scan read_scan(Input& input, const ScanFileOptions& options) {
     scan.cloud = corners(bytes, name);
   } else {
     const bool plain = options.robot == nullptr && looks_plain(bytes);
+    if (plain) blank_comments(bytes);
     Input again = Input::from_bytes(std::move(bytes), name);
     if (plain) {
       scan.cloud = read_points(again);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include "base/random.h"
 #include "expect_error.h"
@@ -123,6 +124,35 @@ TEST_F(VolumeTest, FuzzedFilesFailInOneLine) {
     }
   }
   EXPECT_GT(failed, 1000);
+}
+
+TEST_F(VolumeTest, DamagedSlicesFailInOneLine) {
+  Volume small = test::ball_volume(kRadius, kCentre);
+  small.size = {6, 5, 4};
+  small.values.resize(120);
+  test::write_dicom(small, folder_ + "/d", "1.2", 1, 0);
+  const std::string path = folder_ + "/d/037.dcm", good = test::file_text(path);
+  Random random(5);
+  int failed = 0;
+  for (int k = 0; k < 200; ++k) {
+    std::string bytes = good;
+    if (k % 4 == 0) {
+      bytes.resize(random.integer(bytes.size()));
+    } else {
+      for (int m = 0; m < 3; ++m) {
+        bytes[132 + random.integer(bytes.size() - 132)] = static_cast<char>(random.integer(256));
+      }
+    }
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+      EXPECT_LE(read_dicom_series(folder_ + "/d").count(), 120u);
+    } catch (const Error& error) {
+      ++failed;
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << error.what();
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(failed, 25);
 }
 
 TEST_F(VolumeTest, WhatIsWrongIsSaid) {
