@@ -8,6 +8,7 @@
 // nodes.
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -58,7 +59,7 @@ double memory_of(pid_t root) {
 }
 
 struct Run {
-  double seconds = 0, megabytes = 0;
+  double seconds = 0, processor = 0, megabytes = 0;
   int status = 0;
 };
 
@@ -75,11 +76,14 @@ Run run(const std::vector<std::string>& command) {
     execvp(words[0], words.data());
     _exit(127);
   }
-  while (waitpid(child, &result.status, WNOHANG) == 0) {
+  rusage usage{};
+  while (wait4(child, &result.status, WNOHANG, &usage) == 0) {
     result.megabytes = std::max(result.megabytes, memory_of(child));
     usleep(10000);
   }
   result.seconds = seconds_since(start);
+  for (const timeval& t : {usage.ru_utime, usage.ru_stime})
+    result.processor += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   return result;
 }
 
@@ -116,14 +120,19 @@ void meshing(const std::string& bin, int triangles, double tetrahedra) {
   if (WEXITSTATUS(bare.status) == 127) {
     fmt::print("SKIPPED: no tetgen program here (Debian package tetgen)\n");
   } else {
-    fmt::print("{} triangles; tetgen: {} tetrahedra, {:.1f} s, {:.0f} MB\n", surface.faces.size(),
-               tetgen_count(folder / "s.1.ele"), bare.seconds, bare.megabytes);
+    const auto tell = [](const char* what, const Run& r) {
+      fmt::print("{}: status {}, {:.1f} s, {:.1f} s of processors, {:.0f} MB\n", what,
+                 WEXITSTATUS(r.status), r.seconds, r.processor, r.megabytes);
+    };
+    fmt::print("{} triangles, {} tetrahedra\n", surface.faces.size(),
+               tetgen_count(folder / "s.1.ele"));
+    tell("tetgen    ", bare);
     const Run own = run({bin + "/hs-tetmesh", folder / "s.ply", "--preserve-surface",
                          "--max-volume", fmt::format("{:.18f}", bound), "-o", folder / "b.ply"});
-    fmt::print(
-        "hs-tetmesh (status {}): {:.1f} s, {:.0f} MB; ratio {:.2f} in time, {:.2f} in memory\n",
-        WEXITSTATUS(own.status), own.seconds, own.megabytes, own.seconds / bare.seconds,
-        own.megabytes / bare.megabytes);
+    tell("hs-tetmesh", own);
+    fmt::print("ratio {:.2f} in time, {:.2f} in processor time, {:.2f} in memory\n",
+               own.seconds / bare.seconds, own.processor / bare.processor,
+               own.megabytes / bare.megabytes);
   }
   std::filesystem::remove_all(folder);
 }
