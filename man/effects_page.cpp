@@ -24,6 +24,21 @@ void item(const char* tag, const std::string& text) {
   if (!text.empty()) std::printf(".TP\n%s\n%s\n", tag, escaped(text).c_str());
 }
 
+// What a recording must have for the effect to show at all.
+std::vector<std::string> needs(const hapsim::EffectCard& card) {
+  std::vector<std::string> list;
+  const auto add = [&](bool needed, const char* what) {
+    if (needed) list.emplace_back(what);
+  };
+  add(card.needs_time, "the column t");
+  add(card.needs_positions, "four places or more");
+  add(card.needs_temperature, "the column temp, warm and cold presses");
+  add(card.needs_sideways, "presses that move sideways");
+  add(card.needs_return, "presses recorded on their way out");
+  add(card.needs_repeats, "a place pressed more than once");
+  return list;
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -48,6 +63,7 @@ int main() {
       std::printf(".TP\n%s [%s]\n%s; from %g to %g%s.\n", p.name.c_str(), p.unit.c_str(),
                   escaped(p.meaning).c_str(), p.lower, p.upper,
                   card.terms ? ", one for every term" : "");
+    item("Needs", joined(needs(card)));
     item("When it is missing", card.signature);
     item("Taken for", joined(card.confounders));
     item("To tell them apart", card.separated_by);

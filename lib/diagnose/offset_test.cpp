@@ -20,7 +20,7 @@ OffsetTest test_offsets(const Dataset& dataset, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& forces) {
   constexpr Eigen::Index kStretches = 10;
   OffsetTest test;
-  double between = 0, within = 0, presses = 0;
+  double within = 0, offsets = 0, freedom = 0;
   Eigen::Index at = 0;
   for (std::size_t e = 0; e < dataset.episodes.size(); ++e) {
     const auto n = static_cast<Eigen::Index>(dataset.episodes[e].rows.size());
@@ -34,21 +34,19 @@ OffsetTest test_offsets(const Dataset& dataset, const Eigen::VectorXd& residual,
     for (Eigen::Index i = 0; i < 3 * n; ++i) ones(i, i % 3) = 1;
     ones -= (Q * (Q.transpose() * ones)).eval();
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(ones);
-    test.gain += r.squaredNorm() - (r - ones * qr.solve(r)).squaredNorm();
-    Eigen::Matrix<double, 3, kStretches> means;
-    const Eigen::Map<const Eigen::MatrixXd> by_row(r.data(), 3, n);
+    const Eigen::VectorXd left = r - ones * qr.solve(r);
+    test.gain += r.squaredNorm() - left.squaredNorm();
+    offsets += static_cast<double>(qr.rank());
+    const Eigen::Map<const Eigen::MatrixXd> by_row(left.data(), 3, n);
     for (Eigen::Index s = 0; s < kStretches; ++s) {
-      const Eigen::Index begin = s * n / kStretches, end = (s + 1) * n / kStretches;
-      means.col(s) = by_row.middleCols(begin, end - begin).rowwise().mean();
+      const Eigen::Index begin = s * n / kStretches, count = (s + 1) * n / kStretches - begin;
+      within += by_row.middleCols(begin, count).rowwise().sum().squaredNorm() /
+                static_cast<double>(count);
     }
-    const Eigen::Vector3d mean = means.rowwise().mean();
-    between += static_cast<double>(kStretches) * mean.squaredNorm();
-    within += (means.colwise() - mean).squaredNorm();
-    presses += 1;
+    freedom += static_cast<double>(3 * kStretches - Q.cols() - qr.rank());
   }
-  if (presses < 2 || within <= 0) return test;
-  const double d1 = 3 * presses, d2 = d1 * static_cast<double>(kStretches - 1);
-  test.p_value = fisher_upper(between / d1 / (within / d2), d1, d2);
+  if (offsets < 6 || within <= 0) return test;
+  test.p_value = fisher_upper(test.gain / offsets / (within / freedom), offsets, freedom);
   return test;
 }
 

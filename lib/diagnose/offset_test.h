@@ -12,9 +12,9 @@ struct OffsetTest {
 
 // Constants of each press against its residual (stacked, over the noise), beyond what a wrong
 // stiffness does in that press (gain_directions() of `forces`, stacked): that shows as an offset
-// too, but not where the force is small. The p-value is Fisher's F of the presses' means
-// over the means of ten stretches of each press; signs of whole presses cannot test offsets, which
-// are as likely with either sign.
+// too, but not where the force is small. The p-value is Fisher's F of what the offsets take away
+// over what is left in the means of ten stretches of each press, so that neighbouring samples may
+// go together; signs of whole presses cannot test offsets, which are as likely with either sign.
 OffsetTest test_offsets(const Dataset& dataset, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& forces);
 

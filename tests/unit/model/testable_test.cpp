@@ -1,0 +1,85 @@
+// What data must have for an effect to be testable, and what presses tell of their past.
+#include <gtest/gtest.h>
+
+#include "support/synthetic.h"
+
+namespace hapsim {
+namespace {
+
+// Two presses at one place: in to 2 mm and out, in to 3 mm and a little sideways.
+Recording two_presses() {
+  Recording r;
+  r.name = "two";
+  r.metadata.set("tool_radius", "0.004");
+  const auto row = [&](int press, const Vec3& u) {
+    r.line.push_back(static_cast<long>(r.line.size()) + 2);
+    r.press.push_back(press);
+    r.t.push_back(0.1 * static_cast<double>(r.t.size()));
+    r.position.emplace_back(0.01, 0.02, 0.04);
+    r.u.push_back(u);
+    r.f.push_back(Vec3::Zero());
+  };
+  for (const double depth : {0.0, 1e-3, 2e-3, 1e-3, 0.0}) row(0, {0, 0, -depth});
+  row(1, {0, 0, -3e-3});
+  row(1, {1e-3, 0, -3e-3});
+  return r;
+}
+
+Dataset dataset_of(const Recording& recording) {
+  Dataset d = make_dataset(recording);
+  set_normals(d, {Vec3::UnitZ()});
+  return d;
+}
+
+std::string lack(const std::string& effect, const Recording& recording) {
+  return lacking_for(find_effect(effect)->card(), dataset_of(recording));
+}
+
+TEST(Dataset, KnowsThePressesBefore) {
+  const Dataset d = dataset_of(two_presses());
+  ASSERT_EQ(d.episodes.size(), 2u);
+  EXPECT_EQ(d.episodes[0].view.past_depth, 0);
+  EXPECT_EQ(d.episodes[1].view.past_depth, 2e-3);
+  EXPECT_EQ(d.episodes[1].view.number, 2);
+  EXPECT_NEAR((d.episodes[1].view.direction - Vec3(1, 0, -3).normalized()).norm(), 0, 1e-12);
+  Recording healed = two_presses();
+  healed.metadata.set("recovery", "full");
+  EXPECT_EQ(dataset_of(healed).episodes[1].view.past_depth, 0);
+}
+
+TEST(Testable, SaysWhatTheDataLack) {
+  const Recording both = two_presses();
+  EXPECT_EQ(lack("softening", both), "");
+  EXPECT_EQ(lack("friction", both), "");
+  EXPECT_EQ(lack("backlash", both), "");
+  EXPECT_NE(lack("temperature", both).find("no column temp"), std::string::npos);
+  Recording first = both;
+  for (auto* column : {&first.u, &first.f, &first.position}) column->resize(5);
+  first.press.resize(5);
+  first.line.resize(5);
+  first.t.resize(5);
+  EXPECT_NE(lack("softening", first).find("pressed only once"), std::string::npos);
+  EXPECT_NE(lack("friction", first).find("no press moves sideways"), std::string::npos);
+  Recording in = first;
+  for (auto* column : {&in.u, &in.f, &in.position}) column->resize(3);
+  in.press.resize(3);
+  in.line.resize(3);
+  in.t.resize(3);
+  EXPECT_NE(lack("backlash", in).find("way out"), std::string::npos);
+  EXPECT_NE(lack("adhesion", in).find("way out"), std::string::npos);
+}
+
+TEST(Testable, TemperatureMustVaryBetweenPresses) {
+  Recording r = two_presses();
+  r.temp.assign(r.rows(), 20.0);
+  r.temp[1] = 22;  // a spike within a press is no warming
+  EXPECT_NE(lack("temperature", r).find("changes by"), std::string::npos);
+  r.temp[5] = r.temp[6] = 30;
+  EXPECT_EQ(lack("temperature", r), "");
+  EXPECT_NEAR(summarise(dataset_of(r), 1).temperature, 162.0 / 7, 1e-12);
+  r.metadata.set("temp_ref", "22");
+  EXPECT_EQ(summarise(dataset_of(r), 1).temperature, 22);
+}
+
+}  // namespace
+}  // namespace hapsim
