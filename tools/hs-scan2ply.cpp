@@ -12,10 +12,10 @@
 #include "cli/tool.h"
 #include "geometry/clean_points.h"
 #include "geometry/normals.h"
-#include "io/csv.h"
+#include "io/number.h"
 #include "scan/isosurface.h"
 #include "scan/orient.h"
-#include "scan/plan_scan.h"
+#include "scan/plan_file.h"
 #include "scan/register.h"
 #include "scan/scan_file.h"
 #include "scan/touch.h"
@@ -255,34 +255,6 @@ Robot load_robot(const Arguments& arguments) {
   return Robot(input.read_all(), input.name(), arguments.text("--root"), arguments.text("--tip"));
 }
 
-// A surface's or a table's places with normals, for a plan.
-PointCloud known_surface(const Arguments& arguments, const ScanFileOptions& file, double pitch) {
-  Input input(arguments.input());
-  const std::string bytes = input.read_all(), name = input.name();
-  Input again = Input::from_bytes(bytes, name);
-  const bool mesh = bytes.starts_with("ply") && bytes.find("element face") < 4000 &&
-                    bytes.find("element face 0") > 4000;
-  if (mesh || bytes.starts_with("solid")) {
-    Surface surface = read_surface(again);
-    for (Vec3& p : surface.vertices) p *= file.unit;
-    check_extent(surface.vertices, arguments.text("--unit"), name);
-    return sample_surface(surface, pitch / 3);
-  }
-  ScanFileOptions points = file;
-  points.robot = nullptr;
-  Scan scan = read_scan(again, points);
-  if (scan.cloud.normals.empty()) {
-    if (arguments.text("--plan") == "positions") {
-      scan.cloud.normals.assign(scan.cloud.points.size(), Vec3::UnitZ());
-    } else {
-      require_surface_points(scan.cloud.points, name);
-      NormalsReport report;
-      estimate_normals(scan.cloud, Vec3::UnitZ(), report);
-    }
-  }
-  return scan.cloud;
-}
-
 int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
   if (file.robot == nullptr) fail_usage("--plan needs a robot", "add --robot FILE.urdf");
   const std::string what = arguments.text("--plan");
@@ -303,7 +275,10 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
     }
     targets = raster_on_grid(*region, pitch, arguments.number("--height"));
   } else {
-    const PointCloud known = known_surface(arguments, file, pitch);
+    Input input(arguments.input());
+    const PointCloud known = what == "surface" ? read_known_surface(input, file.unit, pitch / 3)
+                                               : read_positions(input, file.unit);
+    check_extent(known.points, arguments.text("--unit"), input.name());
     if (what == "surface") {
       targets =
           raster_on_surface(known, pitch, region, arguments.number("--steepest") * M_PI / 180);
@@ -327,25 +302,8 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
                   fmt::format("none of {} places can be reached", targets.size()),
                   "check --object, --tip, --mount and --region");
   }
-  Metadata metadata;
-  metadata.set("robot", file.robot->name());
-  metadata.set("tip", file.robot->tip());
-  std::vector<std::string> header;
-  for (std::size_t j = 1; j <= file.robot->joints().size(); ++j)
-    header.push_back(fmt::format("q{}", j));
-  for (const char* name : {"d", "x", "y", "z", "nx", "ny", "nz"}) header.emplace_back(name);
   Output output(arguments.output());
-  CsvWriter writer(output.stream(), metadata, header);
-  for (const PlannedPose& planned : plan.poses) {
-    const Target& target = targets[static_cast<std::size_t>(planned.target)];
-    std::vector<std::string> row;
-    for (const double q : planned.q) row.push_back(format_number(q));
-    row.push_back(format_number(standoff));
-    for (const Vec3* v : {&target.point, &target.normal}) {
-      for (int k = 0; k < 3; ++k) row.push_back(format_number((*v)[k]));
-    }
-    writer.row(row);
-  }
+  write_plan(output.stream(), *file.robot, targets, plan, standoff);
   output.commit();
   say(arguments, kTool,
       fmt::format("{} poses, {} of {} places out of reach; collisions were not checked",

@@ -80,9 +80,18 @@ Scan table_scan(const CsvTable& table, const ScanFileOptions& options) {
     return sections_scan(read_sections(table, options.unit, options.section_distance));
   }
   Scan scan;
-  scan.cloud.points = vector_columns(table, "x", "y", "z");
-  if (table.find("nx") >= 0 && table.find("ny") >= 0 && table.find("nz") >= 0) {
-    scan.cloud.normals = vector_columns(table, "nx", "ny", "nz");
+  // A name that is not there stands for itself in the message.
+  const auto name = [&table](const char* axis, const char* wanted) {
+    const std::string a = axis;
+    const std::string found = wanted[0] == 'n'
+                                  ? find_column(table, {"n" + a, "normal_" + a, "normal" + a})
+                                  : find_column(table, {a, "p" + a, "pos_" + a, "point_" + a});
+    return found.empty() ? wanted : found;
+  };
+  scan.cloud.points = vector_columns(table, name("x", "x"), name("y", "y"), name("z", "z"));
+  const std::string nx = name("x", "nx"), ny = name("y", "ny"), nz = name("z", "nz");
+  if (table.find(nx) >= 0 && table.find(ny) >= 0 && table.find(nz) >= 0) {
+    scan.cloud.normals = vector_columns(table, nx, ny, nz);
   }
   for (Vec3& p : scan.cloud.points) p *= options.unit;
   std::vector<int> all(table.rows());

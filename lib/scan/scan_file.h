@@ -16,7 +16,8 @@ struct ScanFileOptions {
   double section_distance = 0;   // of sections without z [m]
 };
 
-// PLY (vertices, normals, zone), STL (corners), PCD, CSV or rows of numbers (x y z [nx ny nz]); CSV
+// PLY (vertices, normals, zone), STL (corners), PCD, CSV or rows of numbers (x y z [nx ny nz]; case
+// does not matter, pos_x, point_x, normal_x do too); CSV
 // with a column `section` or `slice` holds contours; with a robot, CSV of joint angles. Columns
 // zone and touch_force are taken along. No point is Error(kBadInput, name), as is what the readers
 // refuse; a volume is Error(kUsage), as it needs a threshold.

@@ -150,6 +150,10 @@ paste -d, <(grep -v '^[#q]' plan.csv) <(awk '/^end_header/ { on = 1; next } on {
 expect 0 'out of reach: 1.0000,0.0000,0.0000' --robot "$example/arm.urdf" --plan grid --region 0.4,0,1,0 --pitch 0.1 -o grid.csv
 expect 1 'out of reach' --robot "$example/arm.urdf" --plan grid --region 0.4,0,1,0 --pitch 0.1 --check -o grid.csv
 expect 4 'none of 11 places can be reached' --robot "$example/arm.urdf" --plan grid --region 4,0,5,0 --pitch 0.1 -o none.csv
+printf 'X,Y,Z\n0.4,0,0.1\n0.45,0.05,0.12\n' >press.csv
+expect 0 '2 poses, 0 of 2' press.csv --robot "$example/arm.urdf" --plan positions --bar 0.12 -o press-plan.csv
+"$bin/hs-scan2ply" -q press-plan.csv --robot "$example/arm.urdf" --bar 0.12 2>.err
+grep -q 'only 2 different points' .err || complain 'a plan of two presses is read again'
 expect 2 'add --robot' --plan grid
 expect 2 'holds 2 numbers' driven.csv "${setup[@]}" --beam 0,1
 refuse "column 'q1' is missing" dome.csv "${setup[@]}"
