@@ -2,9 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -13,8 +11,8 @@
 #include "geometry/body_mesh.h"
 #include "geometry/contact_mesh.h"
 #include "geometry/curve_edges.h"
-#include "geometry/quality.h"
 #include "io/recording.h"
+#include "tetmesh_report.h"
 
 namespace hapsim {
 namespace {
@@ -314,86 +312,6 @@ TetMesh finish_given(const Arguments& arguments, const BodyOptions& options, Mes
   return mesh;
 }
 
-nlohmann::ordered_json as_json(const Spread& spread, const Histogram* histogram = nullptr) {
-  nlohmann::ordered_json json{
-      {"min", spread.minimum}, {"median", spread.median}, {"max", spread.maximum}};
-  if (histogram != nullptr) json["bins_from"] = histogram->edge;
-  if (histogram != nullptr) json["counts"] = histogram->count;
-  return json;
-}
-
-nlohmann::ordered_json as_json(const TetMesh& mesh, const TetQuality& q, const BodyReport& report) {
-  std::map<int, std::size_t> regions;
-  for (const int region : mesh.region) ++regions[region];
-  nlohmann::ordered_json json{
-      {"tetrahedra", mesh.tets.size()},
-      {"nodes", mesh.nodes.size()},
-      {"order", mesh.order},
-      {"boundary_triangles", mesh.faces.size()},
-      {"volume_m3", q.volume},
-      {"fixed_nodes", std::count(mesh.fixed.begin(), mesh.fixed.end(), 1)},
-      {"inverted", q.inverted},
-      {"edge_m", as_json(q.edge)},
-      {"radius_edge", as_json(q.radius_edge, &q.radius_edge_counts)},
-      {"smallest_dihedral_deg", as_json(q.smallest_dihedral_deg, &q.dihedral_counts)},
-      {"largest_dihedral_deg", q.largest_dihedral_deg},
-      {"aspect", as_json(q.aspect, &q.aspect_counts)}};
-  for (const auto& [region, count] : regions) json["regions"][std::to_string(region)] = count;
-  json["contact_nodes"] = report.contact_node;
-  for (const BadTet& t : q.worst_tets)
-    json["worst"].push_back({{"tetrahedron", t.tet},
-                             {"x", t.place.x()},
-                             {"y", t.place.y()},
-                             {"z", t.place.z()},
-                             {"smallest_dihedral_deg", t.smallest_dihedral_deg},
-                             {"radius_edge", t.radius_edge},
-                             {"aspect", t.aspect}});
-  json["notes"] = report.notes;
-  return json;
-}
-
-std::string counts(const char* what, const Histogram& histogram) {
-  std::string text = what;
-  for (std::size_t i = 0; i < histogram.count.size(); ++i)
-    text +=
-        fmt::format("{} from {:g}: {}", i == 0 ? "" : ",", histogram.edge[i], histogram.count[i]);
-  return text;
-}
-
-void summarise(const Arguments& arguments, const TetMesh& mesh, const TetQuality& q,
-               const BodyReport& report) {
-  const auto tell = [&](const std::string& text) { say(arguments, kName, text); };
-  const auto fixed = std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
-  for (const std::string& note : report.notes) tell(note);
-  tell(fmt::format("{} tetrahedra, {} nodes, {} boundary triangles, {:.6g} m^3, unit {}",
-                   mesh.tets.size(), mesh.nodes.size(), mesh.faces.size(), q.volume,
-                   arguments.text("--unit")));
-  tell(fixed > 0 ? fmt::format("{} nodes fixed", fixed)
-                 : "no node fixed: fix some before this body is pressed");
-  tell(fmt::format(
-      "radius-edge {:.2f} / {:.2f} / {:.2f}, smallest dihedral {:.1f} / {:.1f} / {:.1f} "
-      "deg, largest {:.1f} deg, aspect {:.2f} / {:.2f} / {:.2f} (min / median / max)",
-      q.radius_edge.minimum, q.radius_edge.median, q.radius_edge.maximum,
-      q.smallest_dihedral_deg.minimum, q.smallest_dihedral_deg.median,
-      q.smallest_dihedral_deg.maximum, q.largest_dihedral_deg, q.aspect.minimum, q.aspect.median,
-      q.aspect.maximum));
-  if (!arguments.verbose() && !q.worst_tets.empty()) {
-    const Vec3& at = q.worst_place;
-    tell(fmt::format("worst tetrahedron {} at ({:.6g}, {:.6g}, {:.6g})", q.worst, at.x(), at.y(),
-                     at.z()));
-  }
-  if (!arguments.verbose()) return;
-  tell(counts("radius-edge", q.radius_edge_counts));
-  tell(counts("smallest dihedral [deg]", q.dihedral_counts));
-  tell(counts("aspect", q.aspect_counts));
-  for (const BadTet& t : q.worst_tets)
-    tell(
-        fmt::format("tetrahedron {} at ({:.6g}, {:.6g}, {:.6g}): smallest dihedral {:.2f} deg, "
-                    "radius-edge {:.2f}, aspect {:.2f}",
-                    t.tet, t.place.x(), t.place.y(), t.place.z(), t.smallest_dihedral_deg,
-                    t.radius_edge, t.aspect));
-}
-
 // All outputs are written before the first is put in its place, and before anything is said: a
 // reader of standard error that goes away costs no result.
 void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality& quality,
@@ -456,7 +374,7 @@ int run(const Arguments& arguments) {
                   "mesh with another --edge");
   write_contact_meshes(arguments, mesh, options);
   write_all(arguments, mesh, quality, report);
-  summarise(arguments, mesh, quality, report);
+  summarise(arguments, kName, mesh, quality, report);
   return 0;
 }
 
