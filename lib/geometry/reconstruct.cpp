@@ -4,10 +4,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <exception>
+#include <numeric>
 
 #include "base/error.h"
 #include "geometry/clean_points.h"
+#include "geometry/local_plane.h"
 #include "geometry/normals.h"
 #include "geometry/reconstruct_parts.h"
 #include "geometry/surface_tree.h"
@@ -16,10 +20,55 @@
 namespace hapsim {
 namespace {
 
-constexpr double kSeenBelow = 0.5;  // share of the plan view: a scan from all round
-constexpr double kRest = 0.05;      // share of the height cut off such a body so that it can stand
-constexpr double kFarOff = 0.25;    // of the spacing: others are tried when points lie farther off
-constexpr double kFaces = 2000;     // wished when --edge is not given
+constexpr double kSeenBelow = 0.5;   // share of the plan view: a scan from all round
+constexpr double kRest = 0.05;       // share of the height cut off such a body so that it can stand
+constexpr double kFarOff = 0.25;     // of the spacing: others are tried when points lie farther off
+constexpr std::size_t kFewest = 12;  // different points
+constexpr double kFlat = 1e-4;       // thickness over width of points in a plane
+constexpr double kFaces = 2000;      // wished when --edge is not given
+
+// Points given once, in their order.
+PointCloud without_doubles(const PointCloud& cloud) {
+  std::vector<std::size_t> order(cloud.points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) {
+    const Vec3& p = cloud.points[i];
+    return std::array<double, 3>{p.x(), p.y(), p.z()};
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::vector<char> doubled(order.size(), 0);
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    doubled[order[i]] = key(order[i]) == key(order[i - 1]) ? 1 : 0;
+  }
+  PointCloud once;
+  for (std::size_t i = 0; i < doubled.size(); ++i) {
+    if (doubled[i] != 0) continue;
+    once.points.push_back(cloud.points[i]);
+    if (!cloud.normals.empty()) once.normals.push_back(cloud.normals[i]);
+  }
+  return once;
+}
+
+// What no method can use is refused before any of them sees it.
+void require_body_points(const std::vector<Vec3>& points, ReconstructMethod method,
+                         const std::string& name) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].allFinite()) continue;
+    fail_input(name, fmt::format("point {} is not finite", i), "remove it");
+  }
+  require_surface_points(points, name);
+  if (points.size() < kFewest) {
+    fail_input(name, fmt::format("only {} different points", points.size()),
+               fmt::format("scan at least {}, better some hundred", kFewest));
+  }
+  if (method == ReconstructMethod::kAuto || method == ReconstructMethod::kHeight) return;
+  const LocalPlane plane = fit_plane(points);
+  if (plane.spread[0] < kFlat * plane.spread[2]) {
+    fail_input(name, "all points lie in one plane",
+               "scan the sides too, or use --method height with --base-depth");
+  }
+}
 
 // The direction that is up, from the normals when it is to be found.
 Vec3 find_up(const PointCloud& cloud, const ReconstructOptions& options) {
@@ -147,9 +196,17 @@ void measure(const Surface& surface, const std::vector<Vec3>& points, Reconstruc
 Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMethod method,
                 const std::string& name, bool& sharp) {
   sharp = false;
-  Surface surface = method == ReconstructMethod::kHeight
-                        ? reconstruct_height(cloud, frame)
-                        : reconstruct_closed(cloud, frame, method, sharp);
+  Surface surface;
+  try {
+    surface = method == ReconstructMethod::kHeight
+                  ? reconstruct_height(cloud, frame)
+                  : reconstruct_closed(cloud, frame, method, sharp);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception&) {  // out of the geometry library
+    fail_numerics(name, "method " + method_name(method) + " failed on these points",
+                  "use another --method, or clean them with hs-scan2ply");
+  }
   require_body(surface, name);
   return surface;
 }
@@ -237,8 +294,8 @@ void check_size(const std::vector<Vec3>& points, const std::string& unit, const 
 Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                     const std::string& name, ReconstructReport& report) {
   report = {};
-  require_surface_points(cloud.points, name);
-  PointCloud scan = cloud;
+  PointCloud scan = without_doubles(cloud);
+  require_body_points(scan.points, options.method, name);
   if (scan.normals.empty()) {
     NormalsReport normals;
     estimate_normals(scan, options.up.value_or(Vec3::UnitZ()), normals);

@@ -15,7 +15,8 @@
 namespace hapsim {
 namespace {
 
-constexpr double kCrumb = 0.01;  // of the largest part's area: a loose part this small is a crumb
+constexpr double kNothing = 1e-7;  // volume over area to 3/2
+constexpr double kCrumb = 0.01;    // of the largest part's area: a loose part this small is a crumb
 
 int root(std::vector<int>& parent, int v) {
   while (parent[v] != v) v = parent[v] = parent[parent[v]];
@@ -213,6 +214,9 @@ Surface repair_surface(const Surface& given, const std::string& name, RepairRepo
   for (Surface& part : closed) {
     if (!is_closed(part)) close_holes(part, name, report);
     turn_outward(part, report);
+    if (signed_volume(part) < kNothing * std::pow(surface_area(part), 1.5)) {
+      fail_input(name, "the triangles enclose no volume", "give the surface of a body");
+    }
     uncut(part, name, report);
   }
   Surface body = one_body(std::move(closed), report);

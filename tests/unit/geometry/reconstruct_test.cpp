@@ -139,15 +139,16 @@ INSTANTIATE_TEST_SUITE_P(All, EveryMethod,
 
 // Points without a volume are refused in one line, by every method.
 TEST(Reconstruct, PointsWithoutVolumeAreRefused) {
-  std::vector<Vec3> none, one{{0, 0, 0}}, three{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, line, same;
+  std::vector<Vec3> none, one{{0, 0, 0}}, three{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, line, same, four;
   for (int i = 0; i < 50; ++i) {
     line.emplace_back(0.001 * i, 0.002 * i, 0);
     same.emplace_back(0.1, 0.1, 0.1);
+    four.emplace_back(i % 4 == 1, i % 4 == 2, i % 4 == 3);
   }
   for (const std::string& name : reconstruct_methods()) {
     ReconstructOptions options;
     options.method = method_named(name);
-    for (const auto& points : {none, one, three, line, same}) {
+    for (const auto& points : {none, one, three, line, same, four}) {
       PointCloud cloud;
       cloud.points = points;
       ReconstructReport report;
@@ -157,6 +158,28 @@ TEST(Reconstruct, PointsWithoutVolumeAreRefused) {
       } catch (const Error& error) {
         EXPECT_EQ(error.code(), ExitCode::kBadInput) << name << ": " << error.what();
       }
+    }
+  }
+}
+
+TEST(Reconstruct, PointsInAPlaneMakeAPatchOnly) {
+  Random random(3);
+  PointCloud cloud;
+  for (int i = 0; i < 300; ++i)
+    cloud.points.emplace_back(0.1 * random.uniform(), 0.1 * random.uniform(), 0);
+  for (const std::string& name : reconstruct_methods()) {
+    ReconstructOptions options;
+    options.base_depth = 0.02;
+    options.method = method_named(name);
+    ReconstructReport report;
+    const bool patch = name == "auto" || name == "height";
+    try {
+      const Surface s = reconstruct(cloud, options, "scan.csv", report);
+      EXPECT_TRUE(patch) << name;
+      EXPECT_TRUE(is_closed(s));
+    } catch (const Error& error) {
+      EXPECT_FALSE(patch) << error.what();
+      EXPECT_EQ(error.code(), ExitCode::kBadInput) << name;
     }
   }
 }
