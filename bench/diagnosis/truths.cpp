@@ -107,7 +107,7 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{1 / (1 + s), 1 / (1 + s)};
   }));
   t.push_back(own_form("sensor-curve", "sensor-curve", 1, [](double s) {
-    return std::vector<double>{-s, 0, -s, 0, 0};
+    return std::vector<double>{-s, 0, -s, 0};
   }));
   t.push_back(
       own_form("sensor-lag", "sensor-lag", 1, [](double s) { return std::vector<double>{s}; }));
