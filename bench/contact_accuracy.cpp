@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cstdlib>
 #include <vector>
@@ -23,8 +22,8 @@ namespace {
 
 using namespace hapsim;
 
-constexpr double kToolRadius = 0.004;   // [m]
-constexpr double kLimit = 0.015;        // relative error that is asked for
+constexpr double kToolRadius = 0.004;  // [m]
+constexpr double kLimit = 0.015;       // relative error that is asked for
 constexpr double kReferenceEdge = kRimEdge / 2;
 
 struct Object {
@@ -69,7 +68,8 @@ int main(int argc, char** argv) {
   objects.push_back({"block", test::block_mesh({0.12, 0.21, 0.06}, 12, 21, 6, 1)});
   objects.push_back({"ball", body_of(test::half_ball())});
   objects.push_back({"lump", body_of(test::lump())});
-  fmt::print("blas: {}; tool radius {} m; {} positions an object\n", blas_name(), kToolRadius, count);
+  fmt::print("blas: {}; tool radius {} m; {} positions an object\n", blas_name(), kToolRadius,
+             count);
   fmt::print("{:6} {:>5} {:>10} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9}\n", "object", "nu",
              "max normal", "rms normal", "max side", "stated", "covered", "in 1.5 %", "elements");
   int covered_of_all = 0, all = 0;
@@ -78,9 +78,9 @@ int main(int argc, char** argv) {
     const std::vector<Vec3> positions = positions_on(object.body, count, 5);
     std::size_t elements = 0;
     for (const Vec3& p : positions)
-      elements = std::max(
-          elements, make_contact_mesh(base, p, kToolRadius, kRimEdge * kToolRadius, kGrowth)
-                        .mesh.tets.size());
+      elements = std::max(elements,
+                          make_contact_mesh(base, p, kToolRadius, kRimEdge * kToolRadius, kGrowth)
+                              .mesh.tets.size());
     for (const double nu : {0.3, 0.45}) {
       ContactLibraryOptions options;
       const auto usual =
