@@ -43,12 +43,14 @@ ToolSpec specification() {
       "The summary says whether that brought the points nearer.",
       "Method auto takes poisson when more than half of the plan view was seen from below, or when "
       "steep points reach the lowest level in more than 70 % of the directions; else height. Where "
-      "poisson fails, or leaves a tenth of the points farther off than a quarter of their spacing, "
+      "poisson fails, or leaves a tenth of the points farther off than a quarter of their spacing "
+      "and three times their scatter, "
       "the others are tried and the nearest is taken. The summary and the comments of the PLY name "
       "the method and why, the base plane and why.",
       "The base plane is, unless --base or --base-depth say otherwise: z = 0 when the lowest "
       "points (their 0.5 % quantile) come within twice their spacing, or 5 % of the height, of it; "
-      "for the lowest points' level; for height a quarter of the patch's width below them, which "
+      "for the other methods the lowest points' level; for height a quarter of the patch's width "
+      "below them, which "
       "is a guess. A body scanned from all round is cut flat 5 % of its height above its lowest "
       "points, unless --no-base.",
       "Repair of triangles, each step counted in the summary: vertices at one place merged; "

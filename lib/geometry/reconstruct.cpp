@@ -13,6 +13,7 @@
 #include "geometry/clean_points.h"
 #include "geometry/local_plane.h"
 #include "geometry/normals.h"
+#include "geometry/point_index.h"
 #include "geometry/reconstruct_parts.h"
 #include "geometry/surface_tree.h"
 #include "geometry/tetgen.h"
@@ -23,6 +24,7 @@ namespace {
 constexpr double kSeenBelow = 0.5;   // share of the plan view: a scan from all round
 constexpr double kRest = 0.05;       // share of the height cut off such a body so that it can stand
 constexpr double kFarOff = 0.25;     // of the spacing: others are tried when points lie farther off
+constexpr double kNoises = 3;        // ... unless that is the scan's own thickness
 constexpr std::size_t kFewest = 12;  // different points
 constexpr double kFlat = 1e-4;       // thickness over width of points in a plane
 constexpr double kFaces = 2000;      // wished when --edge is not given
@@ -167,6 +169,21 @@ void require_body(const Surface& surface, const std::string& name) {
   }
 }
 
+// Thickness of the scan: the median over neighbourhoods [m].
+double noise_of(const std::vector<Vec3>& points) {
+  const PointIndex index(points);
+  std::vector<double> thickness;
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 1000);
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    std::vector<Vec3> near;
+    for (const Neighbour& m : index.nearest(points[i], 12)) near.push_back(points[m.index]);
+    thickness.push_back(fit_plane(near).thickness);
+  }
+  const auto middle = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 2);
+  std::nth_element(thickness.begin(), middle, thickness.end());
+  return *middle;
+}
+
 // 90 % of the points lie nearer than this [m].
 double typical_distance(const Surface& surface, const std::vector<Vec3>& points) {
   const SurfaceTree tree(surface);
@@ -219,6 +236,8 @@ Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
   const bool free =
       options.method == ReconstructMethod::kAuto && report.method != ReconstructMethod::kHeight;
   if (!free) return attempt(cloud, frame, report.method, name, report.sharp);
+  const double near =
+      std::max(kFarOff * std::max(frame.spacing, frame.edge / 3), kNoises * noise_of(cloud.points));
   Surface best;
   double least = 1e300;
   std::string failure;
@@ -247,7 +266,7 @@ Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
     } catch (const Error& error) {
       if (failure.empty()) failure = error.what();
     }
-    if (least < kFarOff * std::max(frame.spacing, frame.edge / 3)) return best;
+    if (least < near) return best;
   }
   if (best.faces.empty()) fail_numerics("", failure, "try another --edge or --method");
   return best;
