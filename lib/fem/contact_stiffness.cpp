@@ -134,8 +134,8 @@ double mesh_uncertainty(const StiffnessSolution& s) {
   // The error of the finer mesh is up to 0.7 of what the coarser one adds; the 0.3 % is what both
   // have in common (bench_contact_accuracy).
   constexpr double kShare = 0.7, kCommon = 0.003;
-  return kCommon + kShare * std::abs(s.normal.dot(s.coarse_change * s.normal)) /
-                       s.normal.dot(s.K * s.normal);
+  return kCommon +
+         kShare * std::abs(s.normal.dot(s.coarse_change * s.normal)) / s.normal.dot(s.K * s.normal);
 }
 
 StiffnessSolution ContactBodies::solve_corrected(const Material& material, const PlanGrid& grid,

@@ -6,12 +6,8 @@
 #include "base/error.h"
 
 namespace hapsim {
-ElasticBody::ElasticBody(const TetMesh& mesh, const std::vector<int>& handle,
-                         Dilatation dilatation)
-    : mesh_(mesh),
-      handle_(handle),
-      block_of_node_(mesh.nodes.size(), -1),
-      dilatation_(dilatation) {
+ElasticBody::ElasticBody(const TetMesh& mesh, const std::vector<int>& handle, Dilatation dilatation)
+    : mesh_(mesh), handle_(handle), block_of_node_(mesh.nodes.size(), -1), dilatation_(dilatation) {
   assert(dilatation != Dilatation::kPatch);
   assert(handle.size() == mesh.nodes.size());
   const int nodes_per_tet = mesh.order == 1 ? 4 : 10;
@@ -110,8 +106,7 @@ ElasticBody::Response ElasticBody::solve(const Eigen::MatrixXd& prescribed) cons
           const int row = block_of_node_[mesh_.tets[t][b]];
           if (row < 0) continue;
           load.middleRows(3 * row, 3).noalias() -=
-              element.block(b, a) *
-              response.field.middleRows(3 * na, 3);
+              element.block(b, a) * response.field.middleRows(3 * na, 3);
         }
       }
     }
@@ -130,8 +125,7 @@ ElasticBody::Response ElasticBody::solve(const Eigen::MatrixXd& prescribed) cons
       if (h < 0) continue;
       for (int b = 0; b < nodes_per_tet; ++b)
         response.reaction.middleRows(3 * h, 3).noalias() +=
-            element.block(a, b) *
-            response.field.middleRows(3 * mesh_.tets[t][b], 3);
+            element.block(a, b) * response.field.middleRows(3 * mesh_.tets[t][b], 3);
     }
   }
   return response;

@@ -65,8 +65,7 @@ ElementGradients curved_gradients(const TetMesh& mesh, std::size_t tet) {
     }
     const Eigen::Matrix<double, 3, 10> local = by_l.bottomRows<3>().rowwise() - by_l.row(0);
     Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();  // dx_r / dl_k
-    for (int a = 0; a < 10; ++a)
-      jacobian.noalias() += mesh.nodes[n[a]] * local.col(a).transpose();
+    for (int a = 0; a < 10; ++a) jacobian.noalias() += mesh.nodes[n[a]] * local.col(a).transpose();
     const double determinant = jacobian.determinant();
     if (!(determinant > 0)) {
       const Vec3& x = mesh.nodes[n[0]];
