@@ -17,7 +17,8 @@ ToolSpec specification() {
   spec.input = "motion or recording CSV (press,t,x,y,z,ux,uy,uz; forces in it are ignored)";
   spec.description = {
       "Writes the recording with the forces replaced by the model's. Each contact position is "
-      "solved on second-order tetrahedra graded to the tool's rim; relaxation is integrated exactly for motion that is straight between samples "
+      "solved on second-order tetrahedra graded to the tool's rim; relaxation is integrated "
+      "exactly for motion that is straight between samples "
       "and for any time steps.",
       "Measured and simulated recordings have one format, so the output feeds hs-compare and "
       "hs-identify alike."};
