@@ -20,7 +20,7 @@ Vec3 meeting(const std::set<int>& labels, const Segmentation& segmentation, cons
     Eigen::Matrix3d a = 1e-3 * Eigen::Matrix3d::Identity();
     Vec3 right = Vec3::Zero();
     for (const int k : labels) {
-      if (k == LabelledSurface::kBottom) continue;
+      if (k < 0) continue;
       const Patch::Height h = segmentation.patches[k].height(x);
       a += h.normal * h.normal.transpose();
       right -= h.value * h.normal;
@@ -33,7 +33,7 @@ Vec3 meeting(const std::set<int>& labels, const Segmentation& segmentation, cons
   return x;
 }
 
-// The sine of the smallest angle... as height over longest side; negative when the face looks away
+// Height over longest side; negative when the face looks away
 // from its patch.
 double soundness(const LabelledSurface& labelled, std::size_t f, const Segmentation& segmentation) {
   const Triangle& t = labelled.surface.faces[f];
@@ -45,6 +45,7 @@ double soundness(const LabelledSurface& labelled, std::size_t f, const Segmentat
   const double shape = n.norm() / (longest * longest);
   const int label = labelled.label[f];
   if (label == LabelledSurface::kBottom) return n.z() < 0 ? shape : -shape;
+  if (label == LabelledSurface::kFree) return shape;
   const Vec3 centre = (at[t[0]] + at[t[1]] + at[t[2]]) / 3;
   return segmentation.patches[label].height(centre).normal.dot(n) > 0.3 * n.norm() ? shape : -shape;
 }

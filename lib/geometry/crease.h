@@ -12,6 +12,7 @@ namespace hapsim {
 // A surface whose faces name the patch they belong to; the flat bottom has the label `bottom`.
 struct LabelledSurface {
   static constexpr int kBottom = -1;
+  static constexpr int kFree = -2;  // no patch is nearby: stays as it is
   Surface surface;
   std::vector<int> label;  // as many as faces
 };

@@ -10,8 +10,8 @@
 namespace hapsim {
 namespace {
 
-constexpr int kNone = -2;   // of a vertex inside the bottom
-constexpr int kAbout = 24;  // points that say which patches are nearby
+constexpr int kNone = LabelledSurface::kFree;  // also of a vertex inside the bottom
+constexpr int kAbout = 24;                     // points that say which patches are nearby
 
 bool in_bottom(const Surface& surface, const Triangle& f, double base) {
   return std::all_of(f.begin(), f.end(), [&](int v) { return surface.vertices[v].z() == base; });
