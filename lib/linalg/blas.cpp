@@ -41,4 +41,15 @@ void prepare_blas_for_many_threads() {
   if (auto levels = find_symbol<void (*)(int)>("omp_set_max_active_levels")) levels(0);
 }
 
+BlasThreads::BlasThreads(int threads) : changed_(threads > 1) {
+  prepare_blas_for_many_threads();
+  if (!changed_) return;
+  if (auto set = find_symbol<void (*)(int)>("openblas_set_num_threads")) set(threads);
+}
+
+BlasThreads::~BlasThreads() {
+  if (!changed_) return;
+  if (auto set = find_symbol<void (*)(int)>("openblas_set_num_threads")) set(1);
+}
+
 }  // namespace hapsim

@@ -14,4 +14,17 @@ std::string blas_name();
 // give on matrices of this size). Cheap; safe to call often and from any thread.
 void prepare_blas_for_many_threads();
 
+// OpenBLAS takes `threads` while this lives, and one thread again after: for one large dense
+// product or inverse at a time, while no other thread factorises. 1 changes nothing.
+class BlasThreads {
+ public:
+  explicit BlasThreads(int threads);
+  ~BlasThreads();
+  BlasThreads(const BlasThreads&) = delete;
+  BlasThreads& operator=(const BlasThreads&) = delete;
+
+ private:
+  bool changed_;
+};
+
 }  // namespace hapsim

@@ -8,26 +8,10 @@
 
 #include "base/error.h"
 #include "linalg/blas.h"
+#include "linalg/cholmod_view.h"
 
 namespace hapsim {
 namespace {
-
-// A view of our arrays as CHOLMOD's lower-stored matrix; nothing is copied.
-cholmod_sparse view(const SymmetricSparse& matrix) {
-  cholmod_sparse a{};
-  a.nrow = a.ncol = static_cast<std::size_t>(matrix.size);
-  a.nzmax = matrix.row.size();
-  a.p = const_cast<int*>(matrix.column_start.data());
-  a.i = const_cast<int*>(matrix.row.data());
-  a.x = const_cast<double*>(matrix.value.data());
-  a.stype = -1;
-  a.itype = CHOLMOD_INT;
-  a.xtype = CHOLMOD_REAL;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = 1;
-  a.packed = 1;
-  return a;
-}
 
 SymmetricSparse block_graph(const SymmetricSparse& pattern, int block) {
   SymmetricSparse graph;
@@ -74,7 +58,7 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
   prepare_blas_for_many_threads();
   cholmod_common* common = &impl_->common;
   const SymmetricSparse graph = block_graph(pattern, block);
-  cholmod_sparse small = view(graph);
+  cholmod_sparse small = cholmod_view(graph);
   common->nmethods = 2;
   common->method[0].ordering = CHOLMOD_METIS;
   common->method[1].ordering = CHOLMOD_AMD;
@@ -88,7 +72,7 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
     for (int k = 0; k < block; ++k) permutation[i * block + k] = small_order[i] * block + k;
   cholmod_free_factor(&order, common);
 
-  cholmod_sparse full = view(pattern);
+  cholmod_sparse full = cholmod_view(pattern);
   common->nmethods = 1;
   common->method[0].ordering = CHOLMOD_GIVEN;
   impl_->factor = cholmod_analyze_p(&full, permutation.data(), nullptr, 0, common);
@@ -100,7 +84,7 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
 SparseCholesky::~SparseCholesky() = default;
 
 bool SparseCholesky::factorise(const SymmetricSparse& matrix) {
-  cholmod_sparse a = view(matrix);
+  cholmod_sparse a = cholmod_view(matrix);
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   impl_->check_memory();
   return impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
