@@ -16,6 +16,10 @@ void Effect::move(const PressView&, const Values&, Motion&) const {}
 
 void Effect::apply(const PressView&, const Values&, Signal&) const {}
 
+bool Effect::live(const Values&, double, std::vector<MaxwellTerm>&) const {
+  return false;
+}
+
 std::vector<std::vector<double>> Effect::starts(const DataSummary&, int terms) const {
   std::vector<double> start;
   for (int k = 0; k < terms; ++k)

@@ -119,6 +119,12 @@ struct DataSummary {
   double depth = 2e-3;        // deepest displacement [m]
 };
 
+// One Maxwell element of a body: its modulus over the elastic one, and its relaxation time [s].
+struct MaxwellTerm {
+  double share = 0;
+  double tau = 1;
+};
+
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -131,6 +137,9 @@ class Effect {
   // Other effects: changes the force and carries all columns of the derivative through; adds its
   // own.
   virtual void apply(const PressView& press, const Values& values, Signal& signal) const;
+  // The effect as a loop at a fixed rate takes it, sample by sample: what it needs beyond the
+  // material (describe()), for the modulus of region 0 [Pa]. False: it has no such form.
+  virtual bool live(const Values& values, double modulus, std::vector<MaxwellTerm>& terms) const;
   // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
   // card's.
   virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;

@@ -64,6 +64,12 @@ class Viscoelastic : public Effect {
     }
   }
 
+  bool live(const Values& values, double modulus, std::vector<MaxwellTerm>& terms) const override {
+    for (std::size_t k = 0; k + 1 < values.size(); k += 2)
+      terms.push_back({values[k].value / modulus, values[k + 1].value});
+    return true;
+  }
+
   std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const override {
     // Relaxation times spread over what the data can see, from two samples to a press.
     const double low = std::max(2 * data.sample_step, 1e-3);

@@ -33,6 +33,8 @@ class ToolContact {
       : body_(body), options_(options) {}
   const ToolState& update(const Vec3& tool) noexcept;
   const ToolState& state() const { return state_; }
+  // Goes on from a stored state (of a contact with the same body and options).
+  void restore(const ToolState& state) noexcept { state_ = state; }
 
  private:
   const SignedDistance& body_;

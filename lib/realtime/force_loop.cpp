@@ -1,0 +1,65 @@
+#include "realtime/force_loop.h"
+
+#include "effects/memory.h"
+
+namespace hapsim {
+
+ForceLoop::ForceLoop(const PreparedBody& body, const ForceLoopOptions& options)
+    : body_(body), options_(options), contact_(body.distance(), options.contact) {
+  state_.h.fill(Vec3::Zero());
+}
+
+void ForceLoop::restore(const ForceLoopState& state) noexcept {
+  state_ = state;
+  contact_.restore(state.tool);
+}
+
+Vec3 ForceLoop::step(double t, const Vec3& tool) noexcept {
+  const ToolState& now = state_.tool = contact_.update(tool);
+  if (!now.touching()) return advance(t, Vec3::Zero()), Vec3::Zero();
+  const bool began = now.phase == ContactPhase::kBegan;
+  if (began && options_.relaxed) state_.begun = false;
+  if (began || options_.contact.slides) {
+    state_.anchor = now.anchor;
+    state_.normal = now.surface.normal;
+    state_.K = body_.field().at(now.surface.face, now.anchor);
+  }
+  return advance(t, -state_.K * now.displacement);
+}
+
+void ForceLoop::begin(const Vec3& contact) noexcept {
+  const SurfaceSide side = body_.distance().at(contact);
+  state_.anchor = side.point;
+  state_.normal = side.normal;
+  state_.K = body_.field().at(side.face, side.point);
+  if (options_.relaxed) state_.begun = false;
+}
+
+Vec3 ForceLoop::press(double t, const Vec3& u, bool in_air) noexcept {
+  if (in_air) return advance(t, Vec3::Zero()), Vec3::Zero();
+  return advance(t, -state_.K * u);
+}
+
+Vec3 ForceLoop::advance(double t, const Vec3& elastic) noexcept {
+  Vec3 force = elastic;
+  const bool first = !state_.begun;
+  const double dt = t > state_.t ? t - state_.t : 0;
+  const Vec3 change = elastic - state_.elastic;
+  const std::vector<MaxwellTerm>& terms = body_.terms();
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    Vec3& h = state_.h[i];
+    if (first) {
+      h = elastic;  // relaxed until now, then a jump
+    } else {
+      const MemoryStep s = memory_step(dt, terms[i].tau);
+      h = s.a * h + s.c * change;
+    }
+    force += terms[i].share * h;
+  }
+  state_.elastic = elastic;
+  if (first || t > state_.t) state_.t = t;
+  state_.begun = true;
+  return force;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,190 @@
+// The loop against the batch mode, and what a loop must keep to: no allocation, restart, coherence.
+#include "realtime/force_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "base/error.h"
+#include "model/forces.h"
+#include "support/synthetic.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+// Every allocation of this program is counted.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept {
+  std::free(p);
+}
+void operator delete(void* p, std::size_t) noexcept {
+  std::free(p);
+}
+
+namespace hapsim {
+namespace {
+
+Model viscoelastic_model(int terms) {
+  Model model;
+  for (const Effect* effect : catalogue()) {
+    std::vector<double> values;
+    if (effect->card().name == "elastic") {
+      values = {2e4, 0.4};
+    } else if (effect->card().name == "viscoelastic" && terms > 0) {
+      for (int k = 0; k < terms; ++k) {
+        values.push_back(8e3 / (k + 1));
+        values.push_back(0.07 * std::pow(5.0, k));
+      }
+    } else {
+      continue;
+    }
+    const auto rows = effect_rows(*effect, effect->card().terms ? terms : 1, values);
+    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+  }
+  return model;
+}
+
+TetMesh body_mesh() {
+  return test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1);
+}
+
+PreparedBodyOptions tool(double radius = 0.004) {
+  PreparedBodyOptions options;
+  options.tool_radius = radius;
+  return options;
+}
+
+TEST(ForceLoop, IsTheBatchModeAtPreparedContacts) {
+  const Workspace w = test::workspace();
+  for (const int terms : {0, 1, 3}) {
+    const Model model = viscoelastic_model(terms);
+    PreparedBodyOptions options = tool();
+    options.contacts = known_contacts(*w.body, material_of(model));
+    const PreparedBody body(body_mesh(), model, options);
+    const Selection all = all_episodes(w.dataset);
+    const Eigen::VectorXd batch = model_forces(model, w.dataset, all, *w.body, false).f;
+    ForceLoop loop(body);
+    Eigen::Index at = 0;
+    double largest = 0;
+    for (const Episode& episode : w.dataset.episodes) {
+      loop.begin(w.dataset.positions[episode.position]);
+      for (const int row : episode.rows) {
+        const Vec3 f = loop.press(w.dataset.recording.t[row], w.dataset.recording.u[row]);
+        largest = std::max(largest, (f - batch.segment<3>(at)).norm());
+        at += 3;
+      }
+    }
+    EXPECT_LT(largest, 1e-9 * batch.cwiseAbs().maxCoeff()) << terms << " terms";
+  }
+}
+
+TEST(ForceLoop, FindsTheContactOfAToolThatComesDown) {
+  const Model model = viscoelastic_model(0);
+  const PreparedBody body(body_mesh(), model, tool());
+  ForceLoop loop(body);
+  const Vec3 place(0.031, 0.047, 0.04);
+  EXPECT_EQ(loop.step(0, place + Vec3(0, 0, 0.003)).norm(), 0);
+  const SurfaceSide side = body.distance().at(place);
+  const Eigen::Matrix3d K = body.field().at(side.face, side.point);
+  Vec3 f = Vec3::Zero();
+  for (int i = 0; i <= 50; ++i) f = loop.step(1e-3 * i, place - Vec3(0, 0, 4e-5 * i));
+  EXPECT_LT((f + K * Vec3(0, 0, -0.002)).norm(), 1e-12 * f.norm());
+  EXPECT_GT(f.z(), 0);
+  EXPECT_EQ(loop.step(0.1, place + Vec3(0, 0, 0.001)).norm(), 0);
+}
+
+TEST(ForceLoop, AllocatesNothing) {
+  const Model model = viscoelastic_model(4);
+  const PreparedBody body(body_mesh(), model, tool());
+  ForceLoopOptions sliding;
+  sliding.contact.slides = true;
+  ForceLoop loop(body, sliding);
+  const long before = allocations;
+  double sum = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double a = 1e-3 * i;
+    sum += loop.step(a, {0.04 + 0.035 * std::cos(a), 0.04 + 0.035 * std::sin(1.3 * a),
+                         0.0395 + 0.0015 * std::sin(7 * a)})
+               .z();
+  }
+  loop.begin({0.02, 0.02, 0.04});
+  for (int i = 0; i < 100; ++i) sum += loop.press(30 + 1e-3 * i, {0, 0, -1e-5 * i}).z();
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(sum, 0);
+}
+
+TEST(ForceLoop, GoesOnFromAStoredState) {
+  const Model model = viscoelastic_model(2);
+  const PreparedBody body(body_mesh(), model, tool());
+  ForceLoopOptions options;
+  options.relaxed = false;
+  const auto path = [](int i) {
+    return Vec3(0.03 + 1e-5 * i, 0.04, 0.0405 - 0.002 * std::sin(0.02 * i));
+  };
+  ForceLoop whole(body, options);
+  ForceLoopState stored;
+  std::vector<Vec3> forces;
+  for (int i = 0; i < 600; ++i) {
+    if (i == 250) stored = whole.state();
+    forces.push_back(whole.step(1e-3 * i, path(i)));
+  }
+  ForceLoop second(body, options);
+  second.restore(stored);
+  for (int i = 250; i < 600; ++i) EXPECT_EQ(second.step(1e-3 * i, path(i)), forces[i]);
+}
+
+TEST(ForceLoop, TheStepSizeDoesNotMatterOnStraightMotion) {
+  const Model model = viscoelastic_model(3);
+  const PreparedBody body(body_mesh(), model, tool());
+  const auto pressed = [&](int steps) {
+    ForceLoop loop(body);
+    loop.begin({0.03, 0.03, 0.04});
+    Vec3 f = Vec3::Zero();
+    for (int i = 0; i <= steps; ++i) {
+      const double share = static_cast<double>(i) / steps;
+      f = loop.press(0.5 * share, share * Vec3(2e-4, 0, -2e-3));
+    }
+    return f;
+  };
+  EXPECT_LT((pressed(1) - pressed(1000)).norm(), 1e-12 * pressed(1).norm());
+}
+
+TEST(ForceLoop, SurvivesBadSamples) {
+  const Model model = viscoelastic_model(1);
+  const PreparedBody body(body_mesh(), model, tool());
+  ForceLoop loop(body);
+  const double nan = std::nan("");
+  loop.step(0, {0.04, 0.04, 0.041});
+  const Vec3 f = loop.step(0.01, {0.04, 0.04, 0.039});
+  EXPECT_TRUE(loop.step(0.02, {nan, 0.04, 0.039}).allFinite());
+  EXPECT_TRUE(loop.step(nan, {0.04, 0.04, 0.039}).allFinite());
+  EXPECT_TRUE(loop.step(0.001, {0.04, 0.04, 0.039}).allFinite());  // backwards
+  EXPECT_TRUE(loop.step(0.03, {0.04, 0.04, 0.039}).allFinite());
+  EXPECT_GT(f.z(), 0);
+}
+
+TEST(PreparedBody, RefusesEffectsThatNeedAWholePress) {
+  Model model = viscoelastic_model(0);
+  for (const Effect* effect : catalogue())
+    if (effect->card().name == "sensor-lag") {
+      const auto rows = effect_rows(*effect, 1, {0.1});
+      model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+    }
+  try {
+    PreparedBody body(body_mesh(), model, tool());
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(error.what()).find("sensor-lag"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace hapsim
