@@ -1,11 +1,14 @@
 // hs-simulate: the forces of a model along a motion.
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "common_options.h"
 #include "io/csv.h"
 #include "model/edit.h"
 #include "model/forces.h"
+#include "realtime/live_session.h"
+#include "realtime/real_time.h"
 
 namespace hapsim {
 namespace {
@@ -21,7 +24,14 @@ ToolSpec specification() {
       "exactly for motion that is straight between samples "
       "and for any time steps.",
       "Measured and simulated recordings have one format, so the output feeds hs-compare and "
-      "hs-identify alike."};
+      "hs-identify alike.",
+      "With --live every motion line is answered by its force line at once, from a body prepared "
+      "beforehand: its surface condensed to stiffnesses, put right to those of --contacts and "
+      "interpolated in between. The header comes first, and comes back when the body is ready. "
+      "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
+      "which contacts are found. At the positions of --contacts the forces are those of the batch "
+      "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
+      "live."};
   spec.options = workspace_flags();
   spec.options.push_back({.flag = "--model",
                           .kind = OptionKind::kFile,
@@ -40,15 +50,106 @@ ToolSpec specification() {
                           .help = "Seed of the added noise.",
                           .default_text = "1",
                           .minimum = 0});
+  spec.options.push_back({.flag = "--live",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Answers each line as it comes; latencies on standard error."});
+  spec.options.push_back({.flag = "--contacts",
+                          .kind = OptionKind::kFile,
+                          .value = "FILE",
+                          .help = "Live: a recording whose contact positions are solved finely "
+                                  "before the first line."});
+  spec.options.push_back({.flag = "--rate",
+                          .kind = OptionKind::kNumber,
+                          .value = "HZ",
+                          .help = "Live: takes the lines at this rate by the clock, with memory "
+                                  "locked and real-time scheduling where they are permitted.",
+                          .minimum = 0.001,
+                          .maximum = 100000});
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",
-       "Where the model fails."}};
+       "Where the model fails."},
+      {"hs-simulate --live --rate 1000 motion.csv --contacts data.csv --body body.ply --model "
+       "m0.csv",
+       "A recorded motion at 1 kHz."}};
   spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-diagnose(1)"};
   return spec;
 }
 
+// The finely solved contacts of --contacts; none without.
+std::vector<KnownStiffness> solved_contacts(const Arguments& arguments, const TetMesh& body,
+                                            const Model& model) {
+  if (!arguments.given("--contacts")) return {};
+  std::shared_ptr<Progress> progress;
+  WorkspaceOptions options = workspace_options(arguments, progress);
+  set_poisson_range(model, options);
+  Workspace w =
+      make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false), options);
+  progress.reset();
+  w.body->solve(material_of(model));
+  return known_contacts(*w.body, material_of(model));
+}
+
+double live_radius(const Arguments& arguments, const MotionLines& lines) {
+  if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
+  const auto radius = lines.metadata().number("tool_radius", arguments.input());
+  if (!radius || !(*radius > 0))
+    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+  return *radius;
+}
+
+int run_live_mode(const Arguments& arguments) {
+  if (arguments.given("--add-noise"))
+    fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  const TetMesh mesh = load_body(arguments);
+  Input input(arguments.input());
+  MotionLines lines(input);
+  PreparedBodyOptions options;
+  options.tool_radius = live_radius(arguments, lines);
+  options.contacts = solved_contacts(arguments, mesh, model);
+  const std::int64_t start = monotonic_ns();
+  const PreparedBody body(mesh, model, options);
+  say(arguments, "hs-simulate",
+      fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
+                  body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
+                  options.contacts.size()));
+
+  LiveOptions live;
+  if (arguments.has("--rate")) live.rate = arguments.number("--rate");
+  live.loop.relaxed = lines.metadata().find("recovery").value_or("") != "none";
+  if (live.rate > 0) say(arguments, "hs-simulate", enter_real_time());
+  Metadata metadata = lines.metadata();
+  metadata.remove("force_noise");
+  metadata.set("simulated", effects_label(model));
+  Output output(arguments.output());
+  CsvWriter(output.stream(), metadata, kForceColumns);
+  output.stream().flush();
+  LiveReport report;
+  const auto tell = [&] {
+    std::string text = report.latency.summary();
+    if (live.rate > 0)
+      text += fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
+    say(arguments, "hs-simulate", text);
+  };
+  try {
+    run_live(lines, output.stream(), body, live, report);
+  } catch (const Error&) {
+    output.commit();  // the forces before a bad line stay
+    tell();
+    throw;
+  }
+  output.commit();
+  tell();
+  return 0;
+}
+
 int run(const Arguments& arguments) {
+  if (arguments.given("--live")) return run_live_mode(arguments);
+  for (const char* flag : {"--rate", "--contacts"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
   Input model_input(arguments.text("--model"));
   const Model model = read_model(model_input);
   const TetMesh body = load_body(arguments);

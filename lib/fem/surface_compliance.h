@@ -41,6 +41,7 @@ class SurfaceCompliance {
   Eigen::Matrix3d patch_stiffness(const std::vector<int>& patch) const;
 
   int unknowns() const { return system_.unknowns(); }
+  const SymmetricSparse& stiffness() const { return system_.matrix(); }  // of all free nodes [N/m]
   int analyses() const { return schur_.analyses(); }
 
  private:

@@ -1,0 +1,235 @@
+// What a real-time force costs: making a body ready, one step of the loop, and all compliances of a
+// surface beside CHOLMOD's own solutions. Prints tables; --large adds 20,000 and 100,000
+// tetrahedra.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "effects/catalogue.h"
+#include "geometry/body_mesh.h"
+#include "linalg/blas.h"
+#include "realtime/force_loop.h"
+#include "realtime/latency.h"
+#include "realtime/real_time.h"
+#include "support/block_mesh.h"
+#include "support/objects.h"
+
+namespace {
+
+using namespace hapsim;
+
+constexpr double kRadius = 0.004;
+
+std::string machine() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+  return "unknown processor";
+}
+
+// The mesh whose number of tetrahedra is nearest to `tets`, by halving the edge's logarithm.
+TetMesh body_of(const Surface& surface, std::size_t tets, int steps = 9) {
+  double low = 0.002, high = 0.1;
+  TetMesh best;
+  for (int i = 0; i < steps; ++i) {
+    BodyOptions options;
+    options.edge = std::sqrt(low * high);
+    TetMesh mesh = make_body_mesh(surface, options);
+    (mesh.tets.size() > tets ? low : high) = options.edge;
+    const auto off = [&](const TetMesh& m) {
+      return std::abs(static_cast<double>(m.tets.size()) - static_cast<double>(tets));
+    };
+    if (best.tets.empty() || off(mesh) < off(best)) best = std::move(mesh);
+  }
+  return best;
+}
+
+Model model_with(int terms) {
+  Model model;
+  for (const Effect* effect : catalogue()) {
+    std::vector<double> values;
+    if (effect->card().name == "elastic") values = {1.5e4, 0.45};
+    if (effect->card().name == "viscoelastic")
+      for (int k = 0; k < terms; ++k) values.insert(values.end(), {5e3, 0.03 * std::pow(4, k)});
+    if (values.empty()) continue;
+    const auto rows = effect_rows(*effect, std::max(1, effect->card().terms ? terms : 1), values);
+    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+  }
+  return model;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+double ms_since(std::int64_t start) {
+  return 1e-6 * static_cast<double>(monotonic_ns() - start);
+}
+
+struct Named {
+  const char* name;
+  TetMesh mesh;
+  Vec3 low, high;  // box of the surface that paths run over
+};
+
+Named named(const char* name, TetMesh mesh) {
+  Named body{name, std::move(mesh), Vec3::Constant(1e9), Vec3::Constant(-1e9)};
+  for (const Vec3& p : body.mesh.nodes) {
+    body.low = body.low.cwiseMin(p);
+    body.high = body.high.cwiseMax(p);
+  }
+  return body;
+}
+
+// Read, assemble, factorise, condense, table, search tree: from the bytes of both files.
+void creation(const Named& body, int terms) {
+  std::ostringstream ply, csv;
+  write_body_ply(ply, body.mesh);
+  write_model(csv, model_with(terms));
+  const std::string body_bytes = ply.str(), model_bytes = csv.str();
+  std::vector<double> read, ready, total;
+  PreparedBodyOptions options;
+  options.tool_radius = kRadius;
+  std::size_t unknowns = 0;
+  for (int i = 0; i < 31; ++i) {
+    const std::int64_t start = monotonic_ns();
+    Input body_input = Input::from_bytes(body_bytes, "body.ply");
+    Input model_input = Input::from_bytes(model_bytes, "model.csv");
+    const TetMesh mesh = read_body(body_input);
+    const Model model = read_model(model_input);
+    read.push_back(ms_since(start));
+    const std::int64_t prepare = monotonic_ns();
+    const PreparedBody prepared(mesh, model, options);
+    ready.push_back(ms_since(prepare));
+    total.push_back(ms_since(start));
+    unknowns = prepared.surface_unknowns();
+  }
+  fmt::print("{:<8} {:>6} {:>7} {:>9} {:>8.2f} {:>10.2f} {:>8.2f} {:>9.2f}\n", body.name,
+             body.mesh.nodes.size(), body.mesh.tets.size(), unknowns, median(read), median(ready),
+             median(total), *std::min_element(total.begin(), total.end()));
+}
+
+// A tool that wanders over the top and presses as it goes, each step by the clock; the clock's own
+// 20 to 40 ns are in it.
+void steps(const Named& body, int terms, bool slides) {
+  PreparedBodyOptions prepare;
+  prepare.tool_radius = kRadius;
+  const PreparedBody prepared(body.mesh, model_with(terms), prepare);
+  ForceLoopOptions options;
+  options.contact.slides = slides;
+  ForceLoop loop(prepared, options);
+  const Vec3 middle = 0.5 * (body.low + body.high), half = 0.5 * (body.high - body.low);
+  LatencyHistogram histogram;
+  constexpr int kSteps = 1'000'000;
+  double work = 0;
+  int touching = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = 1e-3 * i;
+    // The path's height follows the body's top, from 2 mm above it to 4 mm inside.
+    const double x = std::sin(0.37 * t), y = std::sin(0.53 * t + 1);
+    const Vec3 above(middle.x() + 0.8 * half.x() * x, middle.y() + 0.8 * half.y() * y,
+                     body.high.z());
+    const SurfaceSide top = prepared.distance().at(above);
+    const Vec3 tool = top.point - (0.001 - 0.003 * std::cos(2.1 * t)) * Vec3::UnitZ();
+    const std::int64_t start = monotonic_ns();
+    const Vec3 f = loop.step(t, tool);
+    histogram.add(monotonic_ns() - start);
+    work += f.z();
+    touching += loop.state().tool.touching() ? 1 : 0;
+  }
+  fmt::print(
+      "{:<8} {:>5} {:>8} {:>5.0f} % {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>10.1f}   {:.3g}\n",
+      body.name, terms, slides ? "slides" : "holds", 100.0 * touching / kSteps,
+      1e-3 * histogram.quantile(0.5), 1e-3 * histogram.quantile(0.99),
+      1e-3 * histogram.quantile(0.999), 1e-3 * histogram.quantile(0.9999),
+      1e-3 * histogram.largest(), work / kSteps);
+}
+
+// All compliances of the free surface, as condensed here and by CHOLMOD 48 columns at a time.
+void compliances(const char* name, const TetMesh& mesh, int threads, int repeats) {
+  const std::vector<Lame> constants(mesh.tets.size(), lame(1e4, 0.45));
+  std::vector<double> analyse, ours, factorise, bare;
+  double difference = 0;
+  Eigen::Index columns = 0;
+  for (int i = 0; i < repeats; ++i) {
+    std::int64_t start = monotonic_ns();
+    SurfaceCompliance surface(mesh);
+    analyse.push_back(ms_since(start));
+    start = monotonic_ns();
+    surface.factorise(constants, threads);
+    ours.push_back(ms_since(start));
+
+    SparseCholesky cholesky(surface.stiffness());
+    const BlasThreads scope(threads);
+    start = monotonic_ns();
+    cholesky.factorise(surface.stiffness());
+    factorise.push_back(ms_since(start));
+    std::vector<int> rows;  // of the surface in the whole system
+    int block = 0;
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+      if (mesh.fixed[n]) continue;
+      for (int k = 0; k < 3 && surface.index_of(static_cast<int>(n)) >= 0; ++k)
+        rows.push_back(3 * block + k);
+      ++block;
+    }
+    columns = static_cast<Eigen::Index>(rows.size());
+    difference = 0;
+    for (Eigen::Index c = 0; c < columns; c += 48) {
+      const Eigen::Index m = std::min<Eigen::Index>(48, columns - c);
+      Eigen::MatrixXd load = Eigen::MatrixXd::Zero(surface.unknowns(), m);
+      for (Eigen::Index j = 0; j < m; ++j) load(rows[c + j], j) = 1;
+      const Eigen::MatrixXd x = cholesky.solve(load);
+      const Eigen::MatrixXd kept = x(rows, Eigen::all);
+      difference =
+          std::max(difference, (kept - surface.matrix().middleCols(c, m)).cwiseAbs().maxCoeff());
+    }
+    bare.push_back(ms_since(start));
+    difference /= surface.matrix().cwiseAbs().maxCoeff();
+  }
+  fmt::print(
+      "{:<8} {:>7} {:>8} {:>9} {:>7} {:>9.2f} {:>10.2f} {:>11.2f} {:>11.2f} {:>6.2f} {:>9.1e}\n",
+      name, mesh.nodes.size(), mesh.tets.size(), columns, threads, median(analyse), median(ours),
+      median(factorise), median(bare), median(bare) / median(ours), difference);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool large = argc > 1 && std::strcmp(argv[1], "--large") == 0;
+  prepare_blas_for_many_threads();
+  fmt::print("machine: {}, {} threads; {}\n", machine(), std::thread::hardware_concurrency(),
+             blas_name());
+  const Surface block = boundary_surface(test::block_mesh({0.12, 0.21, 0.06}, 1, 1, 1, 1));
+  const Named cuboid = named("cuboid", body_of(block, 568));
+  const Named organ = named("organ", body_of(test::lump(12), 1763));
+
+  fmt::print(
+      "\nmaking ready, median of 31 [ms]\nbody      nodes    tets  unknowns     read    "
+      "prepare    total     least\n");
+  for (const Named* body : {&cuboid, &organ}) creation(*body, 2);
+  fmt::print(
+      "\none step of the loop, 1,000,000 steps [us]\nbody     terms  contact  touch   median"
+      "     99 %   99.9 %   99.99 %    longest   mean force [N]\n");
+  fmt::print("({})\n", enter_real_time());
+  for (const Named* body : {&cuboid, &organ})
+    for (const int terms : {0, 2, 4})
+      for (const bool slides : {false, true}) steps(*body, terms, slides);
+  fmt::print(
+      "\nall surface compliances [ms]: condensed (assembly included) against CHOLMOD, its "
+      "factorisation and its solutions of 48 columns at a time\n"
+      "body       nodes     tets  unknowns threads   analyse  condensed  factorise  + columns"
+      "  ratio difference\n");
+  compliances("cuboid", cuboid.mesh, 1, 21);
+  compliances("organ", organ.mesh, 1, 21);
+  if (!large) return 0;
+  for (const std::size_t tets : {20000u, 100000u}) {
+    const TetMesh mesh = body_of(block, tets, 6);
+    for (const int threads : {1, 2}) compliances("block", mesh, threads, 1);
+  }
+}

@@ -1,0 +1,55 @@
+#include "realtime/live_session.h"
+
+#include <optional>
+
+#include "realtime/real_time.h"
+
+namespace hapsim {
+namespace {
+
+// A press goes on where the recording says that the body does not recover, as in the batch mode.
+bool goes_on(const MotionLine& last, const MotionLine& line) {
+  return line.t >= last.t && (line.point - last.point).norm() <= 1e-4;
+}
+
+}  // namespace
+
+void run_live(MotionLines& in, std::ostream& out, const PreparedBody& body,
+              const LiveOptions& options, LiveReport& report) {
+  const bool remembers = !options.loop.relaxed;
+  ForceLoopOptions loop_options = options.loop;
+  if (in.has_contact_point()) loop_options.relaxed = true;  // begin() is called where it must be
+  ForceLoop loop(body, loop_options);
+  std::optional<Pacer> pacer;
+  if (options.rate > 0) pacer.emplace(options.rate);
+  MotionLine line, last;
+  std::string text;
+  text.reserve(512);
+  for (bool first = true;; first = false) {
+    std::int64_t since = pacer ? pacer->wait() : 0;
+    if (!in.next(line)) break;
+    if (!pacer) since = monotonic_ns();
+    Vec3 force;
+    if (in.has_contact_point()) {
+      const bool fresh = first || line.press != last.press;
+      if (fresh && (first || !remembers || !goes_on(last, line))) loop.begin(line.point);
+      force = loop.press(line.t, line.u, line.in_air);
+      last = line;
+    } else {
+      force = loop.step(line.t, line.point);
+      const ToolState& tool = loop.state().tool;
+      line.press = tool.episode;
+      line.in_air = !tool.touching();
+      line.point = line.in_air ? tool.surface.point : tool.anchor;
+      line.u = tool.displacement;
+    }
+    write_force_line(text, line, force);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.flush();
+    const std::int64_t took = monotonic_ns() - since;
+    report.latency.add(took);
+    if (pacer && took > pacer->period()) ++report.misses;
+  }
+}
+
+}  // namespace hapsim

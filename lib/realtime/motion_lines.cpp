@@ -1,0 +1,98 @@
+#include "realtime/motion_lines.h"
+
+#include <algorithm>
+#include <charconv>
+#include <climits>
+#include <cmath>
+
+#include "base/error.h"
+#include "io/number.h"
+
+namespace hapsim {
+namespace {
+
+constexpr std::array<const char*, 9> kNames{"press", "t",  "x",  "y",      "z",
+                                            "ux",    "uy", "uz", "contact"};
+// As in recordings: beyond these the unit is wrong [m].
+constexpr double kLargestPosition = 10, kLargestDisplacement = 1, kSamePoint = 1e-4;
+
+void append(std::string& buffer, double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  buffer.append(text, end);
+}
+
+}  // namespace
+
+MotionLines::MotionLines(Input& input) : csv_(input) {
+  const auto& header = csv_.header();
+  std::array<bool, kColumns> present{};
+  for (const std::string& name : header) {
+    const auto found = std::find(kNames.begin(), kNames.end(), name);
+    meaning_.push_back(static_cast<int>(found - kNames.begin()));
+    if (found != kNames.end()) present[static_cast<std::size_t>(meaning_.back())] = true;
+  }
+  known_ = present[kUx] || present[kUy] || present[kUz] || present[kPress];
+  for (std::size_t k = 0; k < kColumns; ++k) {
+    const bool needed = known_ ? k != kContact : k >= kT && k <= kZ;
+    if (needed && !present[k])
+      fail_missing_column(input.name(), kNames[k], header, {kNames.begin(), kNames.end()});
+  }
+}
+
+bool MotionLines::next(MotionLine& line) {
+  if (!csv_.next(fields_)) return false;
+  value_[kContact] = 1;
+  for (std::size_t c = 0; c < fields_.size(); ++c) {
+    const auto k = static_cast<std::size_t>(meaning_[c]);
+    if (k == kColumns || parse_number(fields_[c], value_[k])) continue;
+    fail_input(csv_.where(), std::string(kNames[k]) + " is " + shown(fields_[c]),
+               "write a finite number");
+  }
+  line.has_contact_point = known_;
+  line.t = value_[kT];
+  line.point = {value_[kX], value_[kY], value_[kZ]};
+  line.u = {value_[kUx], value_[kUy], value_[kUz]};
+  line.in_air = value_[kContact] == 0;
+  if (known_) {
+    if (std::abs(value_[kPress]) > INT_MAX || value_[kPress] != std::floor(value_[kPress]))
+      fail_input(csv_.where(), "press is " + format_number(value_[kPress]) + ", not an integer",
+                 "number the contact episodes 1, 2, 3");
+    line.press = static_cast<int>(value_[kPress]);
+  }
+  check(line);
+  last_ = line;
+  first_ = false;
+  return true;
+}
+
+void MotionLines::check(const MotionLine& line) {
+  if (line.point.cwiseAbs().maxCoeff() > kLargestPosition ||
+      line.u.cwiseAbs().maxCoeff() > kLargestDisplacement)
+    fail_input(csv_.where(), "a position beyond 10 m or a displacement beyond 1 m",
+               "are these millimetres? divide lengths by 1000");
+  if (first_ || (known_ && line.press != last_.press)) return;
+  if (line.t < last_.t)
+    fail_input(csv_.where(),
+               "time runs backwards: " + format_number(line.t) + " s after " +
+                   format_number(last_.t) + " s",
+               "send the samples in their order, or begin a new press");
+  if (known_ && (line.point - last_.point).norm() > kSamePoint)
+    fail_input(csv_.where(), "the contact point moves within press " + std::to_string(line.press),
+               "give each contact point its own press number");
+}
+
+void write_force_line(std::string& buffer, const MotionLine& line, const Vec3& force) {
+  buffer.clear();
+  append(buffer, line.press);
+  buffer += ',';
+  append(buffer, line.t);
+  for (const Vec3* v : {&line.point, &line.u, &force})
+    for (int k = 0; k < 3; ++k) {
+      buffer += ',';
+      append(buffer, (*v)[k] == 0 ? 0.0 : (*v)[k]);  // no minus zero
+    }
+  buffer += line.in_air ? ",0\n" : ",1\n";
+}
+
+}  // namespace hapsim

@@ -1,0 +1,46 @@
+#include "realtime/real_time.h"
+
+#include <sched.h>
+#include <sys/mman.h>
+#include <time.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace hapsim {
+
+std::string enter_real_time() {
+  std::string said;
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0)
+    said = "memory locked";
+  else
+    said = std::string("memory not locked (") + std::strerror(errno) + ": raise ulimit -l)";
+  sched_param priority{};
+  priority.sched_priority = sched_get_priority_min(SCHED_FIFO) + 49;
+  if (sched_setscheduler(0, SCHED_FIFO, &priority) == 0) return said + "; real-time scheduling";
+  return said + "; no real-time scheduling (" + std::strerror(errno) +
+         ": needs CAP_SYS_NICE or ulimit -r)";
+}
+
+std::int64_t monotonic_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
+}
+
+Pacer::Pacer(double rate) : rate_(rate), period_(std::llround(1e9 / rate)) {}
+
+std::int64_t Pacer::wait() {
+  if (next_ == 0) start_ = monotonic_ns();
+  // From the start, so that a period that is no whole number of nanoseconds does not drift.
+  const std::int64_t due = start_ + std::llround(1e9 * static_cast<double>(next_++) / rate_);
+  timespec at{};
+  at.tv_sec = static_cast<time_t>(due / 1'000'000'000);
+  at.tv_nsec = static_cast<long>(due % 1'000'000'000);
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, nullptr) == EINTR) {
+  }
+  return due;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# simulate_live.sh BIN: hs-simulate --live answers line by line, like the batch mode, and ends well.
+set -uo pipefail
+bin=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export XDG_CACHE_HOME=$work/cache
+failures=0
+complain() { # TEXT
+  printf 'FAILED: %s\n' "$1"
+  [[ -s err ]] && sed 's/^/    /' err
+  failures=$((failures + 1))
+}
+
+awk 'BEGIN {
+  print "OFF"; print 8, 12, 0
+  for (i = 0; i < 8; ++i) print (i % 2) * 0.06, (int(i / 2) % 2) * 0.05, (i >= 4) * 0.04
+  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
+  for (i = 1; i <= 12; ++i) print 3, f[i]
+}' >box.off
+"$bin/hs-tetmesh" box.off --edge 0.012 -q -o body.ply || complain 'no body'
+cat >model.csv <<'END'
+effect,region,parameter,value,unit,std_error,lower,upper,state
+elastic,0,E,20000,Pa,,1,1e12,fixed
+elastic,0,nu,0.4,1,,0,0.499,fixed
+viscoelastic,0,E1,8000,Pa,,0,1e12,fixed
+viscoelastic,0,tau1,0.2,s,,0.0001,100000,fixed
+END
+awk 'BEGIN {
+  print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
+  for (p = 1; p <= 3; ++p)
+    for (i = 0; i <= 30; ++i)
+      printf "%d,%g,%g,%g,0.04,%g,0,%g\n", p, 0.02 * i, 0.015 + 0.01 * p, 0.025, 2e-5 * i * (p == 3), -1e-4 * i
+}' >motion.csv
+common=(--body body.ply --model model.csv --rim-edge 0.3)
+
+# The same numbers as the batch mode, to 1e-6 of the largest force.
+"$bin/hs-simulate" motion.csv "${common[@]}" -q -o batch.csv 2>err || complain 'the batch mode failed'
+"$bin/hs-simulate" --live --contacts motion.csv "${common[@]}" <motion.csv >live.csv 2>err ||
+  complain 'the live mode failed'
+grep -q '93 samples: median' err || complain 'no latencies are told'
+grep -q '# simulated: elastic+viscoelastic' live.csv || complain 'the output does not say what it is'
+forces() {
+  awk -F, '/^#/ { next } !n++ { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    { print $at["fx"], $at["fy"], $at["fz"] }' "$1"
+}
+paste -d' ' <(forces batch.csv) <(forces live.csv) | awk '
+  { for (k = 1; k <= 3; ++k) {
+      d = $k - $(k + 3); if (d < 0) d = -d; if (d > worst) worst = d
+      a = $k < 0 ? -$k : $k; if (a > most) most = a } }
+  END { printf "live against batch: %g of %g N, %d rows\n", worst, most, NR
+        exit !(NR == 93 && most > 0 && worst < 1e-6 * most) }' || complain 'live differs from batch'
+
+# Each force comes before the next line is sent.
+coproc live { "$bin/hs-simulate" --live "${common[@]}" --tool-radius 0.004 -q 2>err; }
+exec {to}>&"${live[1]}" {from}<&"${live[0]}"
+printf 't,x,y,z\n' >&"$to"
+header=
+while [[ $header != press,* ]]; do read -r -t 60 -u "$from" header || { complain 'no header'; break; }; done
+for z in 0.041 0.0395 0.039; do
+  printf '0,0.03,0.025,%s\n' "$z" >&"$to"
+  read -r -t 60 -u "$from" answer || complain "no answer to z = $z"
+done
+[[ $answer == 1,0,0.03,0.025,0.04,* ]] || complain "the contact was not found: $answer"
+exec {to}>&- {from}<&-
+eval "exec ${live[1]}>&-" 2>/dev/null
+wait
+
+# A bad line: one error with its line, exit 3, the forces before it written, to a file too.
+{ cat motion.csv; echo '4,0,0.03,0.025,0.04,0,0,much'; } >bad.csv
+for target in - kept.csv; do
+  "$bin/hs-simulate" --live bad.csv "${common[@]}" -q -o "$target" >out.csv 2>err
+  code=$?
+  [[ $target == - ]] || mv kept.csv out.csv
+  ((code == 3)) || complain "exit code $code for a bad line"
+  [[ $(wc -l <err) == 1 ]] && grep -q "^hs-simulate: bad.csv:96: uz is 'much'" err || complain 'the error'
+  [[ $(forces out.csv | wc -l) == 93 ]] || complain 'forces were lost'
+done
+
+# A closed pipe ends quietly.
+yes '0,0.03,0.025,0.039' | { echo t,x,y,z; cat; } |
+  "$bin/hs-simulate" --live "${common[@]}" --tool-radius 0.004 -q 2>err | head -5 >out.csv
+[[ $(wc -l <out.csv) == 5 && ! -s err ]] || complain 'a closed pipe is not quiet'
+
+# Paced by the clock: 93 lines at 1 kHz take 92 ms or more.
+"$bin/hs-simulate" --live --rate 1000 motion.csv "${common[@]}" 2>err >out.csv || complain 'paced'
+grep -Eq 'memory (not )?locked' err && grep -q 'of 93 later than a period' err || complain 'the pace'
+
+refuse() { # CODE TEXT ARGUMENTS...
+  local code=$1 text=$2 got
+  shift 2
+  "$bin/hs-simulate" "$@" >/dev/null 2>err
+  got=$?
+  ((got == code)) && grep -qF -- "$text" err || complain "exit $got, not $code with '$text': $*"
+}
+refuse 2 'live mode' motion.csv "${common[@]}" --rate 1000
+refuse 2 'batch mode' --live motion.csv "${common[@]}" --add-noise 1
+{ head -n 3 model.csv; echo 'sensor-lag,0,tau,0.1,s,,0,10,fixed'; } >lag.csv
+refuse 2 'sensor-lag' --live motion.csv --body body.ply --model lag.csv
+
+((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }
