@@ -23,6 +23,12 @@ std::string enter_real_time() {
          ": needs CAP_SYS_NICE or ulimit -r)";
 }
 
+void leave_real_time() {
+  munlockall();
+  const sched_param ordinary{};
+  sched_setscheduler(0, SCHED_OTHER, &ordinary);
+}
+
 std::int64_t monotonic_ns() {
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);

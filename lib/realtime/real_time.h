@@ -10,6 +10,7 @@ namespace hapsim {
 // thread. Says in words what was granted and what was not, and why: "memory locked; no real-time
 // scheduling (Operation not permitted: needs CAP_SYS_NICE or a limit rtprio)".
 std::string enter_real_time();
+void leave_real_time();  // memory unlocked, ordinary scheduling
 
 std::int64_t monotonic_ns();  // a clock that nobody sets [ns]
 
