@@ -9,8 +9,7 @@
 #include "base/error.h"
 #include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
-
-extern "C" void dpotri_(const char* triangle, const int* n, double* a, const int* lda, int* info);
+#include "linalg/schur_dense.h"
 
 namespace hapsim {
 namespace {
@@ -40,22 +39,15 @@ SymmetricSparse eliminated_graph(const SymmetricSparse& pattern, const std::vect
   return graph;
 }
 
-void mirror_lower(Eigen::MatrixXd& a) {
-  constexpr Eigen::Index kTile = 64;  // both tiles stay in the cache
-  const Eigen::Index n = a.rows();
-  for (Eigen::Index c = 0; c < n; c += kTile)
-    for (Eigen::Index r = c; r < n; r += kTile)
-      for (Eigen::Index j = c; j < std::min(c + kTile, n); ++j)
-        for (Eigen::Index i = std::max(r, j + 1); i < std::min(r + kTile, n); ++i)
-          a(j, i) = a(i, j);
-}
-
 }  // namespace
 
 struct SchurInverse::Impl {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
   int kept = 0, analyses = 0;
+  SymmetricSparse padded;   // the matrix, with the first kept column full over the kept rows
+  int first = 0;            // that column
+  std::vector<int> place;   // of its own entries within it
   std::vector<int> row_of;  // of an unknown of the factor's order: row of the dense block, or -1
 
   Impl() {
@@ -74,6 +66,8 @@ struct SchurInverse::Impl {
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (result == nullptr) fail_numerics("", wrong, "report this mesh");
   }
+  void pad(const SymmetricSparse& pattern, const std::vector<int>& dense_row);
+  void fill(const SymmetricSparse& matrix);
   void order_eliminated(const SymmetricSparse& graph, std::vector<int>& order);
   void gather(Eigen::MatrixXd& dense) const;
 };
@@ -92,6 +86,46 @@ void SchurInverse::Impl::order_eliminated(const SymmetricSparse& graph, std::vec
   cholmod_free_factor(&found, &common);
 }
 
+// Kept rows that nothing eliminated links would make many thin columns of the factor. With explicit
+// zeros in the first kept column they fill in at once, and the kept block is one dense supernode.
+void SchurInverse::Impl::pad(const SymmetricSparse& pattern, const std::vector<int>& dense_row) {
+  padded.size = pattern.size;
+  first = static_cast<int>(std::find(dense_row.begin(), dense_row.end(), 0) - dense_row.begin());
+  for (int c = 0; c <= pattern.size; ++c) {
+    padded.column_start.push_back(static_cast<int>(padded.row.size()));
+    if (c == pattern.size) break;
+    const auto begin = pattern.row.begin() + pattern.column_start[c];
+    const auto end = pattern.row.begin() + pattern.column_start[c + 1];
+    if (c != first) {
+      padded.row.insert(padded.row.end(), begin, end);
+      continue;
+    }
+    std::vector<int> rows(begin, end);
+    for (int r = c; r < pattern.size; ++r)
+      if (dense_row[r] >= 0) rows.push_back(r);
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    for (auto row = begin; row != end; ++row)
+      place.push_back(
+          static_cast<int>(std::lower_bound(rows.begin(), rows.end(), *row) - rows.begin()));
+    padded.row.insert(padded.row.end(), rows.begin(), rows.end());
+  }
+  padded.value.assign(padded.row.size(), 0.0);
+}
+
+void SchurInverse::Impl::fill(const SymmetricSparse& matrix) {
+  assert(matrix.size == padded.size);
+  if (first == matrix.size) {
+    padded.value = matrix.value;
+    return;
+  }
+  const auto from = matrix.value.begin();
+  const int begin = matrix.column_start[first], end = matrix.column_start[first + 1];
+  std::copy(from, from + begin, padded.value.begin());
+  for (int k = begin; k < end; ++k) padded.value[begin + place[k - begin]] = matrix.value[k];
+  std::copy(from + end, matrix.value.end(), padded.value.begin() + padded.column_start[first + 1]);
+}
+
 // The kept columns of the factor reach kept rows only. A postordering may have moved them, which
 // permutes the factor and changes none of its values, so each goes back to its own place. Beside
 // them, joined supernodes hold explicit zeros, also above the diagonal.
@@ -106,9 +140,9 @@ void SchurInverse::Impl::gather(Eigen::MatrixXd& dense) const {
     for (int c = super[s]; c < super[s + 1]; ++c) {
       const int column = row_of[c];
       if (column < 0) continue;
-      const int first = c - super[s];
-      const double* from = x + values[s] + static_cast<std::ptrdiff_t>(first) * height;
-      for (int i = first; i < height; ++i)
+      const int skipped = c - super[s];
+      const double* from = x + values[s] + static_cast<std::ptrdiff_t>(skipped) * height;
+      for (int i = skipped; i < height; ++i)
         if (const int row = row_of[rows[start[s] + i]]; row >= column) dense(row, column) = from[i];
     }
   }
@@ -134,7 +168,8 @@ SchurInverse::SchurInverse(const SymmetricSparse& pattern, const std::vector<cha
       dense_row[static_cast<std::size_t>(unknown)] = impl_->kept++;
     }
 
-  cholmod_sparse full = cholmod_view(pattern);
+  impl_->pad(pattern, dense_row);
+  cholmod_sparse full = cholmod_view(impl_->padded);
   impl_->common.nmethods = 1;
   impl_->common.method[0].ordering = CHOLMOD_GIVEN;
   impl_->factor = cholmod_analyze_p(&full, permutation.data(), nullptr, 0, &impl_->common);
@@ -149,7 +184,8 @@ SchurInverse::~SchurInverse() = default;
 
 bool SchurInverse::invert(const SymmetricSparse& matrix, Eigen::MatrixXd& inverse, int threads) {
   const BlasThreads scope(threads);
-  cholmod_sparse a = cholmod_view(matrix);
+  impl_->fill(matrix);
+  cholmod_sparse a = cholmod_view(impl_->padded);
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   if (impl_->common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (impl_->common.status != CHOLMOD_OK || impl_->factor->minor != impl_->factor->n) return false;
@@ -157,11 +193,7 @@ bool SchurInverse::invert(const SymmetricSparse& matrix, Eigen::MatrixXd& invers
   inverse.setZero(n, n);
   if (n == 0) return true;
   impl_->gather(inverse);
-  int info = 0;
-  dpotri_("L", &n, inverse.data(), &n, &info);
-  if (info != 0) return false;
-  mirror_lower(inverse);
-  return true;
+  return invert_from_cholesky(inverse);
 }
 
 Eigen::Index SchurInverse::kept() const {
