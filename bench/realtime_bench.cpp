@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <ctime>
 #include <fstream>
@@ -205,6 +206,7 @@ void compliances(const char* name, const TetMesh& mesh, int threads, int repeats
 
 int main(int argc, char** argv) {
   const bool large = argc > 1 && std::strcmp(argv[1], "--large") == 0;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each line when it is known
   prepare_blas_for_many_threads();
   fmt::print("machine: {}, {} threads; {}\n", machine(), std::thread::hardware_concurrency(),
              blas_name());
