@@ -1,9 +1,10 @@
 // What a real-time force costs: making a body ready, one step of the loop, and all compliances of a
-// surface beside CHOLMOD's own solutions. Prints tables; --large adds 20,000 and 100,000
-// tetrahedra.
+// surface beside CHOLMOD's own solutions. Prints tables; --large: those of
+// 20,000 and 100,000 tetrahedra.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -202,14 +203,32 @@ void compliances(const char* name, const TetMesh& mesh, int threads, int repeats
       median(factorise), median(bare), median(bare) / median(ours), difference);
 }
 
+void compliances_heading() {
+  fmt::print(
+      "\nall surface compliances [ms]: condensed (assembly included) against CHOLMOD, its "
+      "factorisation and its solutions of 48 columns at a time\n"
+      "body       nodes     tets  unknowns threads   analyse  condensed  factorise  + columns"
+      "  ratio difference\n");
+}
+
+// Blocks of 20,000 and 100,000 tetrahedra.
+void large_bodies() {
+  compliances_heading();
+  for (const auto& [nx, ny, nz] : {std::array{14, 24, 10}, std::array{24, 42, 16}}) {
+    const TetMesh mesh = test::block_mesh({0.12, 0.21, 0.06}, nx, ny, nz, 1, 0.2);
+    compliances("block", mesh, 2, 1);
+    if (nx < 20) compliances("block", mesh, 1, 1);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool large = argc > 1 && std::strcmp(argv[1], "--large") == 0;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each line when it is known
   prepare_blas_for_many_threads();
   fmt::print("machine: {}, {} threads; {}\n", machine(), std::thread::hardware_concurrency(),
              blas_name());
+  if (argc > 1 && std::strcmp(argv[1], "--large") == 0) return large_bodies(), 0;
   const Surface block = boundary_surface(test::block_mesh({0.12, 0.21, 0.06}, 1, 1, 1, 1));
   const Named cuboid = named("cuboid", body_of(block, 568));
   const Named organ = named("organ", body_of(test::lump(12), 1763));
@@ -225,16 +244,8 @@ int main(int argc, char** argv) {
   for (const Named* body : {&cuboid, &organ})
     for (const int terms : {0, 2, 4})
       for (const bool slides : {false, true}) steps(*body, terms, slides);
-  fmt::print(
-      "\nall surface compliances [ms]: condensed (assembly included) against CHOLMOD, its "
-      "factorisation and its solutions of 48 columns at a time\n"
-      "body       nodes     tets  unknowns threads   analyse  condensed  factorise  + columns"
-      "  ratio difference\n");
+  leave_real_time();
+  compliances_heading();
   compliances("cuboid", cuboid.mesh, 1, 21);
   compliances("organ", organ.mesh, 1, 21);
-  if (!large) return 0;
-  for (const std::size_t tets : {20000u, 100000u}) {
-    const TetMesh mesh = body_of(block, tets, 6);
-    for (const int threads : {1, 2}) compliances("block", mesh, threads, 1);
-  }
 }
