@@ -28,6 +28,7 @@ find_path(TET_INCLUDE_DIR tetgen.h REQUIRED)
 
 find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
 find_library(LAPACK_LIBRARY lapack REQUIRED)
+find_library(BLAS_LIBRARY blas REQUIRED)
 find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
 if(HAPSIM_BUILD_TESTS)
   find_package(GTest REQUIRED)
