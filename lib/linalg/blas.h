@@ -15,8 +15,8 @@ std::string blas_name();
 void prepare_blas_for_many_threads();
 
 // OpenBLAS takes `threads` while this lives, and one thread again after: for one large dense
-// product or inverse at a time, while no other thread factorises. 1 changes nothing. Its threads wait by
-// spinning: where others use the cores too, one is many times faster.
+// product or inverse at a time, while no other thread factorises. 1 changes nothing. Its threads
+// wait by spinning: where others use the cores too, one is many times faster.
 class BlasThreads {
  public:
   explicit BlasThreads(int threads);
