@@ -151,14 +151,16 @@ std::vector<Object> objects() {
   return list;
 }
 
-void add_file(std::vector<Object>& list, const std::string& name,
-              const std::filesystem::path& file) {
+void add_file(std::vector<Object>& list, const std::string& name, const std::filesystem::path& file,
+              double unit) {
   if (!std::filesystem::exists(file)) {
     fmt::print(stderr, "SKIPPED: {}: no {}; set HAPSIM_SHARED\n", name, file.string());
     return;
   }
   Input input(file.string());
-  const PointCloud cloud = read_points(input);
+  PointCloud cloud = read_points(input);
+  for (Vec3& p : cloud.points) p *= unit;
+  check_size(cloud.points, fmt::format("{} m", unit), input.name());
   CleanReport cleaned;
   list.push_back({name, cloud.points, clean_points(cloud, {}, name, cleaned).points});
 }
@@ -241,10 +243,10 @@ int main(int argc, char** argv) {
   const char* given = std::getenv("HAPSIM_SHARED");
   const std::filesystem::path source = HAPSIM_SOURCE_DIR;
   const std::filesystem::path shared = given != nullptr ? given : source / "../shared";
-  add_file(list, "phantom", source / "share/examples/phantom/scan.csv");
+  add_file(list, "phantom", source / "share/examples/phantom/scan.csv", 1e-3);
   for (const char* name : {"bunny", "foot"}) {
     add_file(list, fmt::format("{}-points", name),
-             shared / "realdata/toolbox_points" / (std::string(name) + ".csv"));
+             shared / "realdata/toolbox_points" / (std::string(name) + ".csv"), 1e-3);
   }
   fmt::print("{:<10} {:<16} {:<6} {:>7} {:>8} {:>8} {:>8} {:>7} {:>6} {}\n", "object", "method",
              "closed", "faces", "rms_mm", "max_mm", "gap_mm", "s", "MB", "took");

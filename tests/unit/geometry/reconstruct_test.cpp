@@ -11,7 +11,9 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "geometry/clean_points.h"
+#include "geometry/crease.h"
 #include "geometry/surface_tree.h"
+#include "unit/geometry/shapes.h"
 
 namespace hapsim {
 namespace {
@@ -107,6 +109,36 @@ TEST(Reconstruct, CuboidKeepsItsEdges) {
   for (const Vec3& p : s.vertices) {
     if (p.x() > 0.015 && p.x() < 0.065 && p.y() > 0.015 && p.y() < 0.105 && p.z() > 0.03) {
       EXPECT_NEAR(p.z(), size.z(), 4e-4);
+    }
+  }
+}
+
+TEST(Crease, FacesFarFromEveryPatchStayAsTheyAre) {
+  const Surface dome = test::dome(0.05, 8);
+  // Two patches that look the other way: none is the surface's.
+  Random random(4);
+  Segmentation none;
+  for (const double side : {-1.0, 1.0}) {
+    PointCloud cloud;
+    for (int i = 0; i < 40; ++i) {
+      cloud.points.emplace_back(side * 0.03 + 0.02 * random.uniform(), 0.02 * random.uniform(),
+                                -0.1);
+      cloud.normals.push_back(-Vec3::UnitZ());
+    }
+    none.patches.emplace_back(std::move(cloud));
+  }
+  CreaseOptions options;
+  options.edge = options.spacing = 0.005;
+  options.base = 0;
+  LabelledSurface cut = cut_along_patches(dome, none, options);
+  ASSERT_NE(std::count(cut.label.begin(), cut.label.end(), LabelledSurface::kFree), 0);
+  const Surface before = cut.surface;
+  project_to_patches(cut, none, options);
+  for (std::size_t f = 0; f < cut.label.size(); ++f) {
+    if (cut.label[f] != LabelledSurface::kFree) continue;
+    for (const int v : cut.surface.faces[f]) {
+      EXPECT_LT((cut.surface.vertices[v] - before.vertices[v]).norm(), 2 * options.edge);
+      EXPECT_TRUE(cut.surface.vertices[v].allFinite());
     }
   }
 }
