@@ -97,10 +97,21 @@ int Qda::classify(const Eigen::VectorXd& x) const {
 Qda choose_qda(const Eigen::MatrixXd& points, const std::vector<int>& label, int classes) {
   QdaOptions best{1, 1};
   double best_score = -std::numeric_limits<double>::infinity();
+  int least_wrong = static_cast<int>(label.size()) + 1;
   for (const double sphere : {0.0, 0.1, 0.3, 1.0})
     for (const double pooled : {0.0, 0.1, 0.25, 0.5, 1.0}) {
-      const double score = left_out_score(points, label, classes, {pooled, sphere});
-      if (score > best_score + 1e-9) best_score = score, best = {pooled, sphere};
+      const QdaOptions options{pooled, sphere};
+      const Qda qda(points, label, classes, options);
+      if (qda.singular()) continue;
+      int wrong = 0;
+      for (std::size_t i = 0; i < label.size(); ++i)
+        wrong += qda.classify(points.row(static_cast<Eigen::Index>(i)).transpose()) != label[i];
+      const double score = left_out_score(points, label, classes, options);
+      if (wrong < least_wrong || (wrong == least_wrong && score > best_score + 1e-9)) {
+        least_wrong = wrong;
+        best_score = score;
+        best = options;
+      }
     }
   return Qda(points, label, classes, best);
 }

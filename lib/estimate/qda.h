@@ -40,7 +40,8 @@ class Qda {
   bool singular_ = false;
 };
 
-// The regularisation whose log posterior of samples left out in turn is best, the least of equals.
+// The regularisation that puts the fewest samples on the wrong side, among equals the one whose log
+// posterior of samples left out in turn is best, then the least.
 Qda choose_qda(const Eigen::MatrixXd& points, const std::vector<int>& label, int classes);
 
 }  // namespace hapsim

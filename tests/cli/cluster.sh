@@ -31,7 +31,7 @@ samples() {
     for (j = 0; j < 5; ++j)
       for (i = 0; i < 4; ++i) {
         x = 0.015 + 0.03 * i; y = 0.021 + 0.042 * j
-        e = 10000 * (y > 0.07 + 0.05 * sin(3.14159265 * x / 0.12) ? factor : 1)
+        e = 10000 * (y > 0.068 + 0.03 * sin(3.14159265 * x / 0.12) ? factor : 1)
         g = -6; for (k = 0; k < 12; ++k) g += rand()
         h = -6; for (k = 0; k < 12; ++k) h += rand()
         printf "%.4f,%.4f,0.06,%.1f,%.4f,%.1f,0.02,300,s%d\n", x, y, e * (1 + 0.02 * g), 0.4 + 0.02 * h,
@@ -46,7 +46,7 @@ expect 0 '2 regions' two.csv --boundary boundary.csv --dendrogram tree.csv --svg
   --model model.csv -o classified.csv
 [[ $(sed -n '/^[^#]/{p;q}' classified.csv) == x,y,z,E,nu,E_std,nu_std,n,region,site ]] ||
   complain 'columns of the samples'
-awk -F, '!/^[#x]/ { if ($9 != ($2 > 0.07 + 0.05 * sin(3.14159265 * $1 / 0.12))) wrong = 1 } END { exit wrong }' \
+awk -F, '!/^[#x]/ { if ($9 != ($2 > 0.068 + 0.03 * sin(3.14159265 * $1 / 0.12))) wrong = 1 } END { exit wrong }' \
   classified.csv || complain 'each position has its region'
 awk -F, 'NR > 1 { d = $6 - 0.07 - 0.05 * sin(3.14159265 * $5 / 0.12); s += d < 0 ? -d : d; ++n }
   END { exit !(n == 8 && s / n < 0.012) }' boundary.csv || complain 'eight key points near the boundary'
