@@ -233,6 +233,11 @@ void report(const Arguments& arguments, const RegionEstimate& regions, std::size
                       "smoothly",
                       all.scatter, all.p_gaps));
   }
+  if (regions.joined > 0)
+    line(
+        fmt::format("{} sample{} unlike all others joined the nearest region: pressed across a "
+                    "boundary, or a region of their own (press around, or give --regions)",
+                    regions.joined, regions.joined == 1 ? "" : "s"));
   for (std::size_t r = 0; r < regions.value.size(); ++r) {
     const RegionValue& v = regions.value[r];
     line(fmt::format("region {}: {} sample{}, E = {:.4g} ± {:.2g} Pa, nu = {:.3g}{}", r, v.samples,

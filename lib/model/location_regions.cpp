@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/error.h"
@@ -94,6 +95,34 @@ RegionValue region_value(const LocationTable& t, const std::vector<int>& label, 
   return result;
 }
 
+// A sample that the natural division leaves alone joins the cluster that is nearest on average: it
+// is more often a press across a boundary than a region. Returns how many did.
+int join_lone_samples(const Eigen::MatrixXd& distances, std::vector<int>& label) {
+  const int clusters = 1 + *std::max_element(label.begin(), label.end());
+  std::vector<int> size(clusters, 0);
+  for (const int k : label) ++size[k];
+  if (*std::max_element(size.begin(), size.end()) < 2) return 0;
+  const std::vector<int> before = label;
+  int joined = 0;
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (size[before[i]] > 1) continue;
+    std::vector<double> sum(clusters, 0);
+    for (std::size_t j = 0; j < label.size(); ++j)
+      sum[before[j]] += distances(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    double least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < clusters; ++k)
+      if (size[k] > 1 && sum[k] / size[k] < least) least = sum[k] / size[k], label[i] = k;
+    ++joined;
+  }
+  std::vector<int> number(clusters, -1);  // without gaps again
+  int next = 0;
+  for (int& k : label) {
+    if (number[k] < 0) number[k] = next++;
+    k = number[k];
+  }
+  return joined;
+}
+
 }  // namespace
 
 RegionEstimate estimate_regions(const LocationTable& table, const RegionOptions& options) {
@@ -103,7 +132,8 @@ RegionEstimate estimate_regions(const LocationTable& table, const RegionOptions&
         "ask for fewer regions, or press at more places");
   const Features f = features_of(table, options);
   RegionEstimate result;
-  choose_linkage(scaled_distances(f.value, f.error), options, result);
+  const Eigen::MatrixXd distances = scaled_distances(f.value, f.error);
+  choose_linkage(distances, options, result);
   std::vector<int> label;
   if (options.regions > 0) {
     label = cut(result.tree, options.regions);
@@ -114,6 +144,7 @@ RegionEstimate estimate_regions(const LocationTable& table, const RegionOptions&
     Division d = natural_division(f.value, f.error, result.linkage, random, division);
     label = std::move(d.label);
     result.tests = std::move(d.tests);
+    result.joined = join_lone_samples(distances, label);
   }
   const int regions = 1 + *std::max_element(label.begin(), label.end());
   std::vector<RegionValue> value;

@@ -30,9 +30,11 @@ struct RegionValue {
 
 struct RegionEstimate {
   Linkage linkage = Linkage::kAverage;
-  double correlation = 0;          // cophenetic, of that linkage; NaN when all distances are equal
-  Dendrogram tree;                 // heights in standard errors
-  std::vector<BranchTest> tests;   // of the natural division; the first is one region or more
+  double correlation = 0;         // cophenetic, of that linkage; NaN when all distances are equal
+  Dendrogram tree;                // heights in standard errors
+  std::vector<BranchTest> tests;  // of the natural division; the first is one region or more
+  int joined =
+      0;  // samples that the natural division left alone and that joined the nearest region
   std::vector<int> label;          // region of each sample, numbered by ascending E
   std::vector<RegionValue> value;  // by region
 };
