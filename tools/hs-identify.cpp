@@ -283,6 +283,9 @@ int run(const Arguments& arguments) {
 
   const Selection all = all_episodes(w.dataset);
   FitOptions final_options = fit_options;
+  if (arguments.given("--profile") && fit_options.robust != RobustLoss::kNone)
+    fail_usage("--profile and --robust exclude each other",
+               "a robust loss is no likelihood: use one of them");
   final_options.profile = arguments.given("--profile");
   FitResult result =
       fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, final_options);

@@ -19,7 +19,7 @@ struct FitOptions {
   int starts = 1;             // more: a Latin hypercube over the bounds besides the given start
   std::uint64_t seed = 1;     // of the starts
   RobustLoss robust = RobustLoss::kNone;
-  bool profile = false;  // fill in `intervals`: some twenty fits a parameter
+  bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
 };
 
 struct FitResult {
