@@ -6,11 +6,13 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "effects/catalogue.h"
+#include "estimate/identifiability.h"
 #include "io/csv.h"
 #include "linalg/blas.h"
 #include "model/edit.h"
 #include "model/extend.h"
 #include "model/history.h"
+#include "model/location_fit.h"
 
 namespace hapsim {
 namespace {
@@ -80,7 +82,40 @@ ToolSpec specification() {
       {.flag = "--history",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "CSV of model versions and their errors to which this one is added."}};
+       .help = "CSV of model versions and their errors to which this one is added."},
+      {.flag = "--locations",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help =
+           "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
+           "position by itself, the model's other parameters held; input of hs-cluster."},
+      {.flag = "--starts",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help =
+           "Starts of each fit: the usual one and N - 1 spread evenly over the bounds; the least "
+           "error wins.",
+       .default_text = "1",
+       .minimum = 1,
+       .maximum = 1000},
+      {.flag = "--robust",
+       .kind = OptionKind::kChoice,
+       .value = "LOSS",
+       .help = "Discounts readings that lie far off: huber little by little, tukey in the end "
+               "altogether.",
+       .default_text = "none",
+       .choices = {"none", "huber", "tukey"}},
+      {.flag = "--profile",
+       .kind = OptionKind::kSwitch,
+       .help =
+           "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
+           "need not be symmetric."},
+      {.flag = "--seed",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Seed of --starts.",
+       .default_text = "1",
+       .minimum = 0}};
   spec.options.insert(spec.options.end(), own.begin(), own.end());
   spec.tables = {{"Model (output)",
                   {{"effect", "name in the catalogue, see hs-effects(7)"},
@@ -204,6 +239,14 @@ void report(const Arguments& arguments, const Workspace& w, const FitResult& res
   warn(result.at_bound,
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  for (const std::string& sentence : result.blind) line(sentence);
+  for (const std::string& interval : result.intervals) line(interval);
+  if (result.discounted > 0)
+    line(fmt::format("{} of {} force components discounted as far off", result.discounted,
+                     result.residuals));
+  if (!enough_data(result.residuals,
+                   static_cast<Eigen::Index>(result.model.free_parameters().size())))
+    line("fewer than ten force components a free parameter: noise may decide their values");
   line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", result.rmse,
                    100 * result.rmse / force_rms, result.rmse / w.noise.value));
   if (!by.empty() && !std::isnan(held_out))
@@ -231,12 +274,21 @@ int run(const Arguments& arguments) {
   Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), true), options);
   progress.reset();
   FitOptions fit_options{w.noise.value, w.floor, true};
+  fit_options.starts = static_cast<int>(arguments.integer("--starts"));
+  fit_options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  if (arguments.text("--robust") == "huber") fit_options.robust = RobustLoss::kHuber;
+  if (arguments.text("--robust") == "tukey") fit_options.robust = RobustLoss::kTukey;
   extend.noise = w.noise.value;
   extend.floor = w.floor;
 
   const Selection all = all_episodes(w.dataset);
+  FitOptions final_options = fit_options;
+  if (arguments.given("--profile") && fit_options.robust != RobustLoss::kNone)
+    fail_usage("--profile and --robust exclude each other",
+               "a robust loss is no likelihood: use one of them");
+  final_options.profile = arguments.given("--profile");
   FitResult result =
-      fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, fit_options);
+      fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, final_options);
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
                   "start from a simpler model, or fix a parameter");
@@ -271,6 +323,11 @@ int run(const Arguments& arguments) {
   model.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
   Output output(arguments.output());
   write_model(output.stream(), model);
+  if (arguments.given("--locations")) {
+    Output locations(arguments.text("--locations"));
+    write_locations(locations.stream(), fit_locations(model, w.dataset, *w.body, fit_options));
+    locations.commit();
+  }
   output.commit();
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),

@@ -4,35 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/coordinates.h"
+
 namespace hapsim {
 namespace {
-
-// Works in internal coordinates y: x / scale, log x, or -log(limit - x).
-class Coordinates {
- public:
-  explicit Coordinates(const std::vector<Unknown>& unknowns) : u_(unknowns) {}
-  double inner(std::size_t i, double x) const {
-    if (has_limit(i)) return -std::log(u_[i].log_limit - x);
-    return u_[i].logarithmic ? std::log(x) : x / u_[i].scale;
-  }
-  double outer(std::size_t i, double y) const {
-    const double x = has_limit(i)        ? u_[i].log_limit - std::exp(-y)
-                     : u_[i].logarithmic ? std::exp(y)
-                                         : y * u_[i].scale;
-    return std::clamp(x, u_[i].lower, u_[i].upper);
-  }
-  double slope(std::size_t i, double x) const {  // dx/dy
-    if (has_limit(i)) return u_[i].log_limit - x;
-    return u_[i].logarithmic ? x : u_[i].scale;
-  }
-  bool is_log(std::size_t i) const { return u_[i].logarithmic || has_limit(i); }
-  double low(std::size_t i) const { return u_[i].lower <= -1e299 ? -1e300 : inner(i, u_[i].lower); }
-  double high(std::size_t i) const { return u_[i].upper >= 1e299 ? 1e300 : inner(i, u_[i].upper); }
-
- private:
-  bool has_limit(std::size_t i) const { return !std::isnan(u_[i].log_limit); }
-  const std::vector<Unknown>& u_;
-};
 
 // J = Q R: the small triangle R and the head of Q' r are all that a step needs of n residuals.
 struct Triangular {

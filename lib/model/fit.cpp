@@ -1,12 +1,17 @@
 #include "model/fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
+#include "estimate/identifiability.h"
 #include "estimate/least_squares.h"
+#include "estimate/multi_start.h"
+#include "estimate/profile.h"
 #include "model/press_offsets.h"
 
 namespace hapsim {
@@ -48,6 +53,40 @@ double change(const MaterialSpec& a, const MaterialSpec& b) {
   return largest;
 }
 
+// The parameters held at a bound are no part of it.
+void tell_what_is_not_seen(FitResult& result, const Eigen::MatrixXd& J, double noise) {
+  const std::vector<Unknown> all = unknowns(result.model);
+  const std::vector<int> free = result.model.free_parameters();
+  std::vector<Unknown> open;
+  std::vector<std::string> names;
+  std::vector<Eigen::Index> columns;
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    const std::string name = label(result.model.parameters[free[c]]);
+    if (std::find(result.at_bound.begin(), result.at_bound.end(), name) != result.at_bound.end())
+      continue;
+    open.push_back(all[c]);
+    names.push_back(name);
+    columns.push_back(static_cast<Eigen::Index>(c));
+  }
+  if (open.size() < 2) return;  // a single unseen parameter is called undetermined already
+  for (const BlindDirection& d : blind_directions(open, names, J(Eigen::all, columns), 1, noise))
+    if (d.sentence.find(" and ") != std::string::npos) result.blind.push_back(d.sentence);
+}
+
+void tell_intervals(FitResult& result, const ResidualFunction& residuals,
+                    const LeastSquaresResult& solution, double variance) {
+  const std::vector<Unknown> all = unknowns(result.model);
+  const std::vector<int> free = result.model.free_parameters();
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    if (solution.at_bound[c]) continue;
+    const ProfileInterval p = profile_interval(all, residuals, solution, c, variance);
+    result.intervals.push_back(fmt::format(
+        "{}: 95 % from {:.4g}{} to {:.4g}{}{}", label(result.model.parameters[free[c]]), p.lower,
+        p.open_below ? " (its bound)" : "", p.upper, p.open_above ? " (its bound)" : "",
+        p.failed ? "; a fit on the way did not converge" : ""));
+  }
+}
+
 }  // namespace
 
 FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
@@ -60,18 +99,36 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   const bool offsets = offset_effect(start) != nullptr;
   if (offsets) set_offsets(result.model, dataset, {}, {}, 0);
   const bool inhomogeneous = asked.modulus.size() > 1 && !asked.local && options.exact_regions;
+  Model trial = result.model;
+  const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                         Eigen::MatrixXd* J) {
+    set_values(trial, x);
+    Signal signal = model_forces(trial, dataset, selection, body, J != nullptr);
+    r = (signal.f - measured) / options.noise;
+    if (J != nullptr) *J = signal.df / options.noise;
+    if (!offsets) return;
+    take_out_press_means(dataset, selection, r);
+    if (J != nullptr) take_out_press_means(dataset, selection, *J);
+  };
+  bool from_many = options.starts > 1;  // once: later rounds improve on the valley found
   const auto minimise_again = [&] {
-    Model trial = result.model;
-    const auto residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
-      set_values(trial, x);
-      Signal signal = model_forces(trial, dataset, selection, body, J != nullptr);
-      r = (signal.f - measured) / options.noise;
-      if (J != nullptr) *J = signal.df / options.noise;
-      if (!offsets) return;
-      take_out_press_means(dataset, selection, r);
-      if (J != nullptr) take_out_press_means(dataset, selection, *J);
-    };
-    solution = minimise(unknowns(result.model), residuals);
+    trial = result.model;
+    if (from_many) {
+      Random random(options.seed);
+      solution =
+          minimise_from_many(latin_hypercube_starts(unknowns(result.model), options.starts, random),
+                             residuals)
+              .best;
+      set_values(result.model, solution.x);
+      from_many = false;
+    }
+    if (options.robust != RobustLoss::kNone) {
+      RobustResult robust = minimise_robustly(unknowns(result.model), residuals, options.robust);
+      solution = std::move(robust.fit);
+      result.discounted = robust.discounted;
+    } else {
+      solution = minimise(unknowns(result.model), residuals);
+    }
     set_values(result.model, solution.x);
   };
   // With regions the finite elements are solved again about the fitted moduli until these stay:
@@ -100,8 +157,10 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   const std::vector<int> free = result.model.free_parameters();
   const double freedom =
       std::max(1.0, static_cast<double>(result.residuals) - static_cast<double>(free.size()));
+  const double variance = std::max(1.0, solution.sum_of_squares / freedom);
+  // The robust covariance has the misfit in it.
   Eigen::MatrixXd covariance =
-      std::max(1.0, solution.sum_of_squares / freedom) * solution.covariance;
+      options.robust == RobustLoss::kNone ? variance * solution.covariance : solution.covariance;
   if (options.floor > 0) {
     // A gain error of each position, carried through to the parameters (sandwich).
     for (const GainBlock& block : gain_directions(dataset, selection, signal.f)) {
@@ -120,6 +179,8 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
     if (solution.at_bound[c]) result.at_bound.push_back(label(p));
     if (unseen) result.undetermined.push_back(label(p));
   }
+  tell_what_is_not_seen(result, signal.df / options.noise, std::sqrt(variance));
+  if (options.profile && solution.converged) tell_intervals(result, residuals, solution, variance);
   return result;
 }
 

@@ -1,11 +1,13 @@
 // Fitting a model's free parameters to a recording, and the error on presses it has not seen.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "estimate/robust.h"
 #include "model/weights.h"
 
 namespace hapsim {
@@ -14,6 +16,10 @@ struct FitOptions {
   double noise = 1;           // standard deviation of the force noise [N]
   double floor = 0;           // relative gain error by position (mesh and geometry)
   bool exact_regions = true;  // solve inhomogeneous bodies anew; false: first-order stiffness
+  int starts = 1;             // more: a Latin hypercube over the bounds besides the given start
+  std::uint64_t seed = 1;     // of the starts
+  RobustLoss robust = RobustLoss::kNone;
+  bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
 };
 
 struct FitResult {
@@ -24,6 +30,9 @@ struct FitResult {
   Eigen::Index residuals = 0;
   std::vector<std::string> at_bound;      // "elastic nu"
   std::vector<std::string> undetermined;  // parameters that the data cannot tell
+  std::vector<std::string> blind;         // "E and E1 enter only as their sum"
+  std::vector<std::string> intervals;     // profile likelihood, 95 %, in words
+  int discounted = 0;                     // force components that the robust loss halves or drops
 };
 
 // Fits on the chosen episodes by least squares of the forces. Standard errors come from the noise

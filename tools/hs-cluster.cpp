@@ -1,0 +1,309 @@
+// hs-cluster: location samples into regions and their boundary.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "base/error.h"
+#include "cli/tool.h"
+#include "io/csv.h"
+#include "model/region_map.h"
+#include "report/palette.h"
+#include "report/plot.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-cluster";
+  spec.summary = "regions of a body from what each contact position asks for by itself";
+  spec.input = "location samples CSV (x,y,z,E,nu,E_std,nu_std[,n]), as hs-identify --locations";
+  spec.description = {
+      "Clusters log E and nu, scaled by their standard errors, hierarchically; says whether there "
+      "is more than one region; and finds the boundary between regions in plan view by quadratic "
+      "discriminant analysis of the positions. Writes the samples with their region.",
+      "A division is believed when the samples scatter more than their errors allow and cluster "
+      "more tightly than samples spread evenly would (gap statistic, tested against one region at "
+      "every branch of the tree). A smooth slope of the stiffness is not divided; nor are samples "
+      "within about the tool's radius of a boundary told apart from either side."};
+  spec.options = {
+      {.flag = "--regions",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Number of regions; otherwise as many as the samples prove.",
+       .minimum = 1,
+       .maximum = 1000},
+      {.flag = "--linkage",
+       .kind = OptionKind::kChoice,
+       .value = "NAME",
+       .help = "Distance between clusters; auto: the first whose tree keeps the distances "
+               "(cophenetic correlation of 0.75), else the best.",
+       .default_text = "auto",
+       .choices = {"auto", "average", "ward", "complete", "single"}},
+      {.flag = "--features",
+       .kind = OptionKind::kChoice,
+       .value = "NAMES",
+       .help = "What is clustered: E alone, or nu as well where it was estimated.",
+       .default_text = "E+nu",
+       .choices = {"E+nu", "E"}},
+      {.flag = "--components",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Principal components that are clustered instead; 0: the parameters themselves.",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 2},
+      {.flag = "--significance",
+       .kind = OptionKind::kNumber,
+       .value = "P",
+       .help = "Chance of dividing what is one region.",
+       .default_text = "0.05",
+       .minimum = 1e-3,
+       .maximum = 0.5},
+      {.flag = "--rule",
+       .kind = OptionKind::kChoice,
+       .value = "NAME",
+       .help = "Region of a place: by discriminant analysis, or that of the nearest sample.",
+       .default_text = "qda",
+       .choices = {"qda", "nearest"}},
+      {.flag = "--boundary",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the boundaries as key points (CSV)."},
+      {.flag = "--key-points",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Key points along each boundary.",
+       .default_text = "8",
+       .minimum = 2,
+       .maximum = 1000},
+      {.flag = "--scan-points",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Places that are classified to find the boundary.",
+       .default_text = "20000",
+       .minimum = 100,
+       .maximum = 4000000},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes a model with these regions, a start for hs-identify --model."},
+      {.flag = "--body",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Body from hs-tetmesh: its plan view bounds the boundary."},
+      {.flag = "--labels",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the body with the region of each tetrahedron (PLY); needs --body."},
+      {.flag = "--dendrogram",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the tree of merges (CSV)."},
+      {.flag = "--svg",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Draws the tree, branches coloured by region (SVG)."},
+      {.flag = "--seed",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Seed of the test of one region against more.",
+       .default_text = "1",
+       .minimum = 0}};
+  spec.tables = {{"Samples (output)",
+                  {{"x,y,z", "contact position [m]"},
+                   {"E, E_std", "Young's modulus and its standard error [Pa]"},
+                   {"nu, nu_std", "Poisson's ratio and its standard error"},
+                   {"n", "force components behind the sample"},
+                   {"region", "from 0, by ascending E"}}},
+                 {"--boundary",
+                  {{"line", "number of the connected line, from 0"},
+                   {"region_a, region_b", "regions on its two sides"},
+                   {"point",
+                    "number along the line, from 0; the last equals the first when the "
+                    "line is closed"},
+                   {"x, y", "plan view [m]"}}},
+                 {"--dendrogram",
+                  {{"node", "number of the cluster; samples have 0 to n - 1 in order of the file"},
+                   {"left, right", "clusters that are joined"},
+                   {"height", "their distance, in standard errors"},
+                   {"size", "samples below"},
+                   {"inconsistency",
+                    "height against the merges just below, in their standard "
+                    "deviations"}}}};
+  spec.examples = {
+      {"hs-identify data.csv --body body.ply --locations l.csv -o m0.csv", "Location samples."},
+      {"hs-cluster l.csv --boundary boundary.csv --svg tree.svg -o classified.csv",
+       "Regions, boundary and tree."},
+      {"hs-cluster l.csv --body body.ply --labels regions.ply --model start.csv -o classified.csv",
+       "A body with regions, and a model that hs-identify --model can improve."}};
+  spec.see_also = {"hs-identify(1)", "hs-tetmesh(1)", "hs-effects(7)"};
+  return spec;
+}
+
+RegionOptions region_options(const Arguments& arguments) {
+  RegionOptions options;
+  for (const Linkage linkage :
+       {Linkage::kAverage, Linkage::kWard, Linkage::kComplete, Linkage::kSingle})
+    if (arguments.text("--linkage") == linkage_name(linkage)) options.linkage = linkage;
+  options.components = static_cast<int>(arguments.integer("--components"));
+  options.use_nu = arguments.text("--features") == "E+nu";
+  if (arguments.given("--regions"))
+    options.regions = static_cast<int>(arguments.integer("--regions"));
+  options.significance = arguments.number("--significance");
+  options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  return options;
+}
+
+void write_boundary(std::ostream& out, const std::vector<BoundaryLine>& lines, int keys) {
+  CsvWriter writer(out, {}, {"line", "region_a", "region_b", "point", "x", "y"});
+  for (std::size_t l = 0; l < lines.size(); ++l) {
+    const auto points = key_points(lines[l], keys);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      writer.row({std::to_string(l), std::to_string(lines[l].a), std::to_string(lines[l].b),
+                  std::to_string(p), format_number(points[p].x()), format_number(points[p].y())});
+  }
+}
+
+void write_dendrogram(std::ostream& out, const Dendrogram& tree) {
+  CsvWriter writer(out, {}, {"node", "left", "right", "height", "size", "inconsistency"});
+  const std::vector<double> ratio = inconsistency(tree);
+  for (std::size_t m = 0; m < tree.merges.size(); ++m) {
+    const Merge& merge = tree.merges[m];
+    writer.row({std::to_string(tree.leaves + m), std::to_string(merge.left),
+                std::to_string(merge.right), format_number(merge.height),
+                std::to_string(merge.size), format_number(ratio[m])});
+  }
+}
+
+// Brackets over the samples from left to right; grey above the regions.
+std::string draw(const RegionEstimate& regions) {
+  Plot plot(720, 360, "location samples in the tree's order", "distance [standard errors]");
+  const Dendrogram& tree = regions.tree;
+  const std::vector<int> order = leaf_order(tree);
+  std::vector<double> x(tree.leaves + tree.merges.size()), height(x.size(), 0);
+  std::vector<int> region(x.size(), -1);  // of a branch that lies in one, else -1
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    x[order[k]] = static_cast<double>(k + 1);
+    region[order[k]] = regions.label[order[k]];
+  }
+  plot.integer_x();
+  plot.include_y(0);
+  std::vector<bool> named(regions.value.size(), false);
+  for (std::size_t m = 0; m < tree.merges.size(); ++m) {
+    const auto [left, right, top, size] = tree.merges[m];
+    const std::size_t at = tree.leaves + m;
+    x[at] = 0.5 * (x[left] + x[right]);
+    height[at] = top;
+    if (region[left] == region[right]) region[at] = region[left];
+    PlotStyle style;
+    std::string legend;
+    if (const int r = region[at]; r >= 0) {
+      style.colour = version_colour(static_cast<std::size_t>(r));
+      if (!named[r]) legend = fmt::format("region {}", r);
+      named[r] = true;
+    }
+    plot.line({x[left], x[left], x[right], x[right]}, {height[left], top, top, height[right]},
+              style, legend);
+  }
+  std::string svg = plot.svg();
+  return svg.insert(svg.find("<svg") + 4, " xmlns=\"http://www.w3.org/2000/svg\"");
+}
+
+void report(const Arguments& arguments, const RegionEstimate& regions, std::size_t samples) {
+  const auto line = [&](const std::string& text) { say(arguments, "hs-cluster", text); };
+  line(fmt::format("{} location samples, {} linkage, cophenetic correlation {:.3f}", samples,
+                   linkage_name(regions.linkage), regions.correlation));
+  if (regions.correlation < 0.75)
+    line("the tree keeps the distances badly: the samples hardly fall into groups");
+  if (regions.tests.empty()) {
+    line(fmt::format("{} regions, as asked", regions.value.size()));
+  } else {
+    const BranchTest& all = regions.tests.front();
+    if (all.divided)
+      line(fmt::format("{} regions (chance of such clusters in one region: {:.2g})",
+                       regions.value.size(), all.p_gaps));
+    else if (all.p_scatter > all.level)
+      line(fmt::format("one region: the samples scatter as their standard errors say (p = {:.2g})",
+                       all.p_scatter));
+    else
+      line(
+          fmt::format("one region: the samples scatter {:.2g} times as widely as their standard "
+                      "errors say, but fall into no groups (p = {:.2g}); the stiffness may vary "
+                      "smoothly",
+                      all.scatter, all.p_gaps));
+  }
+  if (regions.joined > 0)
+    line(
+        fmt::format("{} sample{} unlike all others joined the nearest region: pressed across a "
+                    "boundary, or a region of their own (press around, or give --regions)",
+                    regions.joined, regions.joined == 1 ? "" : "s"));
+  for (std::size_t r = 0; r < regions.value.size(); ++r) {
+    const RegionValue& v = regions.value[r];
+    line(fmt::format("region {}: {} sample{}, E = {:.4g} ± {:.2g} Pa, nu = {:.3g}{}", r, v.samples,
+                     v.samples == 1 ? "" : "s", v.E, v.E_std, v.nu,
+                     v.nu_std > 0 ? fmt::format(" ± {:.2g}", v.nu_std) : " (held)"));
+  }
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.given("--labels") && !arguments.given("--body"))
+    fail_usage("--labels needs a body", "add --body FILE");
+  const RegionOptions options = region_options(arguments);
+  Input input(arguments.input());
+  LocationTable table = read_locations(input);
+  std::optional<TetMesh> body;
+  if (arguments.given("--body")) {
+    Input body_input(arguments.text("--body"));
+    body = read_body(body_input);
+  }
+  const RegionEstimate regions = estimate_regions(table, options);
+  const int count = static_cast<int>(regions.value.size());
+  const RegionRule rule =
+      arguments.text("--rule") == "qda" ? RegionRule::kQda : RegionRule::kNearest;
+  const PlaneClassifier classify = region_classifier(table, regions.label, count, rule);
+  const auto lines = region_boundaries(classify, table, body,
+                                       static_cast<int>(arguments.integer("--scan-points")));
+  const int keys = static_cast<int>(arguments.integer("--key-points"));
+
+  table.region = regions.label;
+  table.metadata.set("regions", std::to_string(count));
+  table.metadata.set("linkage", linkage_name(regions.linkage));
+  table.metadata.set("cophenetic", format_number(regions.correlation));
+  table.metadata.set("seed", arguments.text("--seed"));
+  std::vector<std::unique_ptr<Output>> outputs;  // all complete, or none
+  const auto write = [&](const std::string& path, const auto& writer) {
+    outputs.push_back(std::make_unique<Output>(path));
+    writer(outputs.back()->stream());
+  };
+  const auto write_asked = [&](const char* flag, const auto& writer) {
+    if (arguments.given(flag)) write(arguments.text(flag), writer);
+  };
+  write_asked("--boundary", [&](std::ostream& out) { write_boundary(out, lines, keys); });
+  write_asked("--dendrogram", [&](std::ostream& out) { write_dendrogram(out, regions.tree); });
+  write_asked("--svg", [&](std::ostream& out) { out << draw(regions) << "\n"; });
+  write_asked("--model", [&](std::ostream& out) {
+    write_model(out, region_model(table, regions, classify, lines, keys));
+  });
+  write_asked("--labels", [&](std::ostream& out) {
+    label_body(*body, classify);
+    write_body_ply(out, *body);
+  });
+  write(arguments.output(), [&](std::ostream& out) { write_locations(out, table); });
+  for (const auto& output : outputs) output->commit();
+
+  report(arguments, regions, table.size());
+  if (const int wrong = contradicted(classify, table, regions.label); wrong > 0)
+    say(arguments, "hs-cluster",
+        fmt::format("{} of {} samples lie on the other side of the estimated boundary: press more "
+                    "places along it, or use --rule nearest",
+                    wrong, table.size()));
+  return 0;
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
