@@ -1,27 +1,7 @@
 #!/usr/bin/env bash
 # cluster.sh BIN: what hs-cluster prints, writes and returns.
 set -uo pipefail
-hs_cluster=$1/hs-cluster
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-complain() { # TEXT
-  printf 'FAILED: %s\n' "$1"
-  [[ -s .err ]] && sed 's/^/    /' .err
-  failures=$((failures + 1))
-}
-# expect CODE TEXT ARGUMENTS...: the exit code, and a part of what goes to standard error
-expect() {
-  local code=$1 text=$2
-  shift 2
-  "$hs_cluster" "$@" >.out 2>.err </dev/null
-  local got=$?
-  ((got == code)) || complain "exit code $got, not $code: hs-cluster $*"
-  grep -qF -- "$text" .err || complain "'$text' is not told by: hs-cluster $*"
-  ((code == 0)) || [[ $(grep -c . .err) == 1 ]] || complain "one line of error: hs-cluster $*"
-}
+. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-cluster"
 # samples FACTOR: 20 positions on 120 x 210 mm, FACTOR times stiffer beyond a slanting line; known scatter
 samples() {
   awk -v factor="$1" 'BEGIN {
@@ -64,7 +44,7 @@ expect 0 'one region' one.csv --components 1 -o out.csv
 expect 0 '3 regions, as asked' two.csv --regions 3 -o out.csv
 expect 0 '2 regions' two.csv --components 2 --linkage complete -o out.csv
 expect 0 '2 regions' two.csv --features E --rule nearest --boundary nearest.csv -o out.csv
-"$hs_cluster" -q two.csv --seed 4 -o a.csv && "$hs_cluster" -q - --seed 4 <two.csv | cmp -s - a.csv ||
+"$tool" -q two.csv --seed 4 -o a.csv && "$tool" -q - --seed 4 <two.csv | cmp -s - a.csv ||
   complain 'the same seed gives the same bytes; standard input and output'
 
 head -5 two.csv >few.csv

@@ -1,26 +1,7 @@
 #!/usr/bin/env bash
 # compare.sh BIN: what hs-compare prints, writes and returns.
 set -uo pipefail
-hs_compare=$1/hs-compare
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-complain() { # TEXT
-  printf 'FAILED: %s\n' "$1"
-  [[ -s .err ]] && sed 's/^/    /' .err
-  failures=$((failures + 1))
-}
-# expect CODE TEXT ARGUMENTS...: the exit code, and a part of what goes to standard error
-expect() {
-  local code=$1 text=$2
-  shift 2
-  "$hs_compare" "$@" >.out 2>.err </dev/null
-  local got=$?
-  ((got == code)) || complain "exit code $got, not $code: hs-compare $*"
-  grep -qF -- "$text" .err || complain "'$text' is not told by: hs-compare $*"
-}
+. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-compare"
 # recording GAIN: eight presses on four positions, stiffness 200 N/m, times GAIN
 recording() {
   awk -v gain="$1" 'BEGIN {
@@ -42,7 +23,7 @@ expect 0 'too stiff by 20 %' data.csv --simulated stiff.csv
 expect 0 'rmse' data.csv --simulated stiff.csv -o residuals.csv
 [[ $(sed -n 2p residuals.csv) == press,t,x,y,z,ux,uy,uz,fx,fy,fz,note,sx,sy,sz,rx,ry,rz ]] ||
   complain 'columns of the residuals'
-"$hs_compare" -q data.csv --simulated - <stiff.csv | cmp -s - residuals.csv ||
+"$tool" -q data.csv --simulated - <stiff.csv | cmp -s - residuals.csv ||
   complain 'standard input and output carry the same'
 
 expect 0 '' data.csv --simulated stiff.csv --fail-above 1N -o residuals.csv

@@ -4,25 +4,7 @@ set -uo pipefail
 bin=$1
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 example=$root/share/examples/robot
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-complain() { # TEXT
-  printf 'FAILED: %s\n' "$1"
-  [[ -s .err ]] && sed 's/^/    /' .err
-  failures=$((failures + 1))
-}
-# expect CODE TEXT ARGUMENTS...: the exit code, and a part of what goes to standard error
-expect() {
-  local code=$1 text=$2
-  shift 2
-  "$bin/hs-scan2ply" "$@" >.out 2>.err </dev/null
-  local got=$?
-  ((got == code)) || complain "exit code $got, not $code: hs-scan2ply $*"
-  grep -qF -- "$text" .err || complain "'$text' is not told by: hs-scan2ply $*"
-}
+. "$root/tests/cli/tool.sh" "$bin/hs-scan2ply"
 # refuse TEXT ARGUMENTS...: bad input in one line, and nothing left behind
 refuse() {
   rm -f none.ply

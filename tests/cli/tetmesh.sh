@@ -1,27 +1,7 @@
 #!/usr/bin/env bash
 # tetmesh.sh BIN: what hs-tetmesh reads, writes, says and returns.
 set -uo pipefail
-hs_tetmesh=$1/hs-tetmesh
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-
-complain() { # TEXT
-  printf 'FAILED: %s\n' "$1"
-  [[ -s .err ]] && sed 's/^/    /' .err
-  failures=$((failures + 1))
-}
-# expect CODE TEXT ARGUMENTS...: the exit code, and a part of what goes to standard error
-expect() {
-  local code=$1 text=$2
-  shift 2
-  "$hs_tetmesh" "$@" >.out 2>.err </dev/null
-  local got=$?
-  ((got == code)) || complain "exit code $got, not $code: hs-tetmesh $*"
-  grep -qF -- "$text" .err || complain "'$text' is not told by: hs-tetmesh $*"
-  ((code == 0)) || (($(wc -l <.err) == 1)) || complain "more than one line: hs-tetmesh $*"
-}
+. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-tetmesh"
 # box X0 Y0 Z0 X1 Y1 Z1 [TRIANGLES]: OFF
 box() {
   awk -v n="${7:-12}" -v x0="$1" -v y0="$2" -v z0="$3" -v x1="$4" -v y1="$5" -v z1="$6" 'BEGIN {
@@ -77,10 +57,10 @@ expect 3 'cut.msh:' cut.msh -o x.ply
 
 # A reader of standard error that goes away costs no result.
 rm -f body.ply
-"$hs_tetmesh" box.off -o body.ply 2> >(exec <&-) || true
+"$tool" box.off -o body.ply 2> >(exec <&-) || true
 wait
 [[ -s body.ply ]] || complain 'the body is lost when standard error is closed'
-"$hs_tetmesh" box.off 2>&- >all.ply
+"$tool" box.off 2>&- >all.ply
 [[ $(head -c 3 all.ply) == ply ]] || complain 'no body on standard output'
 
 ((failures == 0)) && printf 'tetmesh: passed\n'
