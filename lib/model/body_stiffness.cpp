@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "model/nearest_region.h"
 
 namespace hapsim {
 namespace {
@@ -15,16 +16,6 @@ std::string layout(const MaterialSpec& material) {
     hash.add(material.key_region[k]);
   }
   return hash.hex();
-}
-
-int region_at(const MaterialSpec& material, const Vec3& p) {
-  int region = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < material.key_point.size(); ++k) {
-    const double distance = (material.key_point[k] - p).head<2>().squaredNorm();
-    if (distance < least) least = distance, region = material.key_region[k];
-  }
-  return region;
 }
 
 bool homogeneous(const MaterialSpec& material) {

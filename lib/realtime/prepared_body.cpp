@@ -1,26 +1,15 @@
 #include "realtime/prepared_body.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "model/forces.h"
+#include "model/nearest_region.h"
 
 namespace hapsim {
 namespace {
-
-// Region of a point: that of its nearest key point, in plan view.
-int region_at(const MaterialSpec& material, const Vec3& p) {
-  int region = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < material.key_point.size(); ++k) {
-    const double distance = (material.key_point[k] - p).head<2>().squaredNorm();
-    if (distance < least) least = distance, region = material.key_region[k];
-  }
-  return region;
-}
 
 // The corners' mesh: the field puts the tool's own neighbourhood in, which is where second order
 // counts. Middles become nodes that no tetrahedron uses, which are held.
