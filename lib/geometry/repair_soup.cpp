@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/drop_unused.h"
 #include "geometry/point_index.h"
 #include "geometry/repair.h"
 
@@ -36,25 +37,6 @@ void rename(Surface& surface, const std::vector<int>& name) {
     if (g[0] != g[1] && g[1] != g[2] && g[2] != g[0]) faces.push_back(g);
   }
   surface.faces = std::move(faces);
-}
-
-int drop_unused(Surface& surface) {
-  std::vector<int> number(surface.vertices.size(), -1);
-  for (const Triangle& f : surface.faces) {
-    for (const int v : f) number[v] = 0;
-  }
-  int next = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    surface.vertices[next] = surface.vertices[v];
-    number[v] = next++;
-  }
-  const int dropped = static_cast<int>(number.size()) - next;
-  surface.vertices.resize(next);
-  for (Triangle& f : surface.faces) {
-    for (int& v : f) v = number[v];
-  }
-  return dropped;
 }
 
 // Edges with one triangle, and that triangle.

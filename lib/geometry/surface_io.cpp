@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "geometry/drop_unused.h"
 #include "geometry/surface.h"
 #include "io/csv.h"
 #include "io/ply.h"
@@ -52,24 +53,6 @@ std::vector<Vec3> ply_points(const PlyFile& file, const std::string& name) {
     fail_input(name, "the PLY element 'vertex' has no x, y, z", "name the coordinates x, y and z");
   }
   return points;
-}
-
-// Drops vertices that no face uses (the inner nodes of a body, the stray points of a scan).
-void drop_unused(Surface& surface) {
-  std::vector<int> number(surface.vertices.size(), -1);
-  for (const Triangle& f : surface.faces) {
-    for (const int v : f) number[v] = 0;
-  }
-  int next = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] < 0) continue;
-    surface.vertices[next] = surface.vertices[v];
-    number[v] = next++;
-  }
-  surface.vertices.resize(next);
-  for (Triangle& f : surface.faces) {
-    for (int& v : f) v = number[v];
-  }
 }
 
 Surface surface_from_ply(const PlyFile& file, const std::string& name) {
