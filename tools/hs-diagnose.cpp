@@ -195,6 +195,7 @@ int run(const Arguments& arguments) {
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
+  options.draft = true;  // many materials are tried; the one that is added is identified finely
   set_poisson_range(model, options);
   Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), true), options);
   progress.reset();

@@ -298,15 +298,15 @@ int run(const Arguments& arguments) {
     folds = make_folds(w.dataset, static_cast<int>(count));
     FitOptions quick = fit_options;
     quick.exact_regions = false;
-    const Plan refit = [&] {
-      Plan p = plan;
-      // Regions come from the training positions alone, so they are built anew in every fold.
-      if (p.start.has("regions")) {
-        remove_effect(p.start, "regions");
-        p.add.insert(p.add.begin(), "regions");
-      }
-      return p;
-    }();
+    // Each fold starts from the fit on all data; regions come from the training positions alone,
+    // so they are built anew.
+    Plan refit = plan;
+    refit.start = result.model;
+    refit.add.clear();
+    if (refit.start.has("regions")) {
+      remove_effect(refit.start, "regions");
+      refit.add.push_back("regions");
+    }
     held_out =
         held_out_error(
             [&](const Selection& training) { return build(refit, w, training, quick, extend); },

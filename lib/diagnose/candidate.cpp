@@ -5,14 +5,18 @@
 #include <map>
 
 #include "diagnose/offset_test.h"
+#include "diagnose/probability.h"
 #include "effects/catalogue.h"
 #include "model/press_offsets.h"
 
 namespace hapsim {
 namespace {
 
-FitOptions fit_options(const Workspace& w) {
-  return {w.noise.value, w.floor, false};
+FitOptions fit_options(const Workspace& w, int rounds = 5) {
+  FitOptions options{w.noise.value, w.floor, false};
+  options.rounds = rounds;
+  options.settled = 1e-3;
+  return options;
 }
 
 ExtendOptions extend_options(const Workspace& w) {
@@ -108,6 +112,30 @@ bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Ba
   return false;
 }
 
+// Samples per independent one (Sokal, 1989): 1 + 2 x the sum of the autocorrelations up to where
+// they fade, over all presses and components.
+double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& w) {
+  constexpr std::size_t kMost = 400;
+  constexpr double kFaded = 0.05;
+  const double square = residual.squaredNorm();
+  double time = 1;
+  for (std::size_t lag = 1; lag < kMost && square > 0; ++lag) {
+    double product = 0;
+    Eigen::Index at = 0;
+    for (const Episode& e : w.dataset.episodes) {
+      const auto n = static_cast<Eigen::Index>(e.rows.size());
+      const auto shift = static_cast<Eigen::Index>(lag);
+      if (n > shift)
+        product += residual.segment(3 * (at + shift), 3 * (n - shift))
+                       .dot(residual.segment(3 * at, 3 * (n - shift)));
+      at += n;
+    }
+    if (product < kFaded * square) break;
+    time += 2 * product / square;
+  }
+  return time;
+}
+
 // Scores by press of the columns with what the baseline's own parameters can do taken out.
 CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const Workspace& w) {
   if (y.offsets) take_out_press_means(w.dataset, all_episodes(w.dataset), columns);
@@ -139,6 +167,22 @@ Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
   return base;
 }
 
+bool stiffness_departs(const Baseline& base, const Workspace& w) {
+  const Selection all = all_episodes(w.dataset);
+  const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  Eigen::VectorXd residual = measured_forces(w.dataset, all) - f;
+  Weights(w.dataset, all, f, w.noise.value, w.floor).whiten(residual);
+  double gain = 0, freedom = 0;
+  for (const GainBlock& block : gain_directions(w.dataset, all, f)) {
+    // The weights map the span of these directions on itself.
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(block.Z);
+    const Eigen::VectorXd r = qr.householderQ().transpose() * residual(block.rows);
+    gain += r.head(qr.rank()).squaredNorm();
+    freedom += static_cast<double>(qr.rank());
+  }
+  return gain > freedom + 3 * std::sqrt(2 * freedom);
+}
+
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, Workspace& w,
                                     std::string& lack) {
   const EffectCard& card = effect.card();
@@ -155,8 +199,15 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
     lack = "nothing in these presses depends on it; record " + card.separated_by;
     return std::nullopt;
   }
-  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w));
+  // A few rounds about each start; refine() goes on where that is promising.
+  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 3));
   return candidate;
+}
+
+void refine(Candidate& candidate, Workspace& w) {
+  if (candidate.effect->card().solved)
+    candidate.fitted =
+        fit(candidate.fitted.model, w.dataset, all_episodes(w.dataset), *w.body, fit_options(w));
 }
 
 void hold_out(Candidate& candidate, Workspace& w, const Folds& folds) {
@@ -193,6 +244,11 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
           ? static_cast<double>(w.dataset.positions.size()) - 1
           : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
   m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
+  const double independent =
+      static_cast<double>(residual.size()) / autocorrelation_time(residual, w);
+  const double fall = y.residual.squaredNorm() / m.sum_of_squares - 1;
+  if (extra > 0 && independent > 2 * extra)
+    m.p_by_size = fisher_upper(fall * independent / extra, extra, independent);
   if (candidate.effect->card().by_press) {
     const Selection every = all_episodes(w.dataset);
     const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, every, *w.body, false).f;

@@ -38,15 +38,27 @@ struct Measured {
   double penalty = 0;         // extra parameters times log n
   // Fall of the mean squared residual [N^2]; NaN: that of the fit.
   double explained = std::numeric_limits<double>::quiet_NaN();
-  CandidateScores scores;    // empty when the effect has a test of its own
-  double p_value = 1;        // by that test
+  CandidateScores scores;  // empty when the effect has a test of its own
+  double p_value = 1;      // by that test
+  // Chance of so large a fall of the sum of squares by an F test whose samples are as many as the
+  // candidate's own residuals are independent (integrated autocorrelation time): needs no signs of
+  // presses, of which few may carry the effect, but believes the noise.
+  double p_by_size = 1;
   double smallest_seen = 0;  // size of the first parameter that would show
 };
 
 Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
+// Whether the residuals ask for another stiffness at any position, beyond what noise and the meshes
+// are worth: all that layers, inclusions, regions, anisotropy and supports can change. By the part
+// of the whitened residuals that any change of the positions' stiffnesses takes away, against its
+// mean and three standard deviations of a chi-square.
+bool stiffness_departs(const Baseline& baseline, const Workspace& workspace);
+
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
                                     Workspace& workspace, std::string& lack);
+// Fits on where finite elements were solved in a few rounds only.
+void refine(Candidate& candidate, Workspace& workspace);
 // Its error on held-out positions, by true refits.
 void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,

@@ -36,13 +36,18 @@ std::vector<const Effect*> untried(const Model& model) {
 
 struct Round {
   std::vector<Candidate> candidates;
-  std::vector<Finding> findings;  // one a candidate, same order
+  std::vector<Finding> findings;   // one a candidate, same order
+  std::vector<Finding> ruled_out;  // without a fit
   std::vector<Finding> untestable;
 };
 
 double held_out_fall(const Finding& f) {
   return f.held_out_now > 0 ? 1 - f.held_out_after / f.held_out_now : 0;
 }
+
+// From here on an effect's size may speak for it: of the squared misfit, and of the error on unseen
+// positions.
+constexpr double kMostOfIt = 0.5, kPlainFall = 0.1;
 
 // With fewer presses their signs have too few arrangements to tell chance from cause.
 constexpr std::size_t kLeastPresses = 6;
@@ -69,11 +74,26 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
   return p;
 }
 
+// Candidates whose first fit errs by less than this factor over the best one's are worth refining.
+constexpr double kPromising = 1.5;
+
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
+  const bool departs = stiffness_departs(base, w);
   for (const Effect* effect : untried(base.fitted.model)) {
     if (options.progress) options.progress(effect->card().name);
+    if (effect->card().solved && !departs && lacking_for(effect->card(), w.dataset).empty()) {
+      Finding finding;
+      finding.effect = effect->card().name;
+      finding.rmse_now = finding.rmse_after = base.fitted.rmse;
+      finding.held_out_now = finding.held_out_after = base.held_out.rmse;
+      finding.evidence =
+          "no position asks for another stiffness than the model's, beyond noise and mesh";
+      finding.next_measurement = effect->card().separated_by;
+      round.ruled_out.push_back(finding);
+      continue;
+    }
     std::string lack;
     if (auto candidate = try_effect(*effect, base, w, lack)) {
       round.candidates.push_back(std::move(*candidate));
@@ -86,6 +106,10 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     finding.next_measurement = lack;
     round.untestable.push_back(finding);
   }
+  double least = base.fitted.rmse;
+  for (const Candidate& c : round.candidates) least = std::min(least, c.fitted.rmse);
+  for (Candidate& c : round.candidates)
+    if (c.fitted.rmse < kPromising * least) refine(c, w);
   const Yardstick yardstick = make_yardstick(base, round.candidates, w);
   std::vector<Measured> measured;
   for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, w));
@@ -111,6 +135,10 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
       hold_out(c, w, folds);
     f.held_out_now = base.held_out.rmse;
     f.held_out_after = c.held_out.rmse;
+    // Where few presses carry an effect their signs cannot prove it, however large it is.
+    if (f.share >= kMostOfIt && held_out_fall(f) >= kPlainFall)
+      f.p_value = std::min(
+          f.p_value, std::min(1.0, 2 * m.p_by_size * static_cast<double>(round.candidates.size())));
     f.where = describe_where(c, w);
     f.evidence = describe_evidence(c, m, f);
     f.next_measurement = c.effect->card().separated_by;
@@ -272,6 +300,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
     if (settled(a) || settled(b)) return settled(a) && !settled(b);
     return a.criterion_gain > b.criterion_gain;
   });
+  d.findings.insert(d.findings.end(), last.ruled_out.begin(), last.ruled_out.end());
   d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
 
   d.rmse_end = base.fitted.rmse;

@@ -27,6 +27,18 @@ std::vector<std::vector<double>> Effect::starts(const DataSummary&, int terms) c
   return {start};
 }
 
+void add_feature(Feature kind, const Values& values, const EffectCard& card,
+                 MaterialSpec& material) {
+  FeatureSpec spec{{kind, {}}, {}};
+  for (const ParameterCard& p : card.parameters) {
+    const ParameterValue& v = find_value(values, p.name);
+    spec.feature.value.push_back(v.value);
+    spec.column.push_back(v.column);
+  }
+  assert(spec.feature.value.size() == feature_size(kind));
+  material.features.push_back(std::move(spec));
+}
+
 const ParameterValue& find_value(const Values& values, const std::string& name) {
   const auto found = std::find_if(values.begin(), values.end(),
                                   [&](const ParameterValue& v) { return v.name == name; });

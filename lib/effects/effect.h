@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "fem/body_features.h"
 
 namespace hapsim {
 
@@ -45,6 +46,7 @@ struct EffectCard {
   bool needs_return = false;       // not testable unless a recorded press moves out again
   bool needs_repeats = false;      // not testable unless a place is pressed again
   bool by_press = false;  // three offsets of the force a press (numbered), after all other effects
+  bool solved = false;    // finite elements are solved for its parameters (add_feature())
   bool from_locations = false;  // built from each position's own modulus (from_locations())
   std::string signature;        // what its absence looks like in the residuals
   std::vector<std::string> confounders;
@@ -94,7 +96,13 @@ struct Motion {
   void make_du();            // gives du its columns
 };
 
-// What body effects say of the material.
+// A feature of the body as an effect asks for it; columns as its values.
+struct FeatureSpec {
+  BodyFeature feature;
+  std::vector<int> column;
+};
+
+// What body and support effects say of the material.
 struct MaterialSpec {
   double nu = 0.3;
   int nu_column = -1;
@@ -104,6 +112,13 @@ struct MaterialSpec {
   std::vector<int> key_region;
   bool local =
       false;  // a contact feels its own region's modulus alone, as if the whole body had it
+  std::vector<FeatureSpec> features;
+};
+
+// The modulus that one contact position asks for, over the model's.
+struct PlaceGain {
+  Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ();
+  double gain = 1;
 };
 
 // What a data set offers, from which starts are chosen.
@@ -117,6 +132,8 @@ struct DataSummary {
   double peak_stiffness = 1;  // [N/m]
   double temperature = 20;    // to count from [degC]
   double depth = 2e-3;        // deepest displacement [m]
+  double tool_radius = 4e-3;  // [m]
+  std::vector<PlaceGain> places;
 };
 
 // One Maxwell element of a body: its modulus over the elastic one, and its relaxation time [s].
@@ -130,7 +147,7 @@ class Effect {
   virtual ~Effect() = default;
   virtual const EffectCard& card() const = 0;
 
-  // Body effects: fills in what the stiffness solutions need.
+  // Body and support effects: fills in what the stiffness solutions need.
   virtual void describe(const Values& values, MaterialSpec& material) const;
   // Motion effects: changes the displacements that all later effects see.
   virtual void move(const PressView& press, const Values& values, Motion& motion) const;
@@ -144,6 +161,10 @@ class Effect {
   // card's.
   virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;
 };
+
+// For describe(): a feature whose values are the card's parameters in their order.
+void add_feature(Feature kind, const Values& values, const EffectCard& card,
+                 MaterialSpec& material);
 
 // The value of a parameter by name; assert when absent.
 const ParameterValue& find_value(const Values& values, const std::string& name);

@@ -8,6 +8,10 @@ namespace hapsim {
 const Effect& backlash_effect();
 const Effect& elastic_effect();
 const Effect& regions_effect();
+const Effect& layer_effect();
+const Effect& inclusion_effect();
+const Effect& anisotropic_effect();
+const Effect& base_effect();
 const Effect& hyperelastic_effect();
 const Effect& temperature_effect();
 const Effect& softening_effect();

@@ -15,12 +15,14 @@ namespace fs = std::filesystem;
 namespace {
 
 // Begins every entry; a new layout or a new meshing gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '3'};
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '4'};
 
 struct Head {
   char magic[8];
-  std::uint64_t groups, cells;
+  std::uint64_t groups, cells, features;
 };
+
+constexpr std::uint64_t kMostFeatures = 64, kMostValues = 64;
 
 void append(std::string& bytes, const void* data, std::size_t count) {
   bytes.append(static_cast<const char*>(data), count);
@@ -59,7 +61,7 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
   Head head;
   if (!file.read(reinterpret_cast<char*>(&head), sizeof head) ||
       std::memcmp(head.magic, kMagic, sizeof kMagic) != 0 || head.groups > 100000 ||
-      head.cells > 1000000)
+      head.cells > 1000000 || head.features > kMostFeatures)
     return std::nullopt;
   StiffnessSolution s;
   const auto read = [&](void* data, std::size_t count) {
@@ -68,12 +70,20 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
   read(s.K.data(), sizeof s.K);
   read(s.dK_dnu.data(), sizeof s.dK_dnu);
   read(s.coarse_change.data(), sizeof s.coarse_change);
+  read(s.coarse_dK_dnu.data(), sizeof s.coarse_dK_dnu);
   read(s.point.data(), sizeof s.point);
   read(s.normal.data(), sizeof s.normal);
   s.dK_dmodulus.resize(head.groups);
   for (auto& k : s.dK_dmodulus) read(k.data(), sizeof k);
   s.plan_share.resize(head.cells);
   read(s.plan_share.data(), head.cells * sizeof(float));
+  for (std::uint64_t f = 0; f < head.features; ++f) {
+    std::uint64_t values = 0;
+    read(&values, sizeof values);
+    if (!file || values > kMostValues) return std::nullopt;
+    s.dK_dfeature.emplace_back(values);
+    for (auto& k : s.dK_dfeature.back()) read(k.data(), sizeof k);
+  }
   if (!file) return std::nullopt;
   return s;
 }
@@ -81,16 +91,22 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
 void ContactCache::store(const std::string& key, const StiffnessSolution& s) const {
   if (directory_.empty()) return;
   std::string bytes;
-  Head head{{}, s.dK_dmodulus.size(), s.plan_share.size()};
+  Head head{{}, s.dK_dmodulus.size(), s.plan_share.size(), s.dK_dfeature.size()};
   std::memcpy(head.magic, kMagic, sizeof kMagic);
   append(bytes, &head, sizeof head);
   append(bytes, s.K.data(), sizeof s.K);
   append(bytes, s.dK_dnu.data(), sizeof s.dK_dnu);
   append(bytes, s.coarse_change.data(), sizeof s.coarse_change);
+  append(bytes, s.coarse_dK_dnu.data(), sizeof s.coarse_dK_dnu);
   append(bytes, s.point.data(), sizeof s.point);
   append(bytes, s.normal.data(), sizeof s.normal);
   for (const auto& k : s.dK_dmodulus) append(bytes, k.data(), sizeof k);
   append(bytes, s.plan_share.data(), s.plan_share.size() * sizeof(float));
+  for (const auto& feature : s.dK_dfeature) {
+    const std::uint64_t values = feature.size();
+    append(bytes, &values, sizeof values);
+    for (const auto& k : feature) append(bytes, k.data(), sizeof k);
+  }
   try {
     Output file((fs::path(directory_) / (key + ".contact")).string());
     file.write(bytes);

@@ -19,6 +19,8 @@ double coordinate_slope(double nu) {
   return -2.0 / 3 / std::pow(coordinate(nu), 2);
 }
 
+constexpr std::size_t kMostSystems = 24;  // matrices kept from one material to the next
+
 }  // namespace
 
 void UnitStiffness::add(double nu, const Eigen::Matrix3d& K, const Eigen::Matrix3d& dK_dnu) {
@@ -72,18 +74,38 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
   base_hash_.add(options.rim_edge);
   base_hash_.add(kGrowth);
   base_hash_.add(kCoarser);
+  free_surface_ = free_surface(base_);
+}
+
+std::shared_ptr<ContactBodies> ContactLibrary::bodies_at(const Vec3& p, bool keep) const {
+  constexpr std::size_t kMost = 256;  // of about a megabyte each
+  const auto fresh = [&] {
+    return std::make_shared<ContactBodies>(base_, p, radius_, options_.rim_edge, free_surface_);
+  };
+  if (!keep) return fresh();
+  const std::lock_guard lock(kept_mutex_);
+  std::shared_ptr<ContactBodies>& bodies = kept_[{p.x(), p.y(), p.z()}];
+  if (!bodies) bodies = fresh();
+  const auto result = bodies;
+  if (kept_.size() > kMost) kept_.erase(kept_.begin());
+  return result;
 }
 
 ContentHash ContactLibrary::key_of(const Material& material, const std::string& description) const {
   ContentHash hash = base_hash_;
   hash.add(material.nu);
   for (const double modulus : material.modulus) hash.add(modulus);
+  for (const BodyFeature& feature : material.features) {
+    hash.add(static_cast<double>(feature.kind));
+    for (const double value : feature.value) hash.add(value);
+  }
   hash.add(description);
   return hash;
 }
 
 std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>& positions,
-                                                         const std::vector<Task>& tasks) const {
+                                                         const std::vector<Task>& tasks,
+                                                         bool keep) const {
   const std::size_t m = tasks.size();
   std::vector<StiffnessSolution> results(positions.size() * m);
   std::atomic<std::size_t> next{0};
@@ -92,7 +114,7 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
   const auto work = [&] {
     for (std::size_t p = next++; p < positions.size(); p = next++) {
       try {
-        std::unique_ptr<ContactBodies> bodies;
+        std::shared_ptr<ContactBodies> bodies;
         for (std::size_t k = 0; k < m; ++k) {
           ContentHash hash = tasks[k].key;
           hash.add(positions[p].data(), sizeof(double) * 3);
@@ -100,9 +122,7 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
             results[p * m + k] = *found;
             continue;
           }
-          if (!bodies)
-            bodies =
-                std::make_unique<ContactBodies>(base_, positions[p], radius_, options_.rim_edge);
+          if (!bodies) bodies = bodies_at(positions[p], keep);
           results[p * m + k] = tasks[k].solve(*bodies, p);
           cache_.store(hash.hex(), results[p * m + k]);
         }
@@ -143,12 +163,13 @@ std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& po
            return bodies.solve(material, grid_);
          }});
   }
-  const auto solutions = solve_all(positions, tasks);
+  const auto solutions = solve_all(positions, tasks, false);
   std::vector<PreparedContact> prepared(positions.size());
   for (std::size_t p = 0; p < positions.size(); ++p) {
     for (std::size_t k = 0; k < nus.size(); ++k) {
       const StiffnessSolution& s = solutions[p * nus.size() + k];
       prepared[p].stiffness.add(nus[k], s.K, s.dK_dnu);
+      prepared[p].coarse.add(nus[k], s.K + s.coarse_change, s.coarse_dK_dnu);
       prepared[p].mesh_uncertainty = std::max(prepared[p].mesh_uncertainty, mesh_uncertainty(s));
     }
     const StiffnessSolution& middle = solutions[p * nus.size() + nus.size() / 2];
@@ -164,11 +185,20 @@ std::vector<StiffnessSolution> ContactLibrary::solve(const std::vector<Vec3>& po
                                                      const Material& material,
                                                      const std::string& description) const {
   const auto solver = [&](ContactBodies& bodies, std::size_t p) {
-    Eigen::Matrix3d unit, unit_by_nu;
-    contacts[p].stiffness.evaluate(material.nu, unit, unit_by_nu);
-    return bodies.solve_corrected(material, grid_, unit, unit_by_nu);
+    StiffnessSolution solution;
+    if (options_.draft) {
+      UnitPair fine, coarse;
+      contacts[p].stiffness.evaluate(material.nu, fine.K, fine.by_nu);
+      contacts[p].coarse.evaluate(material.nu, coarse.K, coarse.by_nu);
+      solution = bodies.solve_corrected(material, fine, coarse);
+    } else {
+      solution = bodies.solve_featured(material);
+    }
+    if (positions.size() > kMostSystems) bodies.forget_systems();
+    return solution;
   };
-  return solve_all(positions, {{key_of(material, "corrected " + description), solver}});
+  const std::string kind = options_.draft ? "corrected " : "featured ";
+  return solve_all(positions, {{key_of(material, kind + description), solver}}, true);
 }
 
 }  // namespace hapsim

@@ -1,7 +1,11 @@
 // The stiffness of a body at all its contact positions, prepared in parallel and cached.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -30,6 +34,7 @@ class UnitStiffness {
 struct PreparedContact {
   Vec3 point, normal;  // on the surface; outward unit normal
   UnitStiffness stiffness;
+  UnitStiffness coarse;           // of the coarser mesh
   double mesh_uncertainty = 0;    // relative, of the normal stiffness
   std::vector<float> plan_share;  // share of the strain energy by plan-view cell
 };
@@ -38,6 +43,7 @@ struct ContactLibraryOptions {
   int threads = 0;             // 0: as many as the machine has
   std::string cache;           // directory, "" for none
   double rim_edge = kRimEdge;  // edge length at the tool's rim over its radius
+  bool draft = false;          // materials that are not homogeneous on the coarser mesh
   std::function<void()> step;  // called once a position is ready (from any thread)
 };
 
@@ -49,9 +55,9 @@ class ContactLibrary {
   // Error(kBadInput) names the position that is off the surface or cannot be meshed.
   std::vector<PreparedContact> prepare(const std::vector<Vec3>& positions, double nu_low,
                                        double nu_high) const;
-  // One solution a position for an inhomogeneous material, corrected to the homogeneous stiffnesses
-  // of `contacts` (of the same positions). `description` must determine `material.group_of` (it
-  // names the cache entry).
+  // One solution a position for an inhomogeneous material or one with features; a draft is
+  // corrected to the homogeneous stiffnesses of `contacts` (of the same positions). `description`
+  // must determine `material.group_of` (it names the cache entry).
   std::vector<StiffnessSolution> solve(const std::vector<Vec3>& positions,
                                        const std::vector<PreparedContact>& contacts,
                                        const Material& material,
@@ -65,10 +71,12 @@ class ContactLibrary {
     ContentHash key;  // beyond the position's
     Solver solve;
   };
-  // All tasks at all positions, in parallel; [position * tasks + task].
+  // All tasks at all positions, in parallel; [position * tasks + task]. `keep`: the meshes stay for
+  // later materials.
   std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
-                                           const std::vector<Task>& tasks) const;
+                                           const std::vector<Task>& tasks, bool keep) const;
   ContentHash key_of(const Material& material, const std::string& description) const;
+  std::shared_ptr<ContactBodies> bodies_at(const Vec3& position, bool keep) const;
 
   ContactBase base_;
   PlanGrid grid_;
@@ -76,6 +84,10 @@ class ContactLibrary {
   ContactLibraryOptions options_;
   ContactCache cache_;
   ContentHash base_hash_;
+  std::shared_ptr<const SurfaceTree> free_surface_;
+  // Meshes of positions are kept for the next material, up to a number.
+  mutable std::mutex kept_mutex_;
+  mutable std::map<std::array<double, 3>, std::shared_ptr<ContactBodies>> kept_;
 };
 
 }  // namespace hapsim

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/elastic_body.h"
+#include "fem/featured_body.h"
 
 namespace hapsim {
 
@@ -39,21 +40,37 @@ constexpr Dilatation kDilatation = Dilatation::kElement;  // soft tissue is near
 
 struct ContactBodies::Level {
   ContactMesh contact;
-  std::unique_ptr<ElasticBody> body;
+  std::unique_ptr<ElasticBody> homogeneous;  // made when first asked for
 
   Level(const ContactBase& base, const Vec3& point, double radius, double rim_edge, double growth)
-      : contact(make_contact_mesh(base, point, radius, rim_edge, growth)) {
+      : contact(make_contact_mesh(base, point, radius, rim_edge, growth)) {}
+
+  ElasticBody& body() {
+    if (homogeneous) return *homogeneous;
     std::vector<int> handle(contact.mesh.nodes.size(), kFreeNode);
     for (std::size_t n = 0; n < handle.size(); ++n)
       if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
     for (const int n : contact.patch_nodes) handle[n] = 0;
-    body = std::make_unique<ElasticBody>(contact.mesh, handle, kDilatation);
+    homogeneous = std::make_unique<ElasticBody>(contact.mesh, handle, kDilatation);
+    return *homogeneous;
   }
 };
 
+std::shared_ptr<const SurfaceTree> free_surface(const ContactBase& base) {
+  Surface surface;
+  surface.vertices = base.surface.vertices;
+  for (std::size_t f = 0; f < base.surface.faces.size(); ++f)
+    if (!base.fixed_face[f]) surface.faces.push_back(base.surface.faces[f]);
+  return std::make_shared<const SurfaceTree>(std::move(surface));
+}
+
 ContactBodies::ContactBodies(const ContactBase& base, const Vec3& contact, double radius,
-                             double rim_edge)
-    : base_(base), contact_(contact), radius_(radius), rim_edge_(rim_edge) {}
+                             double rim_edge, std::shared_ptr<const SurfaceTree> surface)
+    : base_(base),
+      contact_(contact),
+      radius_(radius),
+      rim_edge_(rim_edge),
+      surface_(std::move(surface)) {}
 
 ContactBodies::~ContactBodies() = default;
 
@@ -116,14 +133,15 @@ LevelSolution solve_level(const TetMesh& mesh, ElasticBody& body, const Vec3& no
 
 StiffnessSolution ContactBodies::solve(const Material& material, const PlanGrid& grid) {
   const ContactMesh& fine = level(0).contact;
-  const LevelSolution f = solve_level(fine.mesh, *level(0).body, fine.normal, material, grid);
+  const LevelSolution f = solve_level(fine.mesh, level(0).body(), fine.normal, material, grid);
   const LevelSolution c =
-      solve_level(level(1).contact.mesh, *level(1).body, fine.normal, material, grid);
+      solve_level(level(1).contact.mesh, level(1).body(), fine.normal, material, grid);
   StiffnessSolution solution;
   solution.K = f.K;
   solution.dK_dnu = f.dK_dnu;
   solution.dK_dmodulus = f.by_group;
   solution.coarse_change = c.K - f.K;
+  solution.coarse_dK_dnu = c.dK_dnu;
   solution.point = fine.point;
   solution.normal = fine.normal;
   solution.plan_share = f.share;
@@ -138,16 +156,36 @@ double mesh_uncertainty(const StiffnessSolution& s) {
          kShare * std::abs(s.normal.dot(s.coarse_change * s.normal)) / s.normal.dot(s.K * s.normal);
 }
 
-StiffnessSolution ContactBodies::solve_corrected(const Material& material, const PlanGrid& grid,
-                                                 const Eigen::Matrix3d& unit,
-                                                 const Eigen::Matrix3d& unit_by_nu) {
-  Level& coarse = level(1);
-  const Vec3& normal = coarse.contact.normal;
-  const LevelSolution h =
-      solve_level(coarse.contact.mesh, *coarse.body, normal, {material.nu, {1.0}, nullptr}, grid);
-  const LevelSolution m = solve_level(coarse.contact.mesh, *coarse.body, normal, material, grid);
+FeaturedBody& ContactBodies::featured(int k) {
+  if (!surface_) surface_ = free_surface(base_);
+  if (!featured_[k]) featured_[k] = std::make_unique<FeaturedBody>(level(k).contact, surface_);
+  return *featured_[k];
+}
+
+void ContactBodies::forget_systems() {
+  for (const auto& body : featured_)
+    if (body) body->forget_system();
+}
+
+StiffnessSolution ContactBodies::solve_featured(const Material& material) {
+  const FeaturedBody::Solution m = featured(0).solve(material);
+  StiffnessSolution solution;
+  solution.K = m.K;
+  solution.dK_dnu = solution.coarse_dK_dnu = m.by_nu;
+  solution.dK_dmodulus = m.by_modulus;
+  solution.dK_dfeature = m.by_feature;
+  solution.coarse_change.setZero();
+  solution.point = level(0).contact.point;
+  solution.normal = level(0).contact.normal;
+  return solution;
+}
+
+StiffnessSolution ContactBodies::solve_corrected(const Material& material, const UnitPair& fine,
+                                                 const UnitPair& coarse) {
+  const FeaturedBody::Solution m = featured(1).solve(material);
+  const ContactMesh& contact = level(1).contact;
   // S = L L_c^-1 from the Cholesky factors of both homogeneous stiffnesses, so S K_c S' = K.
-  const Eigen::Matrix3d L = unit.llt().matrixL(), L_c = h.K.llt().matrixL();
+  const Eigen::Matrix3d L = fine.K.llt().matrixL(), L_c = coarse.K.llt().matrixL();
   const Eigen::Matrix3d S = L * L_c.inverse();
   const auto corrected = [&](const Eigen::Matrix3d& k) {
     return Eigen::Matrix3d(S * k * S.transpose());
@@ -155,13 +193,17 @@ StiffnessSolution ContactBodies::solve_corrected(const Material& material, const
   StiffnessSolution solution;
   solution.K = corrected(m.K);
   // S changes with nu as well, by what the homogeneous body shows.
-  solution.dK_dnu =
-      corrected(m.dK_dnu) + solution.K.trace() / unit.trace() * (unit_by_nu - corrected(h.dK_dnu));
-  for (const Eigen::Matrix3d& k : m.by_group) solution.dK_dmodulus.push_back(corrected(k));
+  solution.dK_dnu = corrected(m.by_nu) +
+                    solution.K.trace() / fine.K.trace() * (fine.by_nu - corrected(coarse.by_nu));
+  for (const Eigen::Matrix3d& k : m.by_modulus) solution.dK_dmodulus.push_back(corrected(k));
+  for (const auto& feature : m.by_feature) {
+    solution.dK_dfeature.emplace_back();
+    for (const Eigen::Matrix3d& k : feature) solution.dK_dfeature.back().push_back(corrected(k));
+  }
   solution.coarse_change = m.K - solution.K;
-  solution.point = coarse.contact.point;
-  solution.normal = normal;
-  solution.plan_share = m.share;
+  solution.coarse_dK_dnu = m.by_nu;
+  solution.point = contact.point;
+  solution.normal = contact.normal;
   return solution;
 }
 

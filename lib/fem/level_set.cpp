@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "base/error.h"
-#include "geometry/surface_tree.h"
 
 namespace hapsim {
 namespace {
@@ -100,8 +98,11 @@ LevelSet polyhedron_level(const Surface& closed) {
 }
 
 LevelSet layer_level(const Surface& surface, double thickness) {
-  const auto tree = std::make_shared<const SurfaceTree>(surface);
-  return [tree, thickness](const Vec3& p) {
+  return layer_level(std::make_shared<const SurfaceTree>(surface), thickness);
+}
+
+LevelSet layer_level(std::shared_ptr<const SurfaceTree> tree, double thickness) {
+  return [tree = std::move(tree), thickness](const Vec3& p) {
     const double level = tree->nearest(p).distance - thickness;
     return LevelValue{level, Eigen::VectorXd::Constant(1, -1.0), std::abs(level)};
   };

@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "geometry/surface.h"
+#include "geometry/surface_tree.h"
 
 namespace hapsim {
 
@@ -35,6 +37,7 @@ LevelSet polygon_level(const std::vector<Vec3>& polygon);
 LevelSet polyhedron_level(const Surface& closed);
 // Nearer to the surface than `thickness` [m]: a skin. One parameter: the thickness.
 LevelSet layer_level(const Surface& surface, double thickness);
+LevelSet layer_level(std::shared_ptr<const SurfaceTree> surface, double thickness);
 // Inside an ellipsoid whose semi-axes [m] lie along x, y, z: (q - 1) / |grad q|, to first order the
 // distance. Parameters: centre x, y, z, semi-axes a, b, c. Error(kBadInput): a semi-axis not
 // positive.

@@ -1,5 +1,6 @@
 #include "model/body_stiffness.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +9,7 @@
 namespace hapsim {
 namespace {
 
+// What must be the same for one solution to be extrapolated to another material.
 std::string layout(const MaterialSpec& material) {
   ContentHash hash;
   for (std::size_t k = 0; k < material.key_point.size(); ++k) {
@@ -15,11 +17,81 @@ std::string layout(const MaterialSpec& material) {
     hash.add(material.key_point[k].y());
     hash.add(material.key_region[k]);
   }
+  for (const FeatureSpec& f : material.features) hash.add(static_cast<double>(f.feature.kind));
   return hash.hex();
 }
 
-bool homogeneous(const MaterialSpec& material) {
-  return material.key_point.empty() || material.modulus.size() == 1;
+bool has_regions(const MaterialSpec& material) {
+  return !material.key_point.empty() && material.modulus.size() > 1 && !material.local;
+}
+
+// But for a common factor of the moduli, which needs no solution.
+bool same(const MaterialSpec& a, const MaterialSpec& b) {
+  bool equal = a.nu == b.nu && a.modulus.size() == b.modulus.size();
+  for (std::size_t g = 0; equal && g < a.modulus.size(); ++g)
+    equal = a.modulus[g] * b.modulus[0] == b.modulus[g] * a.modulus[0];
+  for (std::size_t f = 0; f < a.features.size(); ++f)
+    equal = equal && a.features[f].feature.value == b.features[f].feature.value;
+  return equal;
+}
+
+void add_column(PositionStiffness& s, int column, const Eigen::Matrix3d& dK) {
+  if (column >= 0) s.by_column.emplace_back(column, dK);
+}
+
+// How a stiffness follows Poisson's ratio as the homogeneous body does: K -> A K A', A = L(nu)
+// L(reference)^-1 with L the Cholesky factor of the homogeneous stiffness; A is 1 at the reference.
+struct PoissonMap {
+  Eigen::Matrix3d A, A_by_nu;
+  PoissonMap(const UnitStiffness& homogeneous, double reference, double nu) {
+    Eigen::Matrix3d K, by_nu;
+    homogeneous.evaluate(reference, K, by_nu);
+    const Eigen::Matrix3d L_ref = K.llt().matrixL();
+    homogeneous.evaluate(nu, K, by_nu);
+    const Eigen::Matrix3d L = K.llt().matrixL(), inverse = L.inverse();
+    // Derivative of a Cholesky factor: L' = L P, P the lower half of L^-1 K' L^-T.
+    Eigen::Matrix3d P = inverse * by_nu * inverse.transpose();
+    P.diagonal() /= 2;
+    P = P.triangularView<Eigen::Lower>().toDenseMatrix().eval();
+    A = L * L_ref.inverse();
+    A_by_nu = L * P * L_ref.inverse();
+  }
+  Eigen::Matrix3d operator()(const Eigen::Matrix3d& K) const { return A * K * A.transpose(); }
+  Eigen::Matrix3d by_nu(const Eigen::Matrix3d& K) const {
+    const Eigen::Matrix3d half = A_by_nu * K * A.transpose();
+    return half + half.transpose();
+  }
+};
+
+// About the reference: linear in the features' values and in the ratios of the moduli, exact in a
+// common factor of the moduli; Poisson's ratio acts as on the homogeneous body, put right to first
+// order.
+PositionStiffness extrapolated(const StiffnessSolution& s, const UnitStiffness& homogeneous,
+                               const MaterialSpec& reference, const MaterialSpec& material) {
+  const double scale = material.modulus[0] / reference.modulus[0];
+  const PoissonMap map(homogeneous, reference.nu, material.nu);
+  const PoissonMap there(homogeneous, reference.nu, reference.nu);
+  const Eigen::Matrix3d left = s.dK_dnu - there.by_nu(s.K);  // what the map lacks
+  const double step = material.nu - reference.nu;
+  Eigen::Matrix3d features = Eigen::Matrix3d::Zero();
+  for (std::size_t f = 0; f < material.features.size(); ++f)
+    for (std::size_t v = 0; v < s.dK_dfeature[f].size(); ++v)
+      features += (material.features[f].feature.value[v] - reference.features[f].feature.value[v]) *
+                  s.dK_dfeature[f][v];
+  Eigen::Matrix3d K = scale * features;
+  PositionStiffness result;
+  for (std::size_t g = 0; g < material.modulus.size(); ++g) {
+    K += material.modulus[g] * s.dK_dmodulus[g];
+    Eigen::Matrix3d by_modulus = map(s.dK_dmodulus[g]);
+    if (g == 0) by_modulus += (map(features) + step * left) / reference.modulus[0];
+    add_column(result, material.modulus_column[g], by_modulus);
+  }
+  result.K = map(K) + scale * step * left;
+  add_column(result, material.nu_column, map.by_nu(K) + scale * left);
+  for (std::size_t f = 0; f < material.features.size(); ++f)
+    for (std::size_t v = 0; v < s.dK_dfeature[f].size(); ++v)
+      add_column(result, material.features[f].column[v], scale * map(s.dK_dfeature[f][v]));
+  return result;
 }
 
 }  // namespace
@@ -30,20 +102,39 @@ BodyStiffness::BodyStiffness(const ContactLibrary& library, const std::vector<Ve
       positions_(positions),
       contacts_(library.prepare(positions, nu_low, nu_high)) {}
 
+BodyStiffness::ReferencePointer BodyStiffness::reference_for(const MaterialSpec& material) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = references_.find(layout(material));
+  if (found == references_.end()) return nullptr;
+  for (const ReferencePointer& r : found->second)
+    if (same(r->material, material)) return r;
+  return found->second.back();
+}
+
 PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& material) const {
-  PositionStiffness result;
   const std::size_t regions = material.modulus.size();
-  result.dK_dmodulus.assign(regions, Eigen::Matrix3d::Zero());
-  if (!homogeneous(material) && !material.local && layout(material) == solved_layout_) {
-    const StiffnessSolution& s = solutions_[position];
-    result.dK_dnu = s.dK_dnu;
-    result.K = (material.nu - solved_.nu) * s.dK_dnu;
-    for (std::size_t g = 0; g < regions; ++g) {
-      result.dK_dmodulus[g] = s.dK_dmodulus[g];
-      result.K += material.modulus[g] * s.dK_dmodulus[g];
-    }
-    return result;
+  if (material.local && !material.features.empty()) {
+    // The contact's own modulus, as if all of the body had it.
+    const auto region = static_cast<std::size_t>(region_at(material, positions_[position]));
+    MaterialSpec own = material;
+    own.local = false;
+    own.key_point.clear();
+    own.key_region.clear();
+    own.modulus = {material.modulus[region]};
+    own.modulus_column = {material.modulus_column[region]};
+    return at(position, own);
   }
+  if (has_regions(material) || !material.features.empty()) {
+    ReferencePointer reference = reference_for(material);
+    if (!reference && !material.features.empty()) {
+      solve(material);
+      reference = reference_for(material);
+    }
+    if (reference)
+      return extrapolated(reference->solutions[position], contacts_[position].stiffness,
+                          reference->material, material);
+  }
+  PositionStiffness result;
   Eigen::Matrix3d unit, by_nu;
   contacts_[position].stiffness.evaluate(material.nu, unit, by_nu);
   double modulus = material.modulus[0];
@@ -54,7 +145,7 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
     share[0] = 0;
     share[region] = 1;
     modulus = material.modulus[region];
-  } else if (!homogeneous(material)) {
+  } else if (has_regions(material)) {
     share = shares(material)[position];
     double log_modulus = 0;
     for (std::size_t g = 0; g < regions; ++g)
@@ -62,21 +153,33 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
     modulus = std::exp(log_modulus);
   }
   result.K = modulus * unit;
-  result.dK_dnu = modulus * by_nu;
+  add_column(result, material.nu_column, modulus * by_nu);
   for (std::size_t g = 0; g < regions; ++g)
-    result.dK_dmodulus[g] = share[g] / material.modulus[g] * result.K;
+    add_column(result, material.modulus_column[g], share[g] / material.modulus[g] * result.K);
   return result;
 }
 
-void BodyStiffness::solve(const MaterialSpec& material) {
-  if (homogeneous(material) || material.local) return;
+void BodyStiffness::solve(const MaterialSpec& material) const {
+  if (!has_regions(material) && material.features.empty()) return;
+  if (const ReferencePointer known = reference_for(material);
+      known && same(known->material, material)) {
+    const std::lock_guard lock(mutex_);
+    references_[layout(material)].push_back(known);
+    return;
+  }
   Material m;
   m.nu = material.nu;
-  m.modulus = material.modulus;
-  m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
-  solutions_ = library_.solve(positions_, contacts_, m, layout(material));
-  solved_ = material;
-  solved_layout_ = layout(material);
+  m.modulus.clear();
+  for (const double modulus : material.modulus) m.modulus.push_back(modulus / material.modulus[0]);
+  if (has_regions(material))
+    m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
+  for (const FeatureSpec& f : material.features) m.features.push_back(f.feature);
+  auto reference = std::make_shared<Reference>();
+  reference->material = material;
+  reference->material.modulus = m.modulus;
+  reference->solutions = library_.solve(positions_, contacts_, m, layout(material));
+  const std::lock_guard lock(mutex_);
+  references_[layout(material)].push_back(std::move(reference));
 }
 
 const BodyStiffness::Shares& BodyStiffness::shares(const MaterialSpec& material) const {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "effects/effect.h"
@@ -11,10 +13,11 @@
 
 namespace hapsim {
 
+// K [N/m]; the body's force on the tool is -K u. The derivative by each free parameter of the
+// material, by its column.
 struct PositionStiffness {
-  Eigen::Matrix3d K;                         // [N/m]; the body's force on the tool is -K u
-  Eigen::Matrix3d dK_dnu;                    // [N/m]
-  std::vector<Eigen::Matrix3d> dK_dmodulus;  // [m], one a region
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
+  std::vector<std::pair<int, Eigen::Matrix3d>> by_column;
 };
 
 class BodyStiffness {
@@ -23,13 +26,15 @@ class BodyStiffness {
   BodyStiffness(const ContactLibrary& library, const std::vector<Vec3>& positions, double nu_low,
                 double nu_high);
 
-  // A homogeneous material is exact. With regions: linear about the last solve() with the same key
-  // points; without one, the homogeneous stiffness times the geometric mean of the moduli, weighted
-  // by each region's share of the strain energy (first order in the contrast).
+  // A homogeneous material is exact. Any other is linear about the last solve() of a material of
+  // the same layout (key points and kinds of features), exact at each material that was solved.
+  // Regions without a solution: the homogeneous stiffness times the geometric mean of the moduli,
+  // weighted by each region's share of the strain energy (first order in the contrast). Features
+  // without one are solved here.
   PositionStiffness at(std::size_t position, const MaterialSpec& material) const;
 
-  // Finite-element solutions for an inhomogeneous material; nothing to do for a homogeneous one.
-  void solve(const MaterialSpec& material);
+  // Finite-element solutions for a material that is not homogeneous; nothing to do for one that is.
+  void solve(const MaterialSpec& material) const;
 
   const std::vector<PreparedContact>& contacts() const { return contacts_; }
   std::vector<Vec3> normals() const;
@@ -42,10 +47,15 @@ class BodyStiffness {
   const ContactLibrary& library_;
   std::vector<Vec3> positions_;
   std::vector<PreparedContact> contacts_;
-  std::string solved_layout_;  // of the key points that the solutions belong to
-  MaterialSpec solved_;
-  std::vector<StiffnessSolution> solutions_;
+  // What was solved for one layout; the last one is extrapolated from.
+  struct Reference {
+    MaterialSpec material;
+    std::vector<StiffnessSolution> solutions;  // by position
+  };
+  using ReferencePointer = std::shared_ptr<const Reference>;
+  ReferencePointer reference_for(const MaterialSpec& material) const;
   mutable std::mutex mutex_;
+  mutable std::map<std::string, std::vector<ReferencePointer>> references_;
   mutable std::map<std::string, Shares> shares_;
 };
 

@@ -111,6 +111,7 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   DataSummary summary;
   summary.has_time = !dataset.recording.t.empty();
   summary.modulus = modulus;
+  summary.tool_radius = dataset.recording.tool_radius();
   summary.peak_force = 1e-12;
   const std::vector<double>& temp = dataset.recording.temp;
   if (!temp.empty())

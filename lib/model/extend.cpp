@@ -154,7 +154,11 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
     terms = present / static_cast<int>(card.parameters.size()) + 1;
     std::erase_if(base.parameters, [&](const Parameter& p) { return p.effect == name; });
   }
-  const DataSummary summary = summarise(dataset, fitted.find("elastic", 0, "E")->value);
+  DataSummary summary = summarise(dataset, fitted.find("elastic", 0, "E")->value);
+  if (card.solved && card.needs_positions)
+    for (const LocationSample& s :
+         location_samples(fitted, dataset, selection, body, options.noise, options.floor))
+      summary.places.push_back({s.point, body.contacts()[s.position].normal, s.gain});
   std::vector<Model> starts;
   for (const std::vector<double>& values : effect.starts(summary, terms)) {
     Model model = base;

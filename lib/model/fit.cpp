@@ -12,6 +12,7 @@
 #include "estimate/least_squares.h"
 #include "estimate/multi_start.h"
 #include "estimate/profile.h"
+#include "model/move_limits.h"
 #include "model/press_offsets.h"
 
 namespace hapsim {
@@ -43,14 +44,6 @@ double component_rms(const Eigen::VectorXd& r) {
 
 std::string label(const Parameter& p) {
   return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
-}
-
-// The largest change of log modulus and of nu between two materials.
-double change(const MaterialSpec& a, const MaterialSpec& b) {
-  double largest = std::abs(a.nu - b.nu);
-  for (std::size_t g = 0; g < a.modulus.size(); ++g)
-    largest = std::max(largest, std::abs(std::log(a.modulus[g] / b.modulus[g])));
-  return largest;
 }
 
 // The parameters held at a bound are no part of it.
@@ -98,7 +91,7 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   const MaterialSpec asked = material_of(start);
   const bool offsets = offset_effect(start) != nullptr;
   if (offsets) set_offsets(result.model, dataset, {}, {}, 0);
-  const bool inhomogeneous = asked.modulus.size() > 1 && !asked.local && options.exact_regions;
+  const bool linearised = is_linearised(asked, options.exact_regions);
   Model trial = result.model;
   const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                          Eigen::MatrixXd* J) {
@@ -111,7 +104,7 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
     if (J != nullptr) take_out_press_means(dataset, selection, *J);
   };
   bool from_many = options.starts > 1;  // once: later rounds improve on the valley found
-  const auto minimise_again = [&] {
+  const auto minimise_within = [&](double reach) {
     trial = result.model;
     if (from_many) {
       Random random(options.seed);
@@ -122,24 +115,60 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
       set_values(result.model, solution.x);
       from_many = false;
     }
+    std::vector<Unknown> open = unknowns(result.model);
+    if (linearised) open = within_reach(std::move(open), result.model, reach);
     if (options.robust != RobustLoss::kNone) {
-      RobustResult robust = minimise_robustly(unknowns(result.model), residuals, options.robust);
+      RobustResult robust = minimise_robustly(open, residuals, options.robust);
       solution = std::move(robust.fit);
       result.discounted = robust.discounted;
     } else {
-      solution = minimise(unknowns(result.model), residuals);
+      solution = minimise(open, residuals);
     }
     set_values(result.model, solution.x);
   };
-  // With regions the finite elements are solved again about the fitted moduli until these stay:
-  // between solutions the stiffness is linear in the moduli, right to the square of their change.
-  for (int round = 0; round < 6; ++round) {
-    const MaterialSpec before = material_of(result.model);
-    if (inhomogeneous) body.solve(before);
-    minimise_again();
-    if (!inhomogeneous || change(before, material_of(result.model)) < 0.02) break;
+  if (!linearised || options.rounds == 0) {
+    minimise_within(1);
+  } else {
+    // The finite elements are solved again about each fit; a fit that their solution does not
+    // confirm is taken back and tried again closer by (a trust region).
+    const auto true_sum = [&] {
+      body.solve(material_of(result.model));
+      trial = result.model;
+      Eigen::VectorXd x, r;
+      x.resize(static_cast<Eigen::Index>(result.model.free_parameters().size()));
+      for (Eigen::Index c = 0; c < x.size(); ++c)
+        x[c] = result.model.parameters[result.model.free_parameters()[c]].value;
+      residuals(x, r, nullptr);
+      return r.squaredNorm();
+    };
+    double sum = true_sum(), reach = 1;
+    bool settled = false;
+    for (int round = 0; round < options.rounds && !settled; ++round) {
+      const Model before = result.model;
+      minimise_within(reach);
+      const double promised = sum - solution.sum_of_squares;
+      const double now = true_sum();
+      const double least = options.settled * sum;
+      settled = promised < least || (now <= sum && sum - now < least);
+      if (now <= sum) {
+        sum = now;
+        continue;
+      }
+      result.model = before;
+      body.solve(material_of(before));
+      reach /= 4;
+    }
+    // Bounds and covariance without the limits of the steps.
+    trial = result.model;
+    LeastSquaresOptions once;
+    once.max_iterations = 1;
+    const bool converged = solution.converged && settled;
+    const std::string message = solution.message;
+    solution = minimise(unknowns(result.model), residuals, once);
+    solution.converged = converged || options.rounds < kFullRounds;
+    solution.message = converged ? message : "the body does not settle";
+    solution.sum_of_squares = sum;
   }
-  if (inhomogeneous) body.solve(material_of(result.model));
 
   Signal signal = model_forces(result.model, dataset, selection, body, true);
   Eigen::VectorXd residual = measured - signal.f;
@@ -186,13 +215,22 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
 
 FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
                    const Selection& selection, BodyStiffness& body, const FitOptions& options) {
+  // Where each fit costs finite-element solutions, a short one chooses the start.
+  FitOptions each = options;
+  const bool choose = starts.size() > 1 && is_linearised(material_of(starts[0]), false);
+  if (choose) {
+    each.rounds = std::min(each.rounds, 3);
+    each.settled = std::max(each.settled, 0.02);
+  }
   FitResult best;
   for (std::size_t s = 0; s < starts.size(); ++s) {
-    FitResult result = fit(starts[s], dataset, selection, body, options);
+    FitResult result = fit(starts[s], dataset, selection, body, each);
     const bool better = s == 0 || (result.converged && !best.converged) ||
                         (result.converged == best.converged && result.rmse < best.rmse);
     if (better) best = std::move(result);
   }
+  if (choose && options.rounds > each.rounds)
+    return fit(best.model, dataset, selection, body, options);
   return best;
 }
 
@@ -220,12 +258,14 @@ Folds make_folds(const Dataset& dataset, int count) {
 HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
                        BodyStiffness& body, const FitOptions& options) {
   HeldOut result;
+  FitOptions about = options;
+  about.rounds = 0;
   double squares = 0, components = 0;
   for (const Selection& held_out : folds.held_out) {
     Selection training;
     for (const int e : all_episodes(dataset))
       if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
-    const FitResult fitted = fit_best(builder(training), dataset, training, body, options);
+    const FitResult fitted = fit_best(builder(training), dataset, training, body, about);
     Eigen::VectorXd r = measured_forces(dataset, held_out) -
                         model_forces(fitted.model, dataset, held_out, body, false).f;
     if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);

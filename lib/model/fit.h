@@ -12,6 +12,8 @@
 
 namespace hapsim {
 
+constexpr int kFullRounds = 12;
+
 struct FitOptions {
   double noise = 1;           // standard deviation of the force noise [N]
   double floor = 0;           // relative gain error by position (mesh and geometry)
@@ -19,6 +21,10 @@ struct FitOptions {
   int starts = 1;             // more: a Latin hypercube over the bounds besides the given start
   std::uint64_t seed = 1;     // of the starts
   RobustLoss robust = RobustLoss::kNone;
+  // Bodies with features are solved anew in up to so many rounds, until one changes the sum of
+  // squares by less than the share `settled`; 0: not at all (about the solution there is).
+  int rounds = kFullRounds;
+  double settled = 1e-6;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
 };
 
@@ -65,7 +71,7 @@ struct HeldOut {
   std::vector<double> squares;     // sum of squares by fold [N^2]
   std::vector<double> components;  // 3 x rows by fold
 };
-// Truly refitted for every fold.
+// Truly refitted for every fold; a body with features stays linear about its last solution.
 HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
                        BodyStiffness& body, const FitOptions& options);
 

@@ -98,11 +98,8 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
       if (columns == 0) continue;
       if (view.du.cols() > 0)
         signal.df.middleRows(row, 3).noalias() = -s.K * view.du.middleRows(row, 3);
-      if (material.nu_column >= 0)
-        signal.df.block<3, 1>(row, material.nu_column) -= s.dK_dnu * view.u[i];
-      for (std::size_t g = 0; g < material.modulus.size(); ++g)
-        if (material.modulus_column[g] >= 0)
-          signal.df.block<3, 1>(row, material.modulus_column[g]) -= s.dK_dmodulus[g] * view.u[i];
+      for (const auto& [column, dK] : s.by_column)
+        signal.df.block<3, 1>(row, column) -= dK * view.u[i];
     }
     // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
     bool at_sensor = false;

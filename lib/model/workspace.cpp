@@ -12,6 +12,7 @@ Workspace make_workspace(const TetMesh& body, Recording recording,
   library.threads = options.threads;
   library.cache = options.cache;
   library.rim_edge = options.rim_edge;
+  library.draft = options.draft;
   if (options.progress) library.step = options.progress(w.dataset.positions.size());
   w.library = std::make_unique<ContactLibrary>(body, w.dataset.recording.tool_radius(), library);
   w.body = std::make_unique<BodyStiffness>(*w.library, w.dataset.positions, options.nu_low,

@@ -15,6 +15,7 @@ struct WorkspaceOptions {
   int threads = 0;                     // 0: as many as the machine has
   std::string cache;                   // directory, "" for none
   double rim_edge = kRimEdge;          // share of the tool's radius
+  bool draft = false;                  // ContactLibraryOptions::draft
   double noise = 0;                    // [N]; 0: declared by the recording or measured from it
   double floor = -1;                   // relative; negative: from the meshes
   double nu_low = 0, nu_high = 0.499;  // the range of Poisson's ratio that will be asked
