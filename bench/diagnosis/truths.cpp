@@ -79,7 +79,7 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s * kModulus, 0.05, s * kModulus, 0.4, s * kModulus, 3};
   }));
   t.push_back(own_form("damper", "damper", 100, [](double s) { return std::vector<double>{s}; }));
-  t.push_back(own_form("hyperelastic", "hyperelastic", 5, [](double s) {
+  t.push_back(own_form("hyperelastic", "hyperelastic", 1.2, [](double s) {
     return std::vector<double>{s, std::min(1.0, 5 * s)};
   }));
   t.push_back(own_form("tip", "tip", 5e3, [](double s) { return std::vector<double>{s}; }));

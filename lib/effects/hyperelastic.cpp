@@ -94,7 +94,7 @@ class Hyperelastic : public Effect {
             "strains are large under the tool only; nu near 0.4 (0.3 to 0.45: 2 %) and depths to "
             "1.6 tool radii; forces have an energy, so no closed way does work",
         .parameters = {{"s", "1", "rise of the stiffness at a depth of one tool radius", 0, 0.2, 0,
-                        5, 0.1, false},
+                        1.2, 0.1, false},
                        {"finite", "1", "1: the change of shape counts, as at finite strain", 0, 1,
                         0, 1, 1, false, std::numeric_limits<double>::quiet_NaN(), true}},
         .signature = "too soft deep down and too stiff at small depth, most of all sideways",
@@ -108,7 +108,7 @@ class Hyperelastic : public Effect {
     const ParameterValue& finite = find_value(values, "finite");
     const bool identity = s.value == 0 && finite.value == 0;
     if (identity && s.column < 0 && finite.column < 0) return;
-    const LocalContact contact(press);
+    const LocalContact contact(press, true);
     const Law law{s.value,      finite.value, contact.disc().normal, contact.disc().tangential,
                   press.radius, press.normal};
     const Eigen::Matrix3d& K = press.contact.K;

@@ -6,6 +6,13 @@
 #include "base/error.h"
 
 namespace hapsim {
+namespace {
+
+// A far field may be stiffer than the half-space's by this factor: with less a body's modulus and
+// Poisson's ratio would be drawn away, with more a law that stiffens tenfold has no equilibrium.
+constexpr double kStiffer = 1.1;
+
+}  // namespace
 
 DiscStiffness bonded_disc(double modulus, double nu, double radius) {
   // 4 mu a log(3 - 4 nu)/(1 - 2 nu), with e = 1 - 2 nu so that nothing cancels near nu = 1/2.
@@ -21,14 +28,27 @@ DiscStiffness bonded_disc(double modulus, double nu, double radius) {
   return disc;
 }
 
-LocalContact::LocalContact(const PressView& press)
+LocalContact::LocalContact(const PressView& press, bool stiff)
     : contact_(press.contact),
       normal_(press.normal),
       disc_(bonded_disc(contact_.modulus, contact_.nu, press.radius)),
       along_(normal_ * normal_.transpose()),
-      across_(Eigen::Matrix3d::Identity() - along_),
-      C_(along_ / disc_.normal + across_ / disc_.tangential),
-      rest_(Eigen::Matrix3d::Identity() - contact_.K * C_) {}
+      across_(Eigen::Matrix3d::Identity() - along_) {
+  if (stiff) {
+    // The largest g of K v = g C^-1 v, v' C^-1 v = 1.
+    const Eigen::Matrix3d half_space = disc_.normal * along_ + disc_.tangential * across_;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> modes(
+        0.5 * (contact_.K + contact_.K.transpose()), half_space);
+    if (modes.eigenvalues()[2] > kStiffer) {
+      gain_ = modes.eigenvalues()[2] / kStiffer;
+      way_ = modes.eigenvectors().col(2);
+    }
+    disc_.normal *= gain_;
+    disc_.tangential *= gain_;
+  }
+  C_ = along_ / disc_.normal + across_ / disc_.tangential;
+  rest_ = Eigen::Matrix3d::Identity() - contact_.K * C_;
+}
 
 LocalForce LocalContact::solve(const LocalLaw& law, const Vec3& u, Vec3& x) const {
   constexpr int kMost = 100;
@@ -73,20 +93,31 @@ LocalContact::Derivatives LocalContact::derivatives(const LocalForce& force, con
   return d;
 }
 
-Eigen::RowVectorXd LocalContact::by_columns(double by_modulus, double by_nu,
+Eigen::RowVectorXd LocalContact::by_columns(double of_half_space, double by_nu,
                                             Eigen::Index columns) const {
   Eigen::RowVectorXd d = Eigen::RowVectorXd::Zero(columns);
-  if (contact_.modulus_column >= 0) d[contact_.modulus_column] += by_modulus;
-  if (contact_.nu_column >= 0) d[contact_.nu_column] += by_nu;
+  if (contact_.modulus_column >= 0)
+    d[contact_.modulus_column] += gain_ * of_half_space / contact_.modulus;
+  if (contact_.nu_column >= 0) d[contact_.nu_column] += gain_ * by_nu;
+  if (gain_ == 1) return d;
+  // dg = v' (dK / kStiffer - g d(C^-1)) v; the disc's part by E is -g/E, as v' C^-1 v = 1.
+  for (const auto& [column, dK] : contact_.by_column)
+    d[column] += of_half_space / kStiffer * way_.dot(dK * way_);
+  if (contact_.modulus_column >= 0)
+    d[contact_.modulus_column] -= of_half_space * gain_ / contact_.modulus;
+  if (contact_.nu_column >= 0)
+    d[contact_.nu_column] -= of_half_space * gain_ *
+                             (disc_.normal_by_nu * way_.dot(along_ * way_) +
+                              disc_.tangential_by_nu * way_.dot(across_ * way_));
   return d;
 }
 
 Eigen::RowVectorXd LocalContact::normal_by_columns(Eigen::Index columns) const {
-  return by_columns(disc_.normal / contact_.modulus, disc_.normal_by_nu, columns);
+  return by_columns(disc_.normal / gain_, disc_.normal_by_nu, columns);
 }
 
 Eigen::RowVectorXd LocalContact::tangential_by_columns(Eigen::Index columns) const {
-  return by_columns(disc_.tangential / contact_.modulus, disc_.tangential_by_nu, columns);
+  return by_columns(disc_.tangential / gain_, disc_.tangential_by_nu, columns);
 }
 
 Eigen::MatrixXd LocalContact::disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF) const {

@@ -31,7 +31,9 @@ using LocalLaw = std::function<LocalForce(const Vec3& x)>;
 // size.
 class LocalContact {
  public:
-  explicit LocalContact(const PressView& press);
+  // `stiff`: a body that is stiffer than the half-space (a thin one, on its support) by more than a
+  // tenth has a stiffer disc, so that laws that stiffen find an equilibrium there too.
+  explicit LocalContact(const PressView& press, bool stiff = false);
 
   // x for a tool at u; `x` holds the start. Error(kNoConvergence) when Newton's method fails, which
   // no convex law lets it.
@@ -54,11 +56,13 @@ class LocalContact {
   Eigen::MatrixXd disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF) const;
 
  private:
-  Eigen::RowVectorXd by_columns(double by_modulus, double by_nu, Eigen::Index columns) const;
+  Eigen::RowVectorXd by_columns(double of_half_space, double by_nu, Eigen::Index columns) const;
 
   const ContactStiffness& contact_;
   Vec3 normal_;
   DiscStiffness disc_;
+  double gain_ = 1;                            // of the disc over that on a half-space
+  Vec3 way_ = Vec3::Zero();                    // in which the body is stiffest, of unit energy
   Eigen::Matrix3d along_, across_, C_, rest_;  // projections; rest: 1 - K C
 };
 
