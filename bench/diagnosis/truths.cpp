@@ -82,7 +82,7 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("hyperelastic", "hyperelastic", 1.2, [](double s) {
     return std::vector<double>{s, std::min(1.0, 5 * s)};
   }));
-  t.push_back(own_form("tip", "tip", 5e3, [](double s) { return std::vector<double>{s}; }));
+  t.push_back(own_form("tip", "tip", 250, [](double s) { return std::vector<double>{s}; }));
   t.push_back(own_form("temperature", "temperature", 0.5, [](double s) {
     return std::vector<double>{s, 25};
   }));
@@ -152,7 +152,7 @@ std::vector<Truth> other_forms() {
                            }
                          }));
   // A cone of height s on a flat tool: the contact's radius grows like the depth.
-  t.push_back(other_form("tip-cone", "tip", 0.02,
+  t.push_back(other_form("tip-cone", "tip", 5e-3,
                          [](const Episode& e, double s, Random&, Eigen::Ref<Eigen::VectorXd> f) {
                            for (std::size_t i = 0; i < e.view.size(); ++i) {
                              const double z = std::max(0.0, -e.view.u[i].dot(e.view.normal));
