@@ -1,5 +1,6 @@
 #include "truths.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "effects/catalogue.h"
@@ -78,9 +79,10 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s * kModulus, 0.05, s * kModulus, 0.4, s * kModulus, 3};
   }));
   t.push_back(own_form("damper", "damper", 100, [](double s) { return std::vector<double>{s}; }));
-  t.push_back(own_form("hyperelastic", "hyperelastic", 5, [](double s) {
-    return std::vector<double>{s, 0.5 * s};
+  t.push_back(own_form("hyperelastic", "hyperelastic", 1.2, [](double s) {
+    return std::vector<double>{s, std::min(1.0, 5 * s)};
   }));
+  t.push_back(own_form("tip", "tip", 250, [](double s) { return std::vector<double>{s}; }));
   t.push_back(own_form("temperature", "temperature", 0.5, [](double s) {
     return std::vector<double>{s, 25};
   }));
@@ -141,6 +143,22 @@ std::vector<Truth> other_forms() {
   t.push_back(other_form("softening-by-cycle", "softening", 0.9,
                          [](const Episode& e, double s, Random&, Eigen::Ref<Eigen::VectorXd> f) {
                            if (e.view.past_depth > 0) f *= 1 - s;
+                         }));
+  t.push_back(other_form("hyperelastic-by-depth", "hyperelastic", 2,
+                         [](const Episode& e, double s, Random&, Eigen::Ref<Eigen::VectorXd> f) {
+                           for (std::size_t i = 0; i < e.view.size(); ++i) {
+                             const double d = e.view.u[i].dot(e.view.normal) / e.view.radius;
+                             f.segment<3>(3 * static_cast<Eigen::Index>(i)) *= std::exp(s * d * d);
+                           }
+                         }));
+  // A cone of height s on a flat tool: the contact's radius grows like the depth.
+  t.push_back(other_form("tip-cone", "tip", 5e-3,
+                         [](const Episode& e, double s, Random&, Eigen::Ref<Eigen::VectorXd> f) {
+                           for (std::size_t i = 0; i < e.view.size(); ++i) {
+                             const double z = std::max(0.0, -e.view.u[i].dot(e.view.normal));
+                             f.segment<3>(3 * static_cast<Eigen::Index>(i)) *=
+                                 z < s ? z / (2 * s) : 1 - s / (2 * z);
+                           }
                          }));
   t.push_back(other_form("sensor-curve-of-size", "sensor-curve", 1,
                          [](const Episode&, double s, Random&, Eigen::Ref<Eigen::VectorXd> f) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/vec3.h"
@@ -64,6 +65,16 @@ struct ParameterValue {
 };
 using Values = std::vector<ParameterValue>;
 
+// The body's stiffness against the flat bonded tool at a press, and the material under the tool.
+struct ContactStiffness {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // [N/m]; the body's force on the tool is -K u
+  std::vector<std::pair<int, Eigen::Matrix3d>> by_column;  // derivatives by free parameters
+  double modulus = 0;                                      // E [Pa]
+  int modulus_column = -1;
+  double nu = 0.3;
+  int nu_column = -1;
+};
+
 // One press as effects see it, n samples.
 struct PressView {
   std::vector<double> t;        // [s] since the press began; empty without time
@@ -79,6 +90,7 @@ struct PressView {
   double radius = 0;                // of the tool [m]
   double modulus = 0;               // E of region 0 [Pa]
   int modulus_column = -1;
+  ContactStiffness contact;
   std::size_t size() const { return u.size(); }
 };
 

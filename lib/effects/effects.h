@@ -17,6 +17,7 @@ const Effect& temperature_effect();
 const Effect& softening_effect();
 const Effect& viscoelastic_effect();
 const Effect& damper_effect();
+const Effect& tip_effect();
 const Effect& slack_effect();
 const Effect& friction_effect();
 const Effect& adhesion_effect();

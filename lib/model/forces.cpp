@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "effects/catalogue.h"
+#include "model/nearest_region.h"
 
 namespace hapsim {
 namespace {
@@ -30,6 +31,21 @@ std::vector<Instance> instances(const Model& model, bool derivatives) {
     if (!instance.values.empty()) result.push_back(std::move(instance));
   }
   return result;
+}
+
+// What contact laws need to know of the body at one position.
+ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& material,
+                            const Vec3& position, bool derivatives) {
+  const auto region = static_cast<std::size_t>(region_at(material, position));
+  ContactStiffness contact;
+  contact.K = s.K;
+  contact.modulus = material.modulus[region];
+  contact.nu = material.nu;
+  if (!derivatives) return contact;
+  contact.modulus_column = material.modulus_column[region];
+  contact.nu_column = material.nu_column;
+  contact.by_column = s.by_column;
+  return contact;
 }
 
 void release_in_air(const PressView& view, Signal& signal) {
@@ -85,6 +101,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
     PressView view = episode.view;
     view.modulus = material.modulus[0];
     view.modulus_column = derivatives ? material.modulus_column[0] : -1;
+    view.contact = contact_of(s, material, dataset.positions[episode.position], derivatives);
     Motion motion{view.u, {}, columns};
     for (const Instance& i : effects) i.effect->move(view, i.values, motion);
     view.u = std::move(motion.u);

@@ -21,6 +21,36 @@ TEST(Temperature, HalvesTheStiffnessOverItsHalvingRange) {
   EXPECT_NEAR(f[2].z(), 0.4, 1e-12);
 }
 
+// Of a body that couples all directions, along a closed way through large depths.
+TEST(Hyperelastic, AClosedWayDoesNoWork) {
+  std::vector<Vec3> path;
+  constexpr int kSteps = 4000;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double angle = 2 * M_PI * i / kSteps;
+    path.push_back(1e-3 * Vec3(2 * std::sin(angle), std::sin(2 * angle), -4 + 3 * std::cos(angle)));
+  }
+  PressView press = test::press_along(path);
+  press.contact.K << 50, 3, 8, 3, 60, -5, 8, -5, 90;
+  Signal signal{Eigen::VectorXd(3 * (kSteps + 1)), Eigen::MatrixXd(3 * (kSteps + 1), 0)};
+  for (int i = 0; i <= kSteps; ++i) signal.f.segment<3>(3 * i) = -press.contact.K * path[i];
+  const Eigen::VectorXd linear = signal.f;
+  hyperelastic_effect().apply(press, {{0, "s", 0.4}, {0, "finite", 1}}, signal);
+  double work = 0, size = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const Vec3 mean = (signal.f.segment<3>(3 * i) + signal.f.segment<3>(3 * i + 3)) / 2;
+    work += mean.dot(path[i + 1] - path[i]);
+    size += std::abs(mean.dot(path[i + 1] - path[i]));
+  }
+  EXPECT_NEAR(work, 0, 1e-5 * size);
+  EXPECT_GT((signal.f - linear).norm(), 0.2 * linear.norm());
+}
+
+TEST(Hyperelastic, SmallPressesAreLinear) {
+  const auto f = forces_after(hyperelastic_effect(), test::press_along({{1e-6, 0, -2e-6}}),
+                              {{0, "s", 0.3}, {0, "finite", 1}});
+  EXPECT_NEAR((f[0] - kStiffness * Vec3(-1e-6, 0, 2e-6)).norm(), 0, 1e-3 * f[0].norm());
+}
+
 TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3, 2e-3, 3e-3});
   const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 1}};

@@ -14,6 +14,23 @@
 namespace hapsim {
 namespace {
 
+// The material's modulus and Poisson's ratio, and a body of both; derivatives in columns from
+// `first` on, none when negative.
+void set_material(PressView& press, double modulus, double nu, int first) {
+  Eigen::Matrix3d K;
+  K << 95, 5, 10, 5, 100, -8, 10, -8, 240;  // along the normal stiffer than a half-space
+  K /= 2e4;
+  press.modulus = press.contact.modulus = modulus;
+  press.contact.nu = nu;
+  press.contact.K = modulus * (1 + 0.5 * (nu - 0.4)) * K;
+  press.contact.by_column.clear();
+  press.modulus_column = press.contact.modulus_column = first;
+  press.contact.nu_column = first < 0 ? -1 : first + 1;
+  if (first < 0) return;
+  press.contact.by_column.emplace_back(first, press.contact.K / modulus);
+  press.contact.by_column.emplace_back(first + 1, 0.5 * modulus * K);
+}
+
 // In the air, in, out again, beyond the surface; oblique, over an earlier press, warming up.
 PressView example_press() {
   PressView press;
@@ -31,7 +48,7 @@ PressView example_press() {
   press.direction = Vec3(0.2, -0.1, -1).normalized();
   press.past_depth = 0.0025;
   press.radius = 0.004;
-  press.modulus = 2e4;
+  set_material(press, 2e4, 0.4, -1);
   return press;
 }
 
@@ -117,15 +134,19 @@ TEST_P(EveryEffect, DerivativesAreDifferences) {
   }
   for (const std::vector<double>& point : points) {
     const auto m = static_cast<Eigen::Index>(point.size());
-    press.modulus_column = static_cast<int>(m) + 2;
-    const Signal signal = pass(effect, press, values_at(effect, point, true), 0.3, 0.1, m + 3);
-    const auto forces = [&](const std::vector<double>& x, double s, double r, double modulus) {
+    const double E = 2e4, nu = 0.4;
+    set_material(press, E, nu, static_cast<int>(m) + 2);
+    const Signal signal = pass(effect, press, values_at(effect, point, true), 0.3, 0.1, m + 4);
+    const auto of_material = [&](const std::vector<double>& x, double s, double r, double modulus,
+                                 double poisson) {
       PressView other = press;
-      other.modulus = modulus;
-      other.modulus_column = -1;
+      set_material(other, modulus, poisson, -1);
       return pass(effect, other, values_at(effect, x, false), s, r, 0).f;
     };
-    const double scale = signal.f.norm(), E = press.modulus;
+    const auto forces = [&](const std::vector<double>& x, double s, double r, double modulus) {
+      return of_material(x, s, r, modulus, nu);
+    };
+    const double scale = signal.f.norm();
     for (Eigen::Index k = 0; k < m; ++k) {
       std::vector<double> up = point, down = point;
       const double step = 1e-5 * std::max(std::abs(point[k]), 1e-3 * cards[k].scale);
@@ -148,6 +169,10 @@ TEST_P(EveryEffect, DerivativesAreDifferences) {
     const Eigen::VectorXd by_modulus =
         (forces(point, 0.3, 0.1, E + 1) - forces(point, 0.3, 0.1, E - 1)) / 2;
     EXPECT_LT((signal.df.col(m + 2) - by_modulus).norm(), 1e-6 * scale) << "by E";
+    const Eigen::VectorXd by_nu =
+        (of_material(point, 0.3, 0.1, E, nu + h) - of_material(point, 0.3, 0.1, E, nu - h)) /
+        (2 * h);
+    EXPECT_LT((signal.df.col(m + 3) - by_nu).norm(), 1e-6 * scale) << "by nu";
   }
 }
 
@@ -167,8 +192,7 @@ TEST(Catalogue, NamesAreUniqueAndFound) {
       EXPECT_NE(find_effect(other), nullptr) << other;
   }
   // Names that cards may speak of although the catalogue does not have them all.
-  const std::set<std::string> vocabulary{"anisotropic", "layer", "inclusion",
-                                         "base",        "shift", "tip"};
+  const std::set<std::string> vocabulary{"anisotropic", "layer", "inclusion", "base", "shift"};
   for (const Effect* effect : catalogue())
     for (const std::string& other : effect->card().confounders) {
       EXPECT_TRUE(names.count(other) + vocabulary.count(other) > 0) << other;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "effects/local_contact.h"
 #include "one_press.h"
 
 namespace hapsim {
@@ -44,6 +45,89 @@ TEST(Adhesion, PullsOnTheWayOutUntilItComesOff) {
   const double hold[] = {0, 0, a, a, a + (1 - a) * 0.5, 1, 1, 0.5, /* off */ 0, 0, a};
   for (std::size_t i = 0; i < f.size(); ++i)
     EXPECT_NEAR(f[i].z(), -kStiffness * press.u[i].z() - F * hold[i], 1e-12) << i;
+}
+
+// Forces of a body of stiffness press.contact.K after an effect that moves.
+std::vector<Vec3> forces_on(const PressView& press, const Effect& effect, const Values& values) {
+  Motion motion{press.u, {}, 0};
+  effect.move(press, values, motion);
+  std::vector<Vec3> f;
+  for (const Vec3& u : motion.u) f.push_back(-press.contact.K * u);
+  return f;
+}
+
+// A half-space that is softer by `far` [m/N] in every direction.
+PressView on_half_space(const std::vector<Vec3>& path, double nu, double far = 0) {
+  PressView press = test::press_along(path);
+  press.contact.nu = nu;
+  const DiscStiffness disc = bonded_disc(press.contact.modulus, nu, press.radius);
+  press.contact.K = Vec3(1 / (1 / disc.tangential + far), 1 / (1 / disc.tangential + far),
+                         1 / (1 / disc.normal + far))
+                        .asDiagonal();
+  return press;
+}
+
+// Hertz (Johnson, Contact Mechanics, 4.22): F = 4/3 E/(1 - nu^2) sqrt(R) z^(3/2). Without friction;
+// for nu = 1/2 bonding makes no difference. Beyond the cap the tool is flat.
+TEST(Tip, IsHertzOnAHalfSpaceAndThenFlat) {
+  const double nu = 0.4999, R = 0.02, full = 0.004 * 0.004 / R;  // 0.8 mm
+  const std::vector<double> depths{0.1e-3, 0.4e-3, 0.79e-3, 2e-3, 0.4e-3, -1e-3, 0.4e-3};
+  std::vector<Vec3> path;
+  for (const double z : depths) path.emplace_back(0, 0, -z);
+  const PressView press = on_half_space(path, nu);
+  const auto f = forces_on(press, tip_effect(), {{0, "kappa", 1 / R}});
+  for (std::size_t i = 0; i < f.size(); ++i) {
+    const double z = std::max(0.0, depths[i]);
+    const double hertz = 4.0 / 3 * press.contact.modulus / (1 - nu * nu) * std::sqrt(R * z * z * z);
+    const double flat = press.contact.K(2, 2) * (z - full / 3);
+    EXPECT_NEAR(f[i].z(), z < full ? hertz : flat, 2e-4 * std::abs(flat)) << i;
+    EXPECT_NEAR(f[i].head<2>().norm(), 0, 1e-12) << i;
+  }
+}
+
+// dF = du / (1/k(c) + C), c that of the depth less what the far field gives way.
+TEST(Tip, StandsInSeriesWithTheRestOfTheBody) {
+  const double far = 2e-3, kappa = 100, depth = 3e-3;
+  const PressView press = on_half_space({{0, 0, -depth}}, 0.4, far);
+  const double k_n = bonded_disc(press.contact.modulus, 0.4, press.radius).normal;
+  double F = 0;
+  constexpr int kSteps = 20000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = (i + 0.5) * depth / kSteps - far * F;
+    const double c = std::min(std::sqrt(std::max(z, 1e-12) / kappa), press.radius);
+    F += depth / kSteps / (1 / (k_n * c / press.radius) + far);
+  }
+  EXPECT_NEAR(forces_on(press, tip_effect(), {{0, "kappa", kappa}})[0].z(), F, 1e-4 * F);
+}
+
+TEST(Tip, HoldsSidewaysWhatTouchesAndLetsGoOfWhatParts) {
+  const double kappa = 200, full = kappa * 0.004 * 0.004;  // 3.2 mm
+  const double x = 0.5e-3;
+  const PressView press = on_half_space({{0, 0, -full / 2},
+                                         {x, 0, -full / 2},
+                                         {x, 0, -full / 8},
+                                         {x, 0, -full / 2},
+                                         {x, 0, 0},
+                                         {x, 0, -full / 2}},
+                                        0.4);
+  const auto f = forces_on(press, tip_effect(), {{0, "kappa", kappa}});
+  const double k_t = press.contact.K(0, 0);
+  EXPECT_NEAR(f[0].x(), 0, 1e-12);
+  EXPECT_NEAR(f[1].x(), -k_t * std::sqrt(0.5) * x, 1e-9);
+  EXPECT_NEAR(f[2].x(), -k_t * std::sqrt(0.125) * x, 1e-9);  // the outer rings have let go
+  EXPECT_NEAR(f[3].x(), f[2].x(), 1e-9);                     // and touch again without strain
+  EXPECT_NEAR(f[5].x(), 0, 1e-12);
+}
+
+TEST(Tip, AnObliqueWayInIsTheWayOut) {
+  const Vec3 deepest(1e-3, -0.5e-3, -2e-3);
+  std::vector<Vec3> path;
+  for (int i = 0; i <= 20; ++i) path.push_back((10 - std::abs(i - 10)) / 10.0 * deepest);
+  PressView press = on_half_space(path, 0.4, 1e-3);
+  press.contact.K(0, 2) = press.contact.K(2, 0) = 10;
+  const auto f = forces_on(press, tip_effect(), {{0, "kappa", 100}});
+  for (std::size_t i = 0; i < f.size(); ++i)
+    EXPECT_NEAR((f[i] - f[20 - i]).norm(), 0, 1e-5 * f[10].norm()) << i;
 }
 
 TEST(Friction, SticksSlidesAndKeepsItsSet) {

@@ -15,6 +15,8 @@ inline PressView press_along(const std::vector<Vec3>& path) {
   press.in_air.assign(path.size(), 0);
   press.radius = 0.004;
   press.modulus = 1e4;
+  press.contact.modulus = 1e4;
+  press.contact.K = kStiffness * Eigen::Matrix3d::Identity();
   return press;
 }
 

@@ -21,10 +21,11 @@ class Fit : public ::testing::Test {
 };
 
 TEST_F(Fit, DerivativesOfAWholeModelAreDifferences) {
-  Model model =
-      test::with(test::with(test::with(test::elastic(1.5e4, 0.42), "hyperelastic", {0.1, 0.05}),
+  Model model = test::with(
+      test::with(test::with(test::with(test::elastic(1.5e4, 0.42), "hyperelastic", {0.1, 1}),
                             "viscoelastic", {6e3, 0.4}),
-                 "sensor-lag", {0.03});
+                 "tip", {100}),
+      "sensor-lag", {0.03});
   const Selection selection{0, 1, 2, 7};
   const Signal signal = model_forces(model, w().dataset, selection, *w().body, true);
   const std::vector<int> free = model.free_parameters();

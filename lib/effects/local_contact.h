@@ -1,0 +1,69 @@
+// A law of what happens under the tool, in series with the rest of the body.
+#pragma once
+
+#include <functional>
+
+#include "effects/effect.h"
+
+namespace hapsim {
+
+// Stiffness of a half-space against a rigid disc bonded to it, along its normal (Mossakowski, J.
+// Appl. Math. Mech. 18, 1954; Spence, Proc. R. Soc. A 305, 1968: exact) and along its surface
+// (Mindlin, J. Appl. Mech. 16, 1949: exact for nu = 1/2, within 2 % below) [N/m].
+struct DiscStiffness {
+  double normal = 0, tangential = 0;
+  double normal_by_nu = 0, tangential_by_nu = 0;
+};
+DiscStiffness bonded_disc(double modulus, double nu, double radius);
+
+// The force F(x) that moves the tool by x against the material under it [N], and its tangent.
+struct LocalForce {
+  Vec3 F = Vec3::Zero();
+  Eigen::Matrix3d tangent = Eigen::Matrix3d::Zero();
+};
+using LocalLaw = std::function<LocalForce(const Vec3& x)>;
+
+// The tool's way u is that into the material under it, x, and what the body gives way far from it:
+//   u = x + (K^-1 - C) F(x),
+// K the body's stiffness against the flat bonded tool and C the compliance of the disc on a
+// half-space, which the law replaces: with F = C^-1 x the force is K u. What the far field adds to
+// a compliance does not depend on the contact's radius, to first order in that over the body's
+// size.
+class LocalContact {
+ public:
+  // `stiff`: a body that is stiffer than the half-space (a thin one, on its support) by more than a
+  // tenth has a stiffer disc, so that laws that stiffen find an equilibrium there too.
+  explicit LocalContact(const PressView& press, bool stiff = false);
+
+  // x for a tool at u; `x` holds the start. Error(kNoConvergence) when Newton's method fails, which
+  // no convex law lets it.
+  LocalForce solve(const LocalLaw& law, const Vec3& u, Vec3& x) const;
+
+  // Derivatives by the columns, given those of the motion (no columns: none) and those of F at
+  // fixed x by all but the motion.
+  struct Derivatives {
+    Eigen::MatrixXd dx, dF;  // 3 x columns
+  };
+  Derivatives derivatives(const LocalForce& force, const Vec3& u, const Vec3& x,
+                          const Eigen::MatrixXd& du, const Eigen::MatrixXd& explicit_dF) const;
+
+  const DiscStiffness& disc() const { return disc_; }
+  // Derivatives of the disc's stiffnesses.
+  Eigen::RowVectorXd normal_by_columns(Eigen::Index columns) const;
+  Eigen::RowVectorXd tangential_by_columns(Eigen::Index columns) const;
+  // C F and, as 3 x columns, its derivative for a given one of F.
+  Vec3 disc_way(const Vec3& F) const { return C_ * F; }
+  Eigen::MatrixXd disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF) const;
+
+ private:
+  Eigen::RowVectorXd by_columns(double of_half_space, double by_nu, Eigen::Index columns) const;
+
+  const ContactStiffness& contact_;
+  Vec3 normal_;
+  DiscStiffness disc_;
+  double gain_ = 1;                            // of the disc over that on a half-space
+  Vec3 way_ = Vec3::Zero();                    // in which the body is stiffest, of unit energy
+  Eigen::Matrix3d along_, across_, C_, rest_;  // projections; rest: 1 - K C
+};
+
+}  // namespace hapsim
