@@ -199,8 +199,9 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
     lack = "nothing in these presses depends on it; record " + card.separated_by;
     return std::nullopt;
   }
-  // A few rounds about each start; refine() goes on where that is promising.
-  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 3));
+  // Few finite-element solutions, and none for effects that need none of their own; refine() goes
+  // on where that is promising.
+  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, card.solved ? 2 : 0));
   return candidate;
 }
 

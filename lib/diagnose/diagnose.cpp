@@ -74,8 +74,9 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
   return p;
 }
 
-// Candidates whose first fit errs by less than this factor over the best one's are worth refining.
-constexpr double kPromising = 1.5;
+// Worth refining: candidates whose first fit errs by less than this factor over the best one's, and
+// by less than the baseline.
+constexpr double kPromising = 1.5, kBetter = 0.99;
 
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
@@ -109,7 +110,8 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
   double least = base.fitted.rmse;
   for (const Candidate& c : round.candidates) least = std::min(least, c.fitted.rmse);
   for (Candidate& c : round.candidates)
-    if (c.fitted.rmse < kPromising * least) refine(c, w);
+    if (c.fitted.rmse < kPromising * least && c.fitted.rmse < kBetter * base.fitted.rmse)
+      refine(c, w);
   const Yardstick yardstick = make_yardstick(base, round.candidates, w);
   std::vector<Measured> measured;
   for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, w));

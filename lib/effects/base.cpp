@@ -1,5 +1,4 @@
 // The bottom is not bonded everywhere, or rests on something that gives.
-#include <cmath>
 #include <numbers>
 
 #include "effects/effects.h"
@@ -43,16 +42,11 @@ class Base : public Effect {
   void describe(const Values& values, MaterialSpec& material) const override {
     add_feature(Feature::kSupport, values, card(), material);
   }
-  // All of it, or the half on the side where the body is soft.
-  std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
-    Vec3 middle = Vec3::Zero(), soft = Vec3::Zero();
-    double mean = 0;
-    for (const PlaceGain& p : data.places) {
-      middle += p.point / static_cast<double>(data.places.size());
-      mean += std::log(p.gain) / static_cast<double>(data.places.size());
-    }
-    for (const PlaceGain& p : data.places) soft += (mean - std::log(p.gain)) * (p.point - middle);
-    return {{5e-3, 0, -10}, {2e-2, std::atan2(soft.y(), soft.x()), 0}};
+  // All of it gives a little, or one half is hardly held.
+  std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
+    std::vector<std::vector<double>> starts{{5e-3, 0, -10}};
+    for (int k = 0; k < 4; ++k) starts.push_back({0.5, 0.1 + k * kPi / 2, 0});
+    return starts;
   }
 };
 

@@ -46,6 +46,8 @@ std::string label(const Parameter& p) {
   return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
 }
 
+constexpr double kLeastReach = 0.02;  // a trust region so small has found what there is
+
 // The parameters held at a bound are no part of it.
 void tell_what_is_not_seen(FitResult& result, const Eigen::MatrixXd& J, double noise) {
   const std::vector<Unknown> all = unknowns(result.model);
@@ -149,7 +151,7 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
       const double promised = sum - solution.sum_of_squares;
       const double now = true_sum();
       const double least = options.settled * sum;
-      settled = promised < least || (now <= sum && sum - now < least);
+      settled = promised < least || (now <= sum && sum - now < least) || reach < kLeastReach;
       if (now <= sum) {
         sum = now;
         continue;
@@ -219,7 +221,7 @@ FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
   FitOptions each = options;
   const bool choose = starts.size() > 1 && is_linearised(material_of(starts[0]), false);
   if (choose) {
-    each.rounds = std::min(each.rounds, 3);
+    each.rounds = std::min(each.rounds, 1);
     each.settled = std::max(each.settled, 0.02);
   }
   FitResult best;
