@@ -167,22 +167,6 @@ Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
   return base;
 }
 
-bool stiffness_departs(const Baseline& base, const Workspace& w) {
-  const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
-  Eigen::VectorXd residual = measured_forces(w.dataset, all) - f;
-  Weights(w.dataset, all, f, w.noise.value, w.floor).whiten(residual);
-  double gain = 0, freedom = 0;
-  for (const GainBlock& block : gain_directions(w.dataset, all, f)) {
-    // The weights map the span of these directions on itself.
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(block.Z);
-    const Eigen::VectorXd r = qr.householderQ().transpose() * residual(block.rows);
-    gain += r.head(qr.rank()).squaredNorm();
-    freedom += static_cast<double>(qr.rank());
-  }
-  return gain > freedom + 3 * std::sqrt(2 * freedom);
-}
-
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, Workspace& w,
                                     std::string& lack) {
   const EffectCard& card = effect.card();
@@ -248,8 +232,9 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
   const double independent =
       static_cast<double>(residual.size()) / autocorrelation_time(residual, w);
   const double fall = y.residual.squaredNorm() / m.sum_of_squares - 1;
-  if (extra > 0 && independent > 2 * extra)
-    m.p_by_size = fisher_upper(fall * independent / extra, extra, independent);
+  const double freedom = std::max(1.0, extra);
+  if (independent > 2 * freedom)
+    m.p_by_size = fisher_upper(fall * independent / freedom, freedom, independent);
   if (candidate.effect->card().by_press) {
     const Selection every = all_episodes(w.dataset);
     const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, every, *w.body, false).f;

@@ -48,12 +48,6 @@ struct Measured {
 };
 
 Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
-// Whether the residuals ask for another stiffness at any position, beyond what noise and the meshes
-// are worth: all that layers, inclusions, regions, anisotropy and supports can change. By the part
-// of the whitened residuals that any change of the positions' stiffnesses takes away, against its
-// mean and three standard deviations of a chi-square.
-bool stiffness_departs(const Baseline& baseline, const Workspace& workspace);
-
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
                                     Workspace& workspace, std::string& lack);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "diagnose/candidate.h"
+#include "diagnose/departures.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 
@@ -81,7 +82,7 @@ constexpr double kPromising = 1.5, kBetter = 0.99;
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
-  const bool departs = stiffness_departs(base, w);
+  const bool departs = stiffness_departures(base.fitted.model, w).anywhere();
   for (const Effect* effect : untried(base.fitted.model)) {
     if (options.progress) options.progress(effect->card().name);
     if (effect->card().solved && !departs && lacking_for(effect->card(), w.dataset).empty()) {
@@ -138,9 +139,11 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     f.held_out_now = base.held_out.rmse;
     f.held_out_after = c.held_out.rmse;
     // Where few presses carry an effect their signs cannot prove it, however large it is.
+    const double by_size =
+        std::min(1.0, 2 * m.p_by_size * static_cast<double>(round.candidates.size()));
     if (f.share >= kMostOfIt && held_out_fall(f) >= kPlainFall)
-      f.p_value = std::min(
-          f.p_value, std::min(1.0, 2 * m.p_by_size * static_cast<double>(round.candidates.size())));
+      f.p_value = std::min(f.p_value, by_size);
+    f.plain = f.share >= kMostOfIt && by_size < options.gates.p_value;
     f.where = describe_where(c, w);
     f.evidence = describe_evidence(c, m, f);
     f.next_measurement = c.effect->card().separated_by;
@@ -288,7 +291,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
                                    [&](const Finding& g) { return g.effect == f.effect; });
     if (known) continue;
     Finding finding = f;
-    const bool by_chance = !few_presses && f.p_value >= options.gates.p_value;
+    const bool by_chance = !few_presses && !f.plain && f.p_value >= options.gates.p_value;
     finding.verdict = f.criterion_gain > options.gates.criterion_gain && !by_chance &&
                               f.share >= options.gates.share
                           ? Verdict::kPossible
@@ -314,14 +317,22 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
   d.reduced_chi_square_end = left.squaredNorm() / static_cast<double>(left.size());
   const double correlation = neighbour_correlation(left, w);
   const bool structure = d.reduced_chi_square_end > 1.5 && correlation > 0.2;
+  const Departures departures = stiffness_departures(base.fitted.model, w);
+  const bool local = departures.at_one();
   const bool missing =
       std::any_of(d.findings.begin(), d.findings.end(),
                   [](const Finding& finding) { return finding.verdict == Verdict::kMissing; });
-  d.verdict = ambiguous   ? ModelVerdict::kAmbiguous
-              : missing   ? ModelVerdict::kIncomplete
-              : structure ? ModelVerdict::kUnexplained
-                          : ModelVerdict::kComplete;
+  d.verdict = ambiguous            ? ModelVerdict::kAmbiguous
+              : missing            ? ModelVerdict::kIncomplete
+              : structure || local ? ModelVerdict::kUnexplained
+                                   : ModelVerdict::kComplete;
   d.explanation = describe_verdict(d, structure && !ambiguous);
+  if (local && !structure && !ambiguous)
+    d.explanation = fmt::format(
+        "the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
+        "position "
+        "confirms: press around it, a few millimetres apart.",
+        1e3 * departures.where.x(), 1e3 * departures.where.y(), 1e3 * departures.where.z());
   if (few_presses && d.verdict == ModelVerdict::kUnexplained)
     d.explanation = fmt::format(
         "the model fails by {:.2g} x noise, but {} presses are too few to name the cause with a "

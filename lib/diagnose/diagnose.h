@@ -46,6 +46,7 @@ struct Finding {
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   bool one_more_term = false;
+  bool plain = false;  // large beyond chance by its size, whatever unseen positions say
 };
 
 struct Diagnosis {

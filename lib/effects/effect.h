@@ -125,6 +125,8 @@ struct MaterialSpec {
   bool local =
       false;  // a contact feels its own region's modulus alone, as if the whole body had it
   std::vector<FeatureSpec> features;
+  // How the body has moved since it was scanned, about the middle of the contact points.
+  Vec3 shift = Vec3::Zero(), rotation = Vec3::Zero();  // [m], rotation vector [rad]
 };
 
 // The modulus that one contact position asks for, over the model's.
@@ -146,6 +148,8 @@ struct DataSummary {
   double depth = 2e-3;        // deepest displacement [m]
   double tool_radius = 4e-3;  // [m]
   std::vector<PlaceGain> places;
+  // The move that brings the contact points onto the scanned surface; zero where they lie on it.
+  Vec3 shift = Vec3::Zero(), rotation = Vec3::Zero();  // [m], [rad]
 };
 
 // One Maxwell element of a body: its modulus over the elastic one, and its relaxation time [s].

@@ -12,6 +12,7 @@ const Effect& layer_effect();
 const Effect& inclusion_effect();
 const Effect& anisotropic_effect();
 const Effect& base_effect();
+const Effect& shift_effect();
 const Effect& hyperelastic_effect();
 const Effect& temperature_effect();
 const Effect& softening_effect();

@@ -64,6 +64,7 @@ class ContactLibrary {
                                        const std::string& description) const;
 
   const PlanGrid& grid() const { return grid_; }
+  const Surface& surface() const { return base_.fine; }  // the body's, as it was given
 
  private:
   using Solver = std::function<StiffnessSolution(ContactBodies&, std::size_t position)>;

@@ -25,6 +25,17 @@ bool has_regions(const MaterialSpec& material) {
   return !material.key_point.empty() && material.modulus.size() > 1 && !material.local;
 }
 
+bool has_moved(const MaterialSpec& material) {
+  return material.shift != Vec3::Zero() || material.rotation != Vec3::Zero();
+}
+
+MaterialSpec in_place(const MaterialSpec& material) {
+  MaterialSpec result = material;
+  result.shift.setZero();
+  result.rotation.setZero();
+  return result;
+}
+
 // But for a common factor of the moduli, which needs no solution.
 bool same(const MaterialSpec& a, const MaterialSpec& b) {
   bool equal = a.nu == b.nu && a.modulus.size() == b.modulus.size();
@@ -100,7 +111,22 @@ BodyStiffness::BodyStiffness(const ContactLibrary& library, const std::vector<Ve
                              double nu_low, double nu_high)
     : library_(library),
       positions_(positions),
-      contacts_(library.prepare(positions, nu_low, nu_high)) {}
+      contacts_(library.prepare(positions, nu_low, nu_high)),
+      nu_low_(nu_low),
+      nu_high_(nu_high) {}
+
+const BodyStiffness& BodyStiffness::before_move(const MaterialSpec& m) const {
+  const std::lock_guard lock(mutex_);
+  std::unique_ptr<BodyStiffness>& body = moved_[{m.shift.x(), m.shift.y(), m.shift.z(),
+                                                 m.rotation.x(), m.rotation.y(), m.rotation.z()}];
+  if (!body) {
+    const Vec3 middle = middle_of(positions_);
+    std::vector<Vec3> there;
+    for (const Vec3& p : positions_) there.push_back(moved_back(p, middle, m.shift, m.rotation));
+    body = std::make_unique<BodyStiffness>(library_, there, nu_low_, nu_high_);
+  }
+  return *body;
+}
 
 BodyStiffness::ReferencePointer BodyStiffness::reference_for(const MaterialSpec& material) const {
   const std::lock_guard lock(mutex_);
@@ -112,6 +138,13 @@ BodyStiffness::ReferencePointer BodyStiffness::reference_for(const MaterialSpec&
 }
 
 PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& material) const {
+  if (has_moved(material)) {
+    PositionStiffness s = before_move(material).at(position, in_place(material));
+    const Eigen::Matrix3d R = rotation_matrix(material.rotation);
+    s.K = (R * s.K * R.transpose()).eval();
+    for (auto& [column, dK] : s.by_column) dK = (R * dK * R.transpose()).eval();
+    return s;
+  }
   const std::size_t regions = material.modulus.size();
   if (material.local && !material.features.empty()) {
     // The contact's own modulus, as if all of the body had it.
@@ -160,6 +193,7 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
 }
 
 void BodyStiffness::solve(const MaterialSpec& material) const {
+  if (has_moved(material)) return before_move(material).solve(in_place(material));
   if (!has_regions(material) && material.features.empty()) return;
   if (const ReferencePointer known = reference_for(material);
       known && same(known->material, material)) {

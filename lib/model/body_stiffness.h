@@ -1,6 +1,7 @@
 // Contact stiffness at every position of a recording, for whatever material the model asks.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -10,6 +11,7 @@
 
 #include "effects/effect.h"
 #include "fem/contact_library.h"
+#include "model/registration.h"
 
 namespace hapsim {
 
@@ -30,7 +32,7 @@ class BodyStiffness {
   // the same layout (key points and kinds of features), exact at each material that was solved.
   // Regions without a solution: the homogeneous stiffness times the geometric mean of the moduli,
   // weighted by each region's share of the strain energy (first order in the contrast). Features
-  // without one are solved here.
+  // without one are solved here. A body that has moved is prepared anew, once for each move.
   PositionStiffness at(std::size_t position, const MaterialSpec& material) const;
 
   // Finite-element solutions for a material that is not homogeneous; nothing to do for one that is.
@@ -39,6 +41,8 @@ class BodyStiffness {
   const std::vector<PreparedContact>& contacts() const { return contacts_; }
   std::vector<Vec3> normals() const;
   double mesh_uncertainty() const;  // median over the positions, relative
+  // The move that the contact points' distances from the surface show.
+  RigidMove move() const { return register_points(positions_, library_.surface()); }
 
  private:
   using Shares = std::vector<std::vector<double>>;  // [position][region], sums to 1
@@ -54,7 +58,12 @@ class BodyStiffness {
   };
   using ReferencePointer = std::shared_ptr<const Reference>;
   ReferencePointer reference_for(const MaterialSpec& material) const;
+  // This body where it lay when it was scanned, and the material as it is there.
+  const BodyStiffness& before_move(const MaterialSpec& material) const;
+
+  double nu_low_, nu_high_;
   mutable std::mutex mutex_;
+  mutable std::map<std::array<double, 6>, std::unique_ptr<BodyStiffness>> moved_;
   mutable std::map<std::string, std::vector<ReferencePointer>> references_;
   mutable std::map<std::string, Shares> shares_;
 };

@@ -159,6 +159,11 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
     for (const LocationSample& s :
          location_samples(fitted, dataset, selection, body, options.noise, options.floor))
       summary.places.push_back({s.point, body.contacts()[s.position].normal, s.gain});
+  if (card.stage == Stage::kSupport)
+    if (const RigidMove move = body.move(); move.significant()) {
+      summary.shift = move.shift;
+      summary.rotation = move.rotation;
+    }
   std::vector<Model> starts;
   for (const std::vector<double>& values : effect.starts(summary, terms)) {
     Model model = base;

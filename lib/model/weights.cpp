@@ -46,6 +46,7 @@ std::vector<GainBlock> gain_directions(const Dataset& dataset, const Selection& 
   for (const auto& [position, place] : places_of(dataset, selection)) {
     const auto basis = symmetric_basis(place.normal);
     GainBlock block;
+    block.position = position;
     block.Z.resize(3 * static_cast<Eigen::Index>(place.starts.size()), 6);
     Eigen::Index at = 0;
     for (const Eigen::Index row : place.starts) {

@@ -14,6 +14,7 @@ namespace hapsim {
 // for both tangents (a tilted normal). So a model is not blamed for what a mesh and a scanned
 // surface are worth: a stiffness that errs by a few per cent, differently at each position.
 struct GainBlock {
+  int position = 0;
   std::vector<Eigen::Index> rows;  // of the stacked vectors (3 x rows)
   Eigen::MatrixXd Z;               // the same rows x 6 [N]
 };

@@ -1,0 +1,21 @@
+// Whether residuals ask for another contact stiffness, over all positions and at the worst one.
+#pragma once
+
+#include "model/fit.h"
+#include "model/workspace.h"
+
+namespace hapsim {
+
+// The part of the whitened residuals that any change of the positions' stiffnesses (six numbers
+// each) takes away: a chi-square when noise and mesh are all there is. Layers, inclusions, regions,
+// anisotropy and supports can do no more.
+struct Departures {
+  double total = 0, freedom = 0;
+  double largest = 0;         // of one position, of six degrees
+  Vec3 where = Vec3::Zero();  // that position [m]
+  bool anywhere() const;      // beyond three standard deviations
+  bool at_one() const;        // beyond what chance does to one position in ten million
+};
+Departures stiffness_departures(const Model& model, const Workspace& workspace);
+
+}  // namespace hapsim
