@@ -42,7 +42,11 @@ ToolSpec specification() {
       "where it is bent. The surface is cut along the seams of the patches and moved onto them. "
       "The summary says whether that brought the points nearer.",
       "Method auto takes poisson when more than half of the plan view was seen from below, or when "
-      "steep points reach the lowest level in more than 70 % of the directions; else height. Where "
+      "sloping points reach the lowest level in more than 70 % of the directions, unless fewer "
+      "than "
+      "2 % of the points are steeper than 78 degrees and --base or --base-depth puts the bottom "
+      "more "
+      "than two spacings below the lowest; else height. Where "
       "poisson fails, or leaves a tenth of the points farther off than a quarter of their spacing "
       "and three times their scatter, "
       "the others are tried and the nearest is taken. The summary and the comments of the PLY name "
@@ -143,8 +147,8 @@ ToolSpec specification() {
          "noise 0.2 mm, 1 % outliers, 1.5 mm apart: all but height 0.084 to 0.090 (0.4 to "
          "1.1)"},
         {"organ-top",
-         "its upper side alone: height 0.095 (1.0); auto takes poisson, 0.145 (1.0); "
-         "advancing-front fails"},
+         "its upper side alone over a bottom 10 mm below: height, which auto takes, 0.095 (1.0); "
+         "poisson 0.145 (1.0); advancing-front fails"},
         {"touched",
          "organ in four zones shifted by 0.5 mm, 2.1 mm apart: all but height 0.35 (1.0)"},
         {"hare",

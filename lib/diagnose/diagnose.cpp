@@ -327,7 +327,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
               : structure || local ? ModelVerdict::kUnexplained
                                    : ModelVerdict::kComplete;
   d.explanation = describe_verdict(d, structure && !ambiguous);
-  if (local && !structure && !ambiguous)
+  if (local && d.verdict == ModelVerdict::kUnexplained && !structure)
     d.explanation = fmt::format(
         "the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
         "position "

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Begins every entry; a new layout or a new meshing gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '4'};
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '6'};
 
 struct Head {
   char magic[8];
@@ -84,7 +84,8 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
     s.dK_dfeature.emplace_back(values);
     for (auto& k : s.dK_dfeature.back()) read(k.data(), sizeof k);
   }
-  if (!file) return std::nullopt;
+  // An entry of another length was written with another layout.
+  if (!file || file.peek() != std::ifstream::traits_type::eof()) return std::nullopt;
   return s;
 }
 

@@ -170,7 +170,7 @@ ClassedSurface coarsen_surface(const ClassedSurface& surface, const EdgeLength& 
                                const CoarsenOptions& options) {
   const double inside = signed_volume(surface.surface);
   double scale = 1;
-  for (int attempt = 0; attempt < 4; ++attempt, scale /= 2) {
+  for (int attempt = 0; attempt < 6; ++attempt, scale *= 0.7) {
     Mesh mesh = make_mesh(surface.surface);
     Outline outline = mesh.add_property_map<Mesh::Edge_index, bool>("e:outline", false).first;
     FaceClass face_class = mesh.add_property_map<Mesh::Face_index, std::uint8_t>("f:class").first;
@@ -184,7 +184,8 @@ ClassedSurface coarsen_surface(const ClassedSurface& surface, const EdgeLength& 
         mesh, outline, [&](const Vec3& p) { return scale * edge(p); }, options);
     if (CGAL::Polygon_mesh_processing::does_self_intersect<CGAL::Sequential_tag>(mesh)) continue;
     ClassedSurface result = surface_of(mesh, face_class);
-    if (std::abs(signed_volume(result.surface) - inside) <= 0.005 * inside) return result;
+    if (std::abs(signed_volume(result.surface) - inside) <= options.volume_tolerance * inside)
+      return result;
   }
   return surface;
 }

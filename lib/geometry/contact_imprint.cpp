@@ -107,24 +107,24 @@ std::vector<Triangle> triangulate(const PlanPoints& plan) {
 
 }  // namespace
 
-Imprint imprint_disc(const ContactBase& base, const ContactFrame& frame,
+Imprint imprint_disc(const ClassedSurface& coarse, const ContactFrame& frame,
                      const ContactRegion& region, const HeightMap& heights, double radius,
                      const Grading& grading) {
   Imprint result;
   const PlanPoints plan = plan_points(region, radius, grading);
-  std::vector<int> number(base.surface.vertices.size(), -1);
+  std::vector<int> number(coarse.surface.vertices.size(), -1);
   const auto vertex = [&](int old) {
     if (number[old] < 0) {
       number[old] = static_cast<int>(result.surface.vertices.size());
-      result.surface.vertices.push_back(base.surface.vertices[old]);
+      result.surface.vertices.push_back(coarse.surface.vertices[old]);
     }
     return number[old];
   };
-  for (std::size_t f = 0; f < base.surface.faces.size(); ++f) {
+  for (std::size_t f = 0; f < coarse.surface.faces.size(); ++f) {
     if (region.inside[f]) continue;
-    const Triangle& t = base.surface.faces[f];
+    const Triangle& t = coarse.surface.faces[f];
     result.surface.faces.push_back({vertex(t[0]), vertex(t[1]), vertex(t[2])});
-    result.marker.push_back(base.fixed_face[f] ? kBonded : kOther);
+    result.marker.push_back(coarse.face_class[f] ? kBonded : kOther);
   }
   std::vector<int> patch_vertex;
   for (std::size_t i = 0; i < plan.points.size(); ++i) {

@@ -109,16 +109,17 @@ ContactMesh finish(const TetgenResult& result, const ContactFrame& frame) {
 ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, double radius,
                               double rim_edge, double growth) {
   check_reach(base, contact, radius);
+  const ClassedSurface coarse = surface_about(base, contact, growth);
   std::string last = "the disc does not fit on the surface";
   for (const Trial& trial : kTrials) {
     const ContactFrame frame = contact_frame(base.fine, contact, trial.spread * radius);
-    const auto region = contact_region(base, frame, trial.reach * radius, trial.tilt_deg,
+    const auto region = contact_region(coarse, frame, trial.reach * radius, trial.tilt_deg,
                                        radius + std::max(0.18 * radius, 0.7 * rim_edge));
     if (!region) continue;
-    const HeightMap heights(base, frame, *region);
+    const HeightMap heights(base.fine, coarse.surface, frame, *region);
     const Grading grading =
         rim_grading(rim_edge, growth, 100 * radius, std::max(mean_edge(*region), rim_edge));
-    Imprint imprint = imprint_disc(base, frame, *region, heights, radius, grading);
+    Imprint imprint = imprint_disc(coarse, frame, *region, heights, radius, grading);
     TetgenInput input;
     input.seeds = rim_seeds(imprint.surface, frame, heights, radius, grading, kSeedDepth * radius);
     input.surface = std::move(imprint.surface);

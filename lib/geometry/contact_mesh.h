@@ -16,7 +16,7 @@ struct ContactBase {
 // From the body's own boundary: edge collapse (Lindstrom-Turk) to about `edge` [m] (0: a ninth of
 // the cube root of three times the volume), finer where the surface bends, never moving the outline
 // of the bonded part except where it runs straight; longer edges are split. The volume stays within
-// 0.5 %.
+// 0.25 %.
 ContactBase make_contact_base(const TetMesh& body, double edge = 0);
 
 struct ContactMesh {
@@ -29,7 +29,9 @@ struct ContactMesh {
 
 // Imprints the disc of `radius` (a regular polygon of its area) about the surface point nearest to
 // `contact` into the surface, with rim edges of length `rim_edge`, grades the surface and the
-// volume away from the rim (element size = rim_edge + growth * distance) and meshes the inside.
+// volume away from the rim (element size = rim_edge + growth * distance), coarsens the base far
+// from it (edges up to growth * distance, 0.4 at most; another 0.25 % of the volume) and meshes the
+// inside: with radius / 6 about 3,000 elements on a smooth body, 6,000 on one as rough as 1 %.
 // The middles of the edges that end at the rim lie at their quarter points. Same input, same bytes;
 // thread-safe. Error(kBadInput) when the contact lies farther than 3 radii (at least 10 mm) from
 // the surface or the patch meets the bonded part.

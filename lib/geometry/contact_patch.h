@@ -5,9 +5,15 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/coarsen.h"
 #include "geometry/contact_mesh.h"
 
 namespace hapsim {
+
+// The base as one contact needs it: what the tool's force feels of a place falls with its distance,
+// so edges may grow with that, to the lesser of `growth` and 0.4 of it. Near the contact nothing
+// changes.
+ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double growth);
 
 // Frame of the contact: origin on the surface, third axis the outward normal of the patch.
 struct ContactFrame {
@@ -22,8 +28,8 @@ ContactFrame contact_frame(const Surface& fine, const Vec3& contact, double spre
 
 // The connected faces of the coarse surface about the frame's origin that look up, in plan.
 struct ContactRegion {
-  std::vector<std::uint8_t> inside;  // one a face of base.surface
-  std::vector<int> loop;             // its boundary, counter-clockwise: vertices of base.surface
+  std::vector<std::uint8_t> inside;  // one a face of the coarse surface
+  std::vector<int> loop;             // its boundary, counter-clockwise: vertices of that surface
   std::vector<Vec3> outline;         // the same in the frame
   bool contains(double u, double v, double clearance) const;  // in plan
 };
@@ -31,14 +37,15 @@ struct ContactRegion {
 // Faces that come within `reach` of the origin and are tilted against the normal by less than
 // `tilt_deg`, never bonded ones. Nothing when they do not form one simple disc with `clear` around
 // the origin free of its boundary.
-std::optional<ContactRegion> contact_region(const ContactBase& base, const ContactFrame& frame,
+std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const ContactFrame& frame,
                                             double reach, double tilt_deg, double clear);
 
 // Heights of a surface over the tangent plane, of the sheet that contains the origin.
 class HeightMap {
  public:
   // Fine surface where it can be had, else the faces of the coarse region.
-  HeightMap(const ContactBase& base, const ContactFrame& frame, const ContactRegion& region);
+  HeightMap(const Surface& fine, const Surface& coarse, const ContactFrame& frame,
+            const ContactRegion& region);
   double at(double u, double v) const;
 
  private:
@@ -63,7 +70,7 @@ struct Imprint {
   Surface surface;
   std::vector<int> marker;  // one a face
 };
-Imprint imprint_disc(const ContactBase& base, const ContactFrame& frame,
+Imprint imprint_disc(const ClassedSurface& coarse, const ContactFrame& frame,
                      const ContactRegion& region, const HeightMap& heights, double radius,
                      const Grading& grading);
 

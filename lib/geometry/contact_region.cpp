@@ -137,15 +137,15 @@ bool ContactRegion::contains(double u, double v, double clearance) const {
   return inside_polygon(outline, {u, v}) && distance_to_polygon(outline, {u, v}) >= clearance;
 }
 
-std::optional<ContactRegion> contact_region(const ContactBase& base, const ContactFrame& frame,
+std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const ContactFrame& frame,
                                             double reach, double tilt_deg, double clear) {
-  const Surface& surface = base.surface;
+  const Surface& surface = coarse.surface;
   std::vector<Vec3> local;
   for (const Vec3& p : surface.vertices) local.push_back(frame.to_local(p));
   const double least_cosine = std::cos(tilt_deg * kPi / 180);
   const auto looks_up = [&](int f) {
     const Vec3 n = face_normal(surface, f);
-    return !base.fixed_face[f] && n.dot(frame.normal) > least_cosine * n.norm();
+    return !coarse.face_class[f] && n.dot(frame.normal) > least_cosine * n.norm();
   };
   const auto distance = [&](int f, bool in_plan) {
     Vec3 a = local[surface.faces[f][0]], b = local[surface.faces[f][1]],
@@ -203,7 +203,7 @@ std::optional<ContactRegion> contact_region(const ContactBase& base, const Conta
   return region;
 }
 
-HeightMap::HeightMap(const ContactBase& base, const ContactFrame& frame,
+HeightMap::HeightMap(const Surface& fine, const Surface& coarse, const ContactFrame& frame,
                      const ContactRegion& region) {
   double low_u = 0, high_u = 0, low_v = 0, high_v = 0;
   for (const Vec3& p : region.outline) {
@@ -217,10 +217,10 @@ HeightMap::HeightMap(const ContactBase& base, const ContactFrame& frame,
     return Facet{frame.to_local(surface.vertices[t[0]]), frame.to_local(surface.vertices[t[1]]),
                  frame.to_local(surface.vertices[t[2]])};
   };
-  for (std::size_t f = 0; f < base.surface.faces.size(); ++f)
-    if (region.inside[f]) coarse_.push_back(facet(base.surface, f));
-  for (std::size_t f = 0; f < base.fine.faces.size(); ++f) {
-    const Facet t = facet(base.fine, f);
+  for (std::size_t f = 0; f < coarse.faces.size(); ++f)
+    if (region.inside[f]) coarse_.push_back(facet(coarse, f));
+  for (std::size_t f = 0; f < fine.faces.size(); ++f) {
+    const Facet t = facet(fine, f);
     if (std::max({t.a.x(), t.b.x(), t.c.x()}) < low_u ||
         std::min({t.a.x(), t.b.x(), t.c.x()}) > high_u ||
         std::max({t.a.y(), t.b.y(), t.c.y()}) < low_v ||

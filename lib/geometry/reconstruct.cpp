@@ -22,6 +22,7 @@ namespace hapsim {
 namespace {
 
 constexpr double kSeenBelow = 0.5;   // share of the plan view: a scan from all round
+constexpr double kFewSteep = 0.02;   // share of the points: a scan of the upper side alone
 constexpr double kRest = 0.05;       // share of the height cut off such a body so that it can stand
 constexpr double kFarOff = 0.25;     // of the spacing: others are tried when points lie farther off
 constexpr double kNoises = 3;        // ... unless that is the scan's own thickness
@@ -99,6 +100,10 @@ void choose_method(const ScanView& view, const ReconstructOptions& options,
                    ReconstructReport& report) {
   const bool all_round = view.under_cover > kSeenBelow;
   const bool has_sides = view.ring_cover >= 0.7;
+  // Of the walls between the lowest points and a bottom clearly below them nothing was seen: what
+  // was is a height over the plan view.
+  const double unseen = options.base ? view.low - *options.base : options.base_depth.value_or(0);
+  const bool upper_side = view.steep_share < kFewSteep && unseen > 2 * view.spacing;
   report.has_base = !(all_round && options.no_base);
   if (options.method != ReconstructMethod::kAuto) {
     report.method = options.method;
@@ -107,6 +112,11 @@ void choose_method(const ScanView& view, const ReconstructOptions& options,
   } else if (all_round) {
     report.method = ReconstructMethod::kPoisson;
     report.why = percent(view.under_cover) + " of the plan view was seen from below too";
+  } else if (has_sides && upper_side) {
+    report.method = ReconstructMethod::kHeight;
+    report.why = fmt::format(
+        "{:.2g} % of the points are steep, and the bottom lies {:.2g} m below the lowest",
+        100 * view.steep_share, unseen);
   } else if (has_sides) {
     report.method = ReconstructMethod::kPoisson;
     report.why = "side walls reach down in " + percent(view.ring_cover) + " of the directions";

@@ -62,7 +62,8 @@ struct ReconstructReport {
 //   (so that the walls run down to it and overhang may be), cut flat there; for points all round,
 //   cut flat just above the lowest, as a support; then remeshed evenly, fitted to the points, sharp
 //   edges restored. raw_surface.h and poisson.h have what each does.
-// Auto takes height or poisson by what was seen, and the best of the others where poisson fails or
+// Auto takes height or poisson by what was seen (height where hardly a point is steep and the
+// bottom is given clearly below the points), and the best of the others where poisson fails or
 // leaves the points far off.
 // Error(kBadInput) for points that give no surface, Error(kNoConvergence) with the place when the
 // result fails its check.

@@ -18,6 +18,7 @@ struct ScanView {
   double area = 0;         // of what was scanned, estimated [m^2]
   double under_cover = 0;  // share of the plan view that was seen from below too
   double ring_cover = 0;   // share of directions in which points reach down to the lowest band
+  double steep_share = 0;  // share of points on upright walls or under overhangs
 };
 ScanView view_scan(const PointCloud& cloud);
 

@@ -42,11 +42,13 @@ ScanView view_scan(const PointCloud& cloud) {
     const std::array<long, 2> at{std::lround(p.x() / cell), std::lround(p.y() / cell)};
     if (cloud.normals[i].z() > 0.2) above.insert(at);
     if (cloud.normals[i].z() < -0.6) below.insert(at);
+    if (cloud.normals[i].z() < 0.2) view.steep_share += 1;
     if (p.z() < band && cloud.normals[i].z() < 0.6) {
       const double turn = std::atan2(p.y() - centre.y(), p.x() - centre.x()) / (2 * M_PI) + 0.5;
       reached[std::min(kDirections - 1, static_cast<int>(turn * kDirections))] = true;
     }
   }
+  view.steep_share /= static_cast<double>(cloud.points.size());
   view.area = view.spacing * view.spacing * static_cast<double>(cloud.points.size());
   double both = 0;
   for (const auto& at : above) both += below.count(at) > 0 ? 1 : 0;

@@ -259,6 +259,28 @@ TEST(Reconstruct, TouchedPatchBecomesABlockWithASmoothTop) {
   EXPECT_EQ(low, report.base);
 }
 
+// The upper part of a ball over a bottom far below: slopes all round, yet a height field.
+TEST(Reconstruct, UpperSideOverADeepBottomIsAHeightField) {
+  const PointCloud cloud = cut_ball(0.04, 0, 0.015, 2000, 1e-4, 2);
+  ReconstructOptions options;
+  options.base_depth = 0.015;
+  ReconstructReport report;
+  const Surface s = sound(cloud, options, report);
+  EXPECT_EQ(method_name(report.method), "height");
+  double sum = 0;
+  int count = 0;
+  for (const Vec3& p : s.vertices) {
+    if (p.z() < 0.02) continue;
+    sum += std::pow(p.norm() - 0.04, 2);
+    ++count;
+  }
+  ASSERT_GT(count, 100);
+  EXPECT_LT(std::sqrt(sum / count), 1.5e-4);
+  // Without that bottom the slopes are walls that reach down to it.
+  sound(cloud, {}, report);
+  EXPECT_EQ(method_name(report.method), "poisson");
+}
+
 TEST(Reconstruct, APatchSeenSidewaysStandsOnItsOwnBack) {
   PointCloud cloud = touched_patch(600, 2e-4, 5);
   for (Vec3& p : cloud.points) p = Vec3(p.z(), p.y(), -p.x());  // up becomes x
