@@ -7,13 +7,17 @@
 #include "diagnose/offset_test.h"
 #include "diagnose/probability.h"
 #include "effects/catalogue.h"
+#include "model/move_limits.h"
 #include "model/press_offsets.h"
 
 namespace hapsim {
 namespace {
 
+// Regions are solved for where that takes seconds; with more positions they are first order.
+constexpr std::size_t kMostSolvedPositions = 60;
+
 FitOptions fit_options(const Workspace& w, int rounds = 5) {
-  FitOptions options{w.noise.value, w.floor, false};
+  FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
   options.settled = 1e-3;
   return options;
@@ -47,7 +51,7 @@ HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
   const auto builder = [&](const Selection& training) -> std::vector<Model> {
     Model model = plain;
     for (const std::string& name : rebuilt) {
-      model = fit(model, w.dataset, training, *w.body, fit_options(w)).model;
+      model = fit(model, w.dataset, training, *w.body, fit_options(w, 0)).model;
       model = with_effect(model, name, w.dataset, training, *w.body, extend_options(w)).front();
     }
     return {model};
@@ -185,7 +189,8 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   }
   // Few finite-element solutions, and none for effects that need none of their own; refine() goes
   // on where that is promising.
-  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, card.solved ? 2 : 0));
+  candidate.fitted = fit_best(starts, w.dataset, all, *w.body,
+                              fit_options(w, card.solved || card.from_locations ? 2 : 0));
   return candidate;
 }
 

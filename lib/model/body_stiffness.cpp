@@ -145,7 +145,6 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
     for (auto& [column, dK] : s.by_column) dK = (R * dK * R.transpose()).eval();
     return s;
   }
-  const std::size_t regions = material.modulus.size();
   if (material.local && !material.features.empty()) {
     // The contact's own modulus, as if all of the body had it.
     const auto region = static_cast<std::size_t>(region_at(material, positions_[position]));
@@ -160,6 +159,7 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
   if (has_regions(material) || !material.features.empty()) {
     ReferencePointer reference = reference_for(material);
     if (!reference && !material.features.empty()) {
+      if (has_regions(material)) return by_shares(position, material);
       solve(material);
       reference = reference_for(material);
     }
@@ -167,27 +167,35 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
       return extrapolated(reference->solutions[position], contacts_[position].stiffness,
                           reference->material, material);
   }
+  if (has_regions(material)) return by_shares(position, material);
+  const auto region =
+      material.local ? static_cast<std::size_t>(region_at(material, positions_[position])) : 0;
   PositionStiffness result;
   Eigen::Matrix3d unit, by_nu;
   contacts_[position].stiffness.evaluate(material.nu, unit, by_nu);
-  double modulus = material.modulus[0];
-  std::vector<double> share(regions, 0.0);
-  share[0] = 1;
-  if (material.local) {
-    const auto region = static_cast<std::size_t>(region_at(material, positions_[position]));
-    share[0] = 0;
-    share[region] = 1;
-    modulus = material.modulus[region];
-  } else if (has_regions(material)) {
-    share = shares(material)[position];
-    double log_modulus = 0;
-    for (std::size_t g = 0; g < regions; ++g)
-      log_modulus += share[g] * std::log(material.modulus[g]);
-    modulus = std::exp(log_modulus);
-  }
+  const double modulus = material.modulus[region];
   result.K = modulus * unit;
   add_column(result, material.nu_column, modulus * by_nu);
-  for (std::size_t g = 0; g < regions; ++g)
+  add_column(result, material.modulus_column[region], unit);
+  return result;
+}
+
+PositionStiffness BodyStiffness::by_shares(std::size_t position,
+                                           const MaterialSpec& material) const {
+  MaterialSpec plain = material;
+  plain.key_point.clear();
+  plain.key_region.clear();
+  plain.modulus = {1.0};
+  plain.modulus_column = {-1};
+  PositionStiffness result = at(position, plain);
+  const std::vector<double>& share = shares(material)[position];
+  double log_modulus = 0;
+  for (std::size_t g = 0; g < share.size(); ++g)
+    log_modulus += share[g] * std::log(material.modulus[g]);
+  const double modulus = std::exp(log_modulus);
+  result.K *= modulus;
+  for (auto& [column, dK] : result.by_column) dK *= modulus;
+  for (std::size_t g = 0; g < share.size(); ++g)
     add_column(result, material.modulus_column[g], share[g] / material.modulus[g] * result.K);
   return result;
 }

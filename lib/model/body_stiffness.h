@@ -30,7 +30,7 @@ class BodyStiffness {
 
   // A homogeneous material is exact. Any other is linear about the last solve() of a material of
   // the same layout (key points and kinds of features), exact at each material that was solved.
-  // Regions without a solution: the homogeneous stiffness times the geometric mean of the moduli,
+  // Regions without a solution: the stiffness without them times the geometric mean of the moduli,
   // weighted by each region's share of the strain energy (first order in the contrast). Features
   // without one are solved here. A body that has moved is prepared anew, once for each move.
   PositionStiffness at(std::size_t position, const MaterialSpec& material) const;
@@ -47,6 +47,7 @@ class BodyStiffness {
  private:
   using Shares = std::vector<std::vector<double>>;  // [position][region], sums to 1
   const Shares& shares(const MaterialSpec& material) const;
+  PositionStiffness by_shares(std::size_t position, const MaterialSpec& material) const;
 
   const ContactLibrary& library_;
   std::vector<Vec3> positions_;
