@@ -168,7 +168,7 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
   return best;
 }
 
-constexpr double kAlike = 1.25;  // errors on unseen positions that differ by less
+constexpr double kAlike = 1.25;  // errors that differ by less
 
 // Rivals that do as well as the best: another effect that passes the gates too and reaches nearly
 // the same fall, unless one of the two includes the other.
@@ -184,10 +184,10 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
         contains(*round.candidates[k].effect, winner.effect))
       continue;
     // Falls saturate where the model erred much: what is left must be alike too.
-    const bool as_good = can_hold_out
-                             ? held_out_fall(f) >= gates.rival_fall * held_out_fall(winner) &&
-                                   f.held_out_after <= kAlike * winner.held_out_after
-                             : f.share >= gates.rival_fall * winner.share;
+    const bool as_good =
+        f.rmse_after <= kAlike * winner.rmse_after &&
+        (can_hold_out ? held_out_fall(f) >= gates.rival_fall * held_out_fall(winner)
+                      : f.share >= gates.rival_fall * winner.share);
     if (as_good || winner.criterion_gain - f.criterion_gain < gates.criterion_gain)
       rivals.push_back(k);
   }

@@ -31,6 +31,7 @@ class Independent : public ::testing::Test {
     Input data(shared_folder() + recording + ".csv");
     WorkspaceOptions options;
     options.cache = ::testing::TempDir() + "hapsim_independent_cache";
+    options.draft = true;  // as hs-diagnose
     Case c{make_workspace(mesh, read_recording(data), options), {}};
     const Selection all = all_episodes(c.workspace.dataset);
     c.elastic = fit(elastic_model(c.workspace.dataset, all, *c.workspace.body), c.workspace.dataset,
