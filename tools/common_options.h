@@ -39,8 +39,8 @@ inline std::vector<Option> workspace_flags() {
       {.flag = "--rim-edge",
        .kind = OptionKind::kNumber,
        .value = "SHARE",
-       .help = "Edge length of the finer contact mesh at the tool's rim, as a share of the radius.",
-       .default_text = "0.125",
+       .help = "Edge length of the finer contact mesh at the tool's rim, as a share of the radius; "
+               "otherwise a sixth.",
        .minimum = 0.02,
        .maximum = 0.5},
       {.flag = "--threads",
@@ -77,7 +77,7 @@ inline WorkspaceOptions workspace_options(const Arguments& arguments,
                                           std::shared_ptr<Progress>& progress) {
   WorkspaceOptions options;
   options.threads = static_cast<int>(arguments.integer("--threads"));
-  options.rim_edge = arguments.number("--rim-edge");
+  if (arguments.given("--rim-edge")) options.rim_edge = arguments.number("--rim-edge");
   if (arguments.given("--noise")) options.noise = arguments.number("--noise");
   if (arguments.given("--floor")) options.floor = arguments.number("--floor");
   options.cache =

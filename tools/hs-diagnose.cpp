@@ -23,10 +23,13 @@ ToolSpec specification() {
       "information criterion of true refits. An effect is called missing when the criterion gains "
       "more than 10, the error on contact positions left out of the fit falls by at least 2 %, the "
       "chance of a false alarm (signs of whole presses flipped, all effects tried counted) is "
-      "below "
-      "5 %, and it takes away at least 15 % of the squared misfit beyond noise. Effects that do "
-      "equally "
-      "well are called indistinguishable. The search goes on, on top of what was found.",
+      "below 5 %, and it takes away at least 15 % of the squared misfit beyond noise. Where few "
+      "presses carry an effect that takes away half of the misfit and a tenth of the error on "
+      "unseen positions, its size may speak for it instead of the presses' signs. Effects that do "
+      "equally well are called indistinguishable. The search goes on, on top of what was found.",
+      "Layers, inclusions, anisotropy, supports and regions are solved by finite elements on the "
+      "coarser of a position's two meshes (right to 2 %), and only where some position asks for "
+      "another stiffness than the model's; hs-identify takes the finer one.",
       "Force noise and a gain error by position for mesh and scanned shape (--floor) are taken "
       "into account, so a model is not blamed for them.",
       "A common gain of the force sensor cannot be told from Young's modulus by any recording: "

@@ -17,6 +17,7 @@ using Change =
     std::function<void(const Episode&, double strength, Random&, Eigen::Ref<Eigen::VectorXd>)>;
 
 Eigen::VectorXd forces_of(const Workspace& w, const Model& model) {
+  w.body->solve(material_of(model));  // exact, not linear about an earlier strength
   return model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false).f;
 }
 
@@ -83,6 +84,13 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s, std::min(1.0, 5 * s)};
   }));
   t.push_back(own_form("tip", "tip", 250, [](double s) { return std::vector<double>{s}; }));
+  t.push_back(own_form("layer", "layer", 20, [](double s) {
+    return std::vector<double>{2e-3, 1 + s};
+  }));
+  t.push_back(own_form("anisotropic", "anisotropic", 4, [](double s) {
+    return std::vector<double>{1 + s, 1, 1.4, 0.3};
+  }));
+  t.push_back(own_form("base", "base", 1, [](double s) { return std::vector<double>{s, 0.5, 0}; }));
   t.push_back(own_form("temperature", "temperature", 0.5, [](double s) {
     return std::vector<double>{s, 25};
   }));

@@ -53,11 +53,12 @@ std::string describe_evidence(const Candidate& candidate, const Measured& measur
                         *std::max_element(material.modulus.begin(), material.modulus.end()));
     return text;
   }
+  const ParameterCard& first = card.parameters.front();
+  const ParameterState shown = first.fixed ? ParameterState::kFixed : ParameterState::kFree;
   int named = 0;
   for (const Parameter& p : candidate.fitted.model.parameters)
-    if (p.effect == card.name && p.state == ParameterState::kFree && named++ < 6)
+    if (p.effect == card.name && p.state == shown && named++ < 6)
       text += fmt::format("; {} = {}", p.name, with_error(p.value, p.std_error, p.unit));
-  const ParameterCard& first = card.parameters.front();
   if (!first.fixed && measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
     text += fmt::format("; would show from {} = {}", first.name,
                         with_error(measured.smallest_seen, std::nan(""), first.unit));

@@ -1,9 +1,9 @@
 #include "model/body_stiffness.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "model/extrapolate.h"
 #include "model/nearest_region.h"
 
 namespace hapsim {
@@ -44,65 +44,6 @@ bool same(const MaterialSpec& a, const MaterialSpec& b) {
   for (std::size_t f = 0; f < a.features.size(); ++f)
     equal = equal && a.features[f].feature.value == b.features[f].feature.value;
   return equal;
-}
-
-void add_column(PositionStiffness& s, int column, const Eigen::Matrix3d& dK) {
-  if (column >= 0) s.by_column.emplace_back(column, dK);
-}
-
-// How a stiffness follows Poisson's ratio as the homogeneous body does: K -> A K A', A = L(nu)
-// L(reference)^-1 with L the Cholesky factor of the homogeneous stiffness; A is 1 at the reference.
-struct PoissonMap {
-  Eigen::Matrix3d A, A_by_nu;
-  PoissonMap(const UnitStiffness& homogeneous, double reference, double nu) {
-    Eigen::Matrix3d K, by_nu;
-    homogeneous.evaluate(reference, K, by_nu);
-    const Eigen::Matrix3d L_ref = K.llt().matrixL();
-    homogeneous.evaluate(nu, K, by_nu);
-    const Eigen::Matrix3d L = K.llt().matrixL(), inverse = L.inverse();
-    // Derivative of a Cholesky factor: L' = L P, P the lower half of L^-1 K' L^-T.
-    Eigen::Matrix3d P = inverse * by_nu * inverse.transpose();
-    P.diagonal() /= 2;
-    P = P.triangularView<Eigen::Lower>().toDenseMatrix().eval();
-    A = L * L_ref.inverse();
-    A_by_nu = L * P * L_ref.inverse();
-  }
-  Eigen::Matrix3d operator()(const Eigen::Matrix3d& K) const { return A * K * A.transpose(); }
-  Eigen::Matrix3d by_nu(const Eigen::Matrix3d& K) const {
-    const Eigen::Matrix3d half = A_by_nu * K * A.transpose();
-    return half + half.transpose();
-  }
-};
-
-// About the reference: linear in the features' values and in the ratios of the moduli, exact in a
-// common factor of the moduli; Poisson's ratio acts as on the homogeneous body, put right to first
-// order.
-PositionStiffness extrapolated(const StiffnessSolution& s, const UnitStiffness& homogeneous,
-                               const MaterialSpec& reference, const MaterialSpec& material) {
-  const double scale = material.modulus[0] / reference.modulus[0];
-  const PoissonMap map(homogeneous, reference.nu, material.nu);
-  const PoissonMap there(homogeneous, reference.nu, reference.nu);
-  const Eigen::Matrix3d left = s.dK_dnu - there.by_nu(s.K);  // what the map lacks
-  const double step = material.nu - reference.nu;
-  Eigen::Matrix3d features = Eigen::Matrix3d::Zero();
-  for (std::size_t f = 0; f < material.features.size(); ++f)
-    for (std::size_t v = 0; v < s.dK_dfeature[f].size(); ++v)
-      features += (material.features[f].feature.value[v] - reference.features[f].feature.value[v]) *
-                  s.dK_dfeature[f][v];
-  Eigen::Matrix3d K = scale * features;
-  PositionStiffness result;
-  for (std::size_t g = 0; g < material.modulus.size(); ++g) {
-    K += material.modulus[g] * s.dK_dmodulus[g];
-    Eigen::Matrix3d by_modulus = map(s.dK_dmodulus[g]);
-    if (g == 0) by_modulus += (map(features) + step * left) / reference.modulus[0];
-    add_column(result, material.modulus_column[g], by_modulus);
-  }
-  result.K = map(K) + scale * step * left;
-  add_column(result, material.nu_column, map.by_nu(K) + scale * left);
-  for (std::size_t f = 0; f < material.features.size(); ++f)
-    for (std::size_t v = 0; v < s.dK_dfeature[f].size(); ++v)
-      add_column(result, material.features[f].column[v], scale * map(s.dK_dfeature[f][v]));
-  return result;
 }
 
 }  // namespace
@@ -175,8 +116,8 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
   contacts_[position].stiffness.evaluate(material.nu, unit, by_nu);
   const double modulus = material.modulus[region];
   result.K = modulus * unit;
-  add_column(result, material.nu_column, modulus * by_nu);
-  add_column(result, material.modulus_column[region], unit);
+  result.add(material.nu_column, modulus * by_nu);
+  result.add(material.modulus_column[region], unit);
   return result;
 }
 
@@ -196,7 +137,7 @@ PositionStiffness BodyStiffness::by_shares(std::size_t position,
   result.K *= modulus;
   for (auto& [column, dK] : result.by_column) dK *= modulus;
   for (std::size_t g = 0; g < share.size(); ++g)
-    add_column(result, material.modulus_column[g], share[g] / material.modulus[g] * result.K);
+    result.add(material.modulus_column[g], share[g] / material.modulus[g] * result.K);
   return result;
 }
 

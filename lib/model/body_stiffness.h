@@ -6,21 +6,14 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "effects/effect.h"
 #include "fem/contact_library.h"
+#include "model/extrapolate.h"
 #include "model/registration.h"
 
 namespace hapsim {
-
-// K [N/m]; the body's force on the tool is -K u. The derivative by each free parameter of the
-// material, by its column.
-struct PositionStiffness {
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
-  std::vector<std::pair<int, Eigen::Matrix3d>> by_column;
-};
 
 class BodyStiffness {
  public:

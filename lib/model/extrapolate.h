@@ -1,0 +1,28 @@
+// A contact stiffness for a material near one that was solved.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "effects/effect.h"
+#include "fem/contact_library.h"
+
+namespace hapsim {
+
+// K [N/m]; the body's force on the tool is -K u. The derivative by each free parameter of the
+// material, by its column.
+struct PositionStiffness {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
+  std::vector<std::pair<int, Eigen::Matrix3d>> by_column;
+  void add(int column, const Eigen::Matrix3d& dK) {  // nothing where the parameter is not free
+    if (column >= 0) by_column.emplace_back(column, dK);
+  }
+};
+
+// About the reference: linear in the features' values and in the ratios of the moduli, exact in a
+// common factor of the moduli; Poisson's ratio acts as on the homogeneous body, put right to first
+// order.
+PositionStiffness extrapolated(const StiffnessSolution& solution, const UnitStiffness& homogeneous,
+                               const MaterialSpec& reference, const MaterialSpec& material);
+
+}  // namespace hapsim
