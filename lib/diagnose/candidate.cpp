@@ -190,7 +190,7 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   // Few finite-element solutions, and none for effects that need none of their own; refine() goes
   // on where that is promising.
   candidate.fitted = fit_best(starts, w.dataset, all, *w.body,
-                              fit_options(w, card.solved || card.from_locations ? 2 : 0));
+                              fit_options(w, card.solved || card.from_locations ? 3 : 0));
   return candidate;
 }
 

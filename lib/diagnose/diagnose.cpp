@@ -77,7 +77,7 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
 
 // Worth refining: candidates whose first fit errs by less than this factor over the best one's, and
 // by less than the baseline.
-constexpr double kPromising = 1.5, kBetter = 0.99;
+constexpr double kPromising = 2.5, kBetter = 0.99;
 
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {

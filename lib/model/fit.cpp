@@ -133,13 +133,20 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   } else {
     // The finite elements are solved again about each fit; a fit that their solution does not
     // confirm is taken back and tried again closer by (a trust region).
+    // After each solution, what needs none is fitted anew: a modulus too large or too small for a
+    // new body must not hide that the body has become better.
     const auto true_sum = [&] {
-      body.solve(material_of(result.model));
+      const MaterialSpec material = material_of(result.model);
+      body.solve(material);
       trial = result.model;
-      Eigen::VectorXd x, r;
-      x.resize(static_cast<Eigen::Index>(result.model.free_parameters().size()));
-      for (Eigen::Index c = 0; c < x.size(); ++c)
-        x[c] = result.model.parameters[result.model.free_parameters()[c]].value;
+      const std::vector<Unknown> open = unknowns(result.model);
+      if (material.modulus.size() == 1) {
+        const LeastSquaresResult rest = minimise(within_reach(open, result.model, 0), residuals);
+        set_values(result.model, rest.x);
+        return rest.sum_of_squares;
+      }
+      Eigen::VectorXd x(static_cast<Eigen::Index>(open.size())), r;
+      for (std::size_t c = 0; c < open.size(); ++c) x[static_cast<Eigen::Index>(c)] = open[c].value;
       residuals(x, r, nullptr);
       return r.squaredNorm();
     };
