@@ -28,7 +28,7 @@ ToolSpec specification() {
       "unseen positions, its size may speak for it instead of the presses' signs. Effects that do "
       "equally well are called indistinguishable. The search goes on, on top of what was found.",
       "Layers, inclusions, anisotropy, supports and regions are solved by finite elements on the "
-      "coarser of a position's two meshes (right to 2 %), and only where some position asks for "
+      "coarser of a position's two meshes, and only where some position asks for "
       "another stiffness than the model's; hs-identify takes the finer one.",
       "Force noise and a gain error by position for mesh and scanned shape (--floor) are taken "
       "into account, so a model is not blamed for them.",

@@ -7,7 +7,6 @@
 #include "diagnose/offset_test.h"
 #include "diagnose/probability.h"
 #include "effects/catalogue.h"
-#include "model/move_limits.h"
 #include "model/press_offsets.h"
 
 namespace hapsim {

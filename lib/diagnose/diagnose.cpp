@@ -335,8 +335,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
   if (local && d.verdict == ModelVerdict::kUnexplained && !structure)
     d.explanation = fmt::format(
         "the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
-        "position "
-        "confirms: press around it, a few millimetres apart.",
+        "position confirms: press around it, a few millimetres apart.",
         1e3 * departures.where.x(), 1e3 * departures.where.y(), 1e3 * departures.where.z());
   if (few_presses && d.verdict == ModelVerdict::kUnexplained)
     d.explanation = fmt::format(

@@ -81,7 +81,7 @@ class ContactBodies {
   // The same on the coarser mesh, at a third of the cost: what inhomogeneity does is smooth, and
   // the rim's error is that of the homogeneous body, K = S K_coarse S' with S the map that takes
   // the coarse homogeneous stiffness to the fine one, both at the material's Poisson's ratio. Errs
-  // by up to 2 % where moduli differ by a factor of three.
+  // by up to 2 % where two regions differ by a factor of three.
   StiffnessSolution solve_corrected(const Material& material, const UnitPair& fine,
                                     const UnitPair& coarse);
   void forget_systems();  // that the last two keep

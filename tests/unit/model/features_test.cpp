@@ -7,6 +7,7 @@
 #include "model/fit.h"
 #include "model/move_limits.h"
 #include "model/registration.h"
+#include "support/model_derivatives.h"
 #include "support/objects.h"
 #include "support/synthetic.h"
 
@@ -27,20 +28,7 @@ TEST_F(FeaturedModel, DerivativesAboutTheSolutionAreDifferences) {
                                  "viscoelastic", {6e3, 0.4});
   w().body->solve(material_of(model));
   const Selection selection{0, 2, 7, 8};
-  const Signal signal = model_forces(model, w().dataset, selection, *w().body, true);
-  const std::vector<int> free = model.free_parameters();
-  for (std::size_t c = 0; c < free.size(); ++c) {
-    const double value = model.parameters[free[c]].value, step = 1e-5 * std::abs(value);
-    const auto forces = [&](double change) {
-      Model other = model;
-      other.parameters[free[c]].value += change;
-      return model_forces(other, w().dataset, selection, *w().body, false).f;
-    };
-    const Eigen::VectorXd difference = (forces(step) - forces(-step)) / (2 * step);
-    EXPECT_LT((signal.df.col(static_cast<Eigen::Index>(c)) - difference).norm(),
-              1e-5 * difference.norm() + 1e-12)
-        << model.parameters[free[c]].name;
-  }
+  test::expect_derivatives(w(), model, selection);
 }
 
 // The prediction for another Poisson's ratio and another modulus against the solution there.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "expect_error.h"
+#include "support/model_derivatives.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -27,20 +28,7 @@ TEST_F(Fit, DerivativesOfAWholeModelAreDifferences) {
                  "tip", {100}),
       "sensor-lag", {0.03});
   const Selection selection{0, 1, 2, 7};
-  const Signal signal = model_forces(model, w().dataset, selection, *w().body, true);
-  const std::vector<int> free = model.free_parameters();
-  for (std::size_t c = 0; c < free.size(); ++c) {
-    const double step = 1e-5 * std::max(std::abs(model.parameters[free[c]].value), 1e-2);
-    const auto forces = [&](double change) {
-      Model other = model;
-      other.parameters[free[c]].value += change;
-      return model_forces(other, w().dataset, selection, *w().body, false).f;
-    };
-    const Eigen::VectorXd difference = (forces(step) - forces(-step)) / (2 * step);
-    EXPECT_LT((signal.df.col(static_cast<Eigen::Index>(c)) - difference).norm(),
-              1e-5 * difference.norm() + 1e-12)
-        << model.parameters[free[c]].name;
-  }
+  test::expect_derivatives(w(), model, selection);
 }
 
 TEST_F(Fit, StandardErrorsCoverTheTruthOverManySeeds) {
