@@ -15,7 +15,7 @@ namespace {
 // Regions are solved for where that takes seconds; with more positions they are first order.
 constexpr std::size_t kMostSolvedPositions = 60;
 
-FitOptions fit_options(const Workspace& w, int rounds = 5) {
+FitOptions fit_options(const Workspace& w, int rounds = 10) {
   FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
   options.settled = 1e-3;
@@ -182,19 +182,20 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   candidate.one_more_term = model.has(card.name);
   const std::vector<Model> starts =
       with_effect(model, card.name, w.dataset, all, *w.body, extend_options(w));
+  // What an earlier model made of this effect is no place to look from.
+  if (card.solved) w.body->forget(material_of(starts.front()));
   if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, w)) {
     lack = "nothing in these presses depends on it; record " + card.separated_by;
     return std::nullopt;
   }
-  // Few finite-element solutions, and none for effects that need none of their own; refine() goes
-  // on where that is promising.
-  candidate.fitted = fit_best(starts, w.dataset, all, *w.body,
-                              fit_options(w, card.solved || card.from_locations ? 3 : 0));
+  // Estimates; refine() solves where that is promising.
+  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 0));
   return candidate;
 }
 
 void refine(Candidate& candidate, Workspace& w) {
-  if (candidate.effect->card().solved)
+  const EffectCard& card = candidate.effect->card();
+  if (card.solved || card.from_locations)
     candidate.fitted =
         fit(candidate.fitted.model, w.dataset, all_episodes(w.dataset), *w.body, fit_options(w));
 }

@@ -51,7 +51,7 @@ Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& fo
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
                                     Workspace& workspace, std::string& lack);
-// Fits on where finite elements were solved in a few rounds only.
+// Fits with finite elements solved what was fitted by estimates.
 void refine(Candidate& candidate, Workspace& workspace);
 // Its error on held-out positions, by true refits.
 void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);

@@ -19,6 +19,9 @@ double coordinate_slope(double nu) {
   return -2.0 / 3 / std::pow(coordinate(nu), 2);
 }
 
+// What features do hardly depends on it; estimates are made for soft tissue.
+constexpr double kTypicalPoisson = 0.42;
+
 constexpr std::size_t kMostSystems = 24;  // matrices kept from one material to the next
 
 }  // namespace
@@ -103,46 +106,64 @@ ContentHash ContactLibrary::key_of(const Material& material, const std::string& 
   return hash;
 }
 
-std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>& positions,
-                                                         const std::vector<Task>& tasks,
-                                                         bool keep) const {
-  const std::size_t m = tasks.size();
-  std::vector<StiffnessSolution> results(positions.size() * m);
+void ContactLibrary::in_parallel(std::size_t count,
+                                 const std::function<void(std::size_t)>& task) const {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
   std::mutex failure_mutex;
   const auto work = [&] {
-    for (std::size_t p = next++; p < positions.size(); p = next++) {
+    for (std::size_t p = next++; p < count; p = next++) {
       try {
-        std::shared_ptr<ContactBodies> bodies;
-        for (std::size_t k = 0; k < m; ++k) {
-          ContentHash hash = tasks[k].key;
-          hash.add(positions[p].data(), sizeof(double) * 3);
-          if (auto found = cache_.load(hash.hex())) {
-            results[p * m + k] = *found;
-            continue;
-          }
-          if (!bodies) bodies = bodies_at(positions[p], keep);
-          results[p * m + k] = tasks[k].solve(*bodies, p);
-          cache_.store(hash.hex(), results[p * m + k]);
-        }
-        if (options_.step) options_.step();
+        task(p);
       } catch (...) {
         const std::lock_guard lock(failure_mutex);
         if (!failure) failure = std::current_exception();
-        next = positions.size();
+        next = count;
       }
     }
   };
   const unsigned wanted =
       options_.threads > 0 ? options_.threads : std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::thread> pool;
-  for (unsigned i = 1; i < std::min<std::size_t>(wanted, positions.size()); ++i)
-    pool.emplace_back(work);
+  for (unsigned i = 1; i < std::min<std::size_t>(wanted, count); ++i) pool.emplace_back(work);
   work();
   for (std::thread& thread : pool) thread.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>& positions,
+                                                         const std::vector<Task>& tasks,
+                                                         bool keep) const {
+  const std::size_t m = tasks.size();
+  std::vector<StiffnessSolution> results(positions.size() * m);
+  in_parallel(positions.size(), [&](std::size_t p) {
+    std::shared_ptr<ContactBodies> bodies;
+    for (std::size_t k = 0; k < m; ++k) {
+      ContentHash hash = tasks[k].key;
+      hash.add(positions[p].data(), sizeof(double) * 3);
+      if (auto found = cache_.load(hash.hex())) {
+        results[p * m + k] = *found;
+        continue;
+      }
+      if (!bodies) bodies = bodies_at(positions[p], keep);
+      results[p * m + k] = tasks[k].solve(*bodies, p);
+      cache_.store(hash.hex(), results[p * m + k]);
+    }
+    if (options_.step) options_.step();
+  });
   return results;
+}
+
+std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
+    const std::vector<Vec3>& positions) const {
+  std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());
+  in_parallel(positions.size(), [&](std::size_t p) {
+    // The estimate reads the mesh of these bodies and keeps them.
+    const std::shared_ptr<ContactBodies> bodies = bodies_at(positions[p], true);
+    const std::shared_ptr<const FeatureEstimate> estimate = bodies->estimate(kTypicalPoisson);
+    estimates[p] = {estimate.get(), [bodies, estimate](const FeatureEstimate*) {}};
+  });
+  return estimates;
 }
 
 std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& positions,

@@ -11,6 +11,7 @@
 
 #include "fem/contact_cache.h"
 #include "fem/contact_stiffness.h"
+#include "fem/feature_estimate.h"
 
 namespace hapsim {
 
@@ -63,6 +64,10 @@ class ContactLibrary {
                                        const Material& material,
                                        const std::string& description) const;
 
+  // What features do at each position, to first order.
+  std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
+      const std::vector<Vec3>& positions) const;
+
   const PlanGrid& grid() const { return grid_; }
   const Surface& surface() const { return base_.fine; }  // the body's, as it was given
 
@@ -76,6 +81,7 @@ class ContactLibrary {
   // later materials.
   std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
                                            const std::vector<Task>& tasks, bool keep) const;
+  void in_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
   ContentHash key_of(const Material& material, const std::string& description) const;
   std::shared_ptr<ContactBodies> bodies_at(const Vec3& position, bool keep) const;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fem/elastic_body.h"
+#include "fem/feature_estimate.h"
 #include "fem/featured_body.h"
 
 namespace hapsim {
@@ -165,6 +166,11 @@ FeaturedBody& ContactBodies::featured(int k) {
 void ContactBodies::forget_systems() {
   for (const auto& body : featured_)
     if (body) body->forget_system();
+}
+
+std::unique_ptr<const FeatureEstimate> ContactBodies::estimate(double poisson_ratio) {
+  if (!surface_) surface_ = free_surface(base_);
+  return std::make_unique<const FeatureEstimate>(level(1).contact, *surface_, poisson_ratio);
 }
 
 StiffnessSolution ContactBodies::solve_featured(const Material& material) {

@@ -65,6 +65,7 @@ struct UnitPair {
 // The outer surface without its bonded part, for a skin.
 std::shared_ptr<const SurfaceTree> free_surface(const ContactBase& base);
 
+class FeatureEstimate;
 class FeaturedBody;
 
 // Both meshes of a position, made when first needed, to be solved for several materials.
@@ -85,6 +86,9 @@ class ContactBodies {
   StiffnessSolution solve_corrected(const Material& material, const UnitPair& fine,
                                     const UnitPair& coarse);
   void forget_systems();  // that the last two keep
+  // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh. These
+  // bodies must outlive it.
+  std::unique_ptr<const FeatureEstimate> estimate(double poisson_ratio);
 
  private:
   struct Level;

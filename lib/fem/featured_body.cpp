@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "fem/elasticity.h"
 #include "fem/element_moments.h"
+#include "fem/feature_zone.h"
 #include "fem/inhomogeneity.h"
 #include "fem/support_springs.h"
 #include "fem/unit_law.h"
@@ -34,27 +35,6 @@ const BodyFeature* find_feature(const Material& material, Feature kind) {
   for (const BodyFeature& f : material.features)
     if (f.kind == kind) return &f;
   return nullptr;
-}
-
-bool is_zone(Feature kind) {
-  return kind == Feature::kLayer || kind == Feature::kInclusion;
-}
-
-// A ball: the distance to it. Parameters: centre x, y, z, radius.
-LevelSet ball_level(const Vec3& centre, double radius) {
-  return [centre, radius](const Vec3& p) {
-    const Vec3 d = p - centre;
-    const double r = d.norm();
-    LevelValue level{r - radius, Eigen::VectorXd::Zero(4), std::abs(r - radius)};
-    if (r > 0) level.by_parameters.head<3>() = -d / r;
-    level.by_parameters[3] = -1;
-    return level;
-  };
-}
-
-LevelSet zone_level(const BodyFeature& zone, const std::shared_ptr<const SurfaceTree>& surface) {
-  if (zone.kind == Feature::kLayer) return layer_level(surface, zone.value[0]);
-  return ball_level({zone.value[0], zone.value[1], zone.value[2]}, zone.value[3]);
 }
 
 Eigen::Matrix<double, 30, 3> local_fields(const TetMesh& mesh, std::size_t t,

@@ -98,17 +98,11 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
     return at(position, own);
   }
   if (has_regions(material) || !material.features.empty()) {
-    ReferencePointer reference = reference_for(material);
-    if (!reference && !material.features.empty()) {
-      if (has_regions(material)) return by_shares(position, material);
-      solve(material);
-      reference = reference_for(material);
-    }
-    if (reference)
+    if (const ReferencePointer reference = reference_for(material))
       return extrapolated(reference->solutions[position], contacts_[position].stiffness,
                           reference->material, material);
+    return estimated(position, material);
   }
-  if (has_regions(material)) return by_shares(position, material);
   const auto region =
       material.local ? static_cast<std::size_t>(region_at(material, positions_[position])) : 0;
   PositionStiffness result;
@@ -118,6 +112,24 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
   result.K = modulus * unit;
   result.add(material.nu_column, modulus * by_nu);
   result.add(material.modulus_column[region], unit);
+  return result;
+}
+
+PositionStiffness BodyStiffness::estimated(std::size_t position,
+                                           const MaterialSpec& material) const {
+  MaterialSpec known = material;
+  while (!known.features.empty() && !reference_for(known)) known.features.pop_back();
+  // Regions that nothing was solved for are the last thing to add.
+  if (has_regions(material) && !reference_for(known)) return by_shares(position, material);
+  {
+    const std::lock_guard lock(mutex_);
+    if (estimates_.empty()) estimates_ = library_.estimates(positions_);
+  }
+  PositionStiffness result = at(position, known);
+  for (std::size_t f = known.features.size(); f < material.features.size(); ++f) {
+    const FeatureSpec& feature = material.features[f];
+    result = with_estimate(result, estimates_[position]->at(feature.feature), feature.column);
+  }
   return result;
 }
 
@@ -139,6 +151,17 @@ PositionStiffness BodyStiffness::by_shares(std::size_t position,
   for (std::size_t g = 0; g < share.size(); ++g)
     result.add(material.modulus_column[g], share[g] / material.modulus[g] * result.K);
   return result;
+}
+
+bool BodyStiffness::is_solved(const MaterialSpec& material) const {
+  if (has_moved(material)) return before_move(material).is_solved(in_place(material));
+  return reference_for(material) != nullptr;
+}
+
+void BodyStiffness::forget(const MaterialSpec& material) const {
+  if (has_moved(material)) return before_move(material).forget(in_place(material));
+  const std::lock_guard lock(mutex_);
+  references_.erase(layout(material));
 }
 
 void BodyStiffness::solve(const MaterialSpec& material) const {

@@ -23,13 +23,17 @@ class BodyStiffness {
 
   // A homogeneous material is exact. Any other is linear about the last solve() of a material of
   // the same layout (key points and kinds of features), exact at each material that was solved.
-  // Regions without a solution: the stiffness without them times the geometric mean of the moduli,
-  // weighted by each region's share of the strain energy (first order in the contrast). Features
-  // without one are solved here. A body that has moved is prepared anew, once for each move.
+  // Without a solution it is estimated on top of what is known without its last features, or its
+  // regions: features as FeatureEstimate says, regions by the geometric mean of the moduli weighted
+  // by each region's share of the strain energy (first order in the contrast). A body that has
+  // moved is prepared anew, once for each move.
   PositionStiffness at(std::size_t position, const MaterialSpec& material) const;
 
   // Finite-element solutions for a material that is not homogeneous; nothing to do for one that is.
   void solve(const MaterialSpec& material) const;
+  // Whether a material of this layout was solved, so that at() does not estimate.
+  bool is_solved(const MaterialSpec& material) const;
+  void forget(const MaterialSpec& material) const;  // the solutions of its layout
 
   const std::vector<PreparedContact>& contacts() const { return contacts_; }
   std::vector<Vec3> normals() const;
@@ -41,6 +45,7 @@ class BodyStiffness {
   using Shares = std::vector<std::vector<double>>;  // [position][region], sums to 1
   const Shares& shares(const MaterialSpec& material) const;
   PositionStiffness by_shares(std::size_t position, const MaterialSpec& material) const;
+  PositionStiffness estimated(std::size_t position, const MaterialSpec& material) const;
 
   const ContactLibrary& library_;
   std::vector<Vec3> positions_;
@@ -60,6 +65,7 @@ class BodyStiffness {
   mutable std::map<std::array<double, 6>, std::unique_ptr<BodyStiffness>> moved_;
   mutable std::map<std::string, std::vector<ReferencePointer>> references_;
   mutable std::map<std::string, Shares> shares_;
+  mutable std::vector<std::shared_ptr<const FeatureEstimate>> estimates_;  // when first needed
 };
 
 }  // namespace hapsim

@@ -5,6 +5,13 @@
 namespace hapsim {
 namespace {
 
+// P in the derivative of a Cholesky factor, L' = L P: the lower half of L^-1 K' L^-T.
+Eigen::Matrix3d factor_slope(const Eigen::Matrix3d& inverse, const Eigen::Matrix3d& by) {
+  Eigen::Matrix3d P = inverse * by * inverse.transpose();
+  P.diagonal() /= 2;
+  return P.triangularView<Eigen::Lower>().toDenseMatrix();
+}
+
 // How a stiffness follows Poisson's ratio as the homogeneous body does: K -> A K A', A = L(nu)
 // L(reference)^-1 with L the Cholesky factor of the homogeneous stiffness; A is 1 at the reference.
 struct PoissonMap {
@@ -15,12 +22,8 @@ struct PoissonMap {
     const Eigen::Matrix3d L_ref = K.llt().matrixL();
     homogeneous.evaluate(nu, K, by_nu);
     const Eigen::Matrix3d L = K.llt().matrixL(), inverse = L.inverse();
-    // Derivative of a Cholesky factor: L' = L P, P the lower half of L^-1 K' L^-T.
-    Eigen::Matrix3d P = inverse * by_nu * inverse.transpose();
-    P.diagonal() /= 2;
-    P = P.triangularView<Eigen::Lower>().toDenseMatrix().eval();
     A = L * L_ref.inverse();
-    A_by_nu = L * P * L_ref.inverse();
+    A_by_nu = L * factor_slope(inverse, by_nu) * L_ref.inverse();
   }
   Eigen::Matrix3d operator()(const Eigen::Matrix3d& K) const { return A * K * A.transpose(); }
   Eigen::Matrix3d by_nu(const Eigen::Matrix3d& K) const {
@@ -56,6 +59,21 @@ PositionStiffness extrapolated(const StiffnessSolution& s, const UnitStiffness& 
   for (std::size_t f = 0; f < material.features.size(); ++f)
     for (std::size_t v = 0; v < s.dK_dfeature[f].size(); ++v)
       result.add(material.features[f].column[v], scale * map(s.dK_dfeature[f][v]));
+  return result;
+}
+
+PositionStiffness with_estimate(const PositionStiffness& without,
+                                const FeatureEstimate::Change& change,
+                                const std::vector<int>& column) {
+  const Eigen::Matrix3d L = without.K.llt().matrixL(), inverse = L.inverse();
+  PositionStiffness result;
+  result.K = L * change.G * L.transpose();
+  for (const auto& [c, dK] : without.by_column) {
+    const Eigen::Matrix3d half = L * factor_slope(inverse, dK) * change.G * L.transpose();
+    result.add(c, half + half.transpose());
+  }
+  for (std::size_t v = 0; v < column.size(); ++v)
+    result.add(column[v], L * change.by_value[v] * L.transpose());
   return result;
 }
 

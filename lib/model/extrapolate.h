@@ -1,4 +1,4 @@
-// A contact stiffness for a material near one that was solved.
+// A contact stiffness for a material near one that was solved, or that was not solved at all.
 #pragma once
 
 #include <utility>
@@ -24,5 +24,11 @@ struct PositionStiffness {
 // order.
 PositionStiffness extrapolated(const StiffnessSolution& solution, const UnitStiffness& homogeneous,
                                const MaterialSpec& reference, const MaterialSpec& material);
+
+// The stiffness with one more feature, K -> L G L' with L the Cholesky factor of K; `column` of
+// each of the feature's values.
+PositionStiffness with_estimate(const PositionStiffness& without,
+                                const FeatureEstimate::Change& change,
+                                const std::vector<int>& column);
 
 }  // namespace hapsim

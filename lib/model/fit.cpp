@@ -93,7 +93,9 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   const MaterialSpec asked = material_of(start);
   const bool offsets = offset_effect(start) != nullptr;
   if (offsets) set_offsets(result.model, dataset, {}, {}, 0);
-  const bool linearised = is_linearised(asked, options.exact_regions);
+  // Without a solution the body is estimated, over the whole range.
+  const bool linearised =
+      is_linearised(asked, options.exact_regions) && (options.rounds > 0 || body.is_solved(asked));
   Model trial = result.model;
   const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                          Eigen::MatrixXd* J) {
@@ -224,13 +226,10 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
 
 FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
                    const Selection& selection, BodyStiffness& body, const FitOptions& options) {
-  // Where each fit costs finite-element solutions, a short one chooses the start.
+  // Where each fit costs finite-element solutions, estimates choose the start.
   FitOptions each = options;
   const bool choose = starts.size() > 1 && is_linearised(material_of(starts[0]), false);
-  if (choose) {
-    each.rounds = std::min(each.rounds, 1);
-    each.settled = std::max(each.settled, 0.02);
-  }
+  if (choose) each.rounds = 0;
   FitResult best;
   for (std::size_t s = 0; s < starts.size(); ++s) {
     FitResult result = fit(starts[s], dataset, selection, body, each);

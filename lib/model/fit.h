@@ -22,7 +22,8 @@ struct FitOptions {
   std::uint64_t seed = 1;     // of the starts
   RobustLoss robust = RobustLoss::kNone;
   // Bodies with features are solved anew in up to so many rounds, until one changes the sum of
-  // squares by less than the share `settled`; 0: not at all (about the solution there is).
+  // squares by less than the share `settled`; 0: not at all (about the solution there is, or
+  // estimated where there is none).
   int rounds = kFullRounds;
   double settled = 1e-6;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
