@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "common_options.h"
+#include "diagnose/improve.h"
+#include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "estimate/identifiability.h"
 #include "io/csv.h"
@@ -39,7 +41,9 @@ ToolSpec specification() {
   const std::vector<Option> own{
       {.flag = "--effects",
        .value = "LIST",
-       .help = "Effects of a new model, separated by commas.",
+       .help =
+           "Effects of a new model, separated by commas. auto: elastic, or --model, is diagnosed "
+           "and what is missing added, as long as that helps on unseen presses.",
        .default_text = "elastic",
        .repeatable = true},
       {.flag = "--model",
@@ -130,6 +134,8 @@ ToolSpec specification() {
       {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
       {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",
        "Adds relaxation to it."},
+      {"hs-identify data.csv --body body.ply --effects auto --history steps.csv -o m.csv",
+       "Finds what is missing and adds it, until nothing is."},
       {"hs-identify data.csv --body body.ply --model m0.csv --diagnosis effects.csv -o m1.csv",
        "Adds what hs-diagnose found missing."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
@@ -149,6 +155,7 @@ int regions_asked(const std::string& text) {
 
 struct Plan {
   Model start;                   // empty: elastic from the data
+  bool automatic = false;        // what to add is found by diagnosis
   std::vector<std::string> add;  // in order
   std::vector<std::string> fix, free;
 };
@@ -171,12 +178,15 @@ Plan make_plan(const Arguments& arguments) {
   Plan plan;
   plan.fix = arguments.list("--fix");
   plan.free = arguments.list("--free");
+  plan.automatic = arguments.list("--effects") == std::vector<std::string>{"auto"};
+  if (plan.automatic && (arguments.given("--add") || arguments.given("--diagnosis")))
+    fail_usage("--effects auto finds what to add by itself", "leave --add and --diagnosis out");
   if (arguments.given("--model")) {
-    if (arguments.given("--effects"))
+    if (arguments.given("--effects") && !plan.automatic)
       fail_usage("--model and --effects exclude each other", "use --model with --add");
     Input input(arguments.text("--model"));
     plan.start = read_model(input);
-  } else {
+  } else if (!plan.automatic) {
     for (const std::string& effect : arguments.list("--effects"))
       if (effect != "elastic") plan.add.push_back(effect);
   }
@@ -255,6 +265,43 @@ void report(const Arguments& arguments, const Workspace& w, const FitResult& res
   if (arguments.verbose()) line("BLAS: " + blas_name());
 }
 
+// Adds what a diagnosis finds missing, step by step; each step goes into the history.
+Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, const TetMesh& body,
+                                 WorkspaceOptions options, const FitOptions& fit_options,
+                                 Workspace& w, double force_rms) {
+  options.draft = true;
+  options.progress = nullptr;
+  Workspace draft = make_workspace(body, w.dataset.recording, options);
+  ImproveOptions improve_options;
+  improve_options.fit = fit_options;
+  improve_options.diagnose.folds = static_cast<int>(arguments.integer("--folds"));
+  improve_options.diagnose.seed = fit_options.seed;
+  improve_options.progress = [&](const std::string& what) {
+    if (arguments.verbose()) say(arguments, "hs-identify", what);
+  };
+  Improvement improvement = improve(plan.start, w, draft, improve_options);
+  for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
+    const ImprovementStep& step = improvement.steps[k];
+    const std::string label = effects_label(step.fitted.model);
+    say(arguments, "hs-identify",
+        fmt::format("{}: error {:.4g} N, unseen {:.4g} N, {:.3g} x noise", label, step.fitted.rmse,
+                    step.held_out, step.fitted.rmse / w.noise.value));
+    // The last step is the model itself, which run() writes down.
+    if (arguments.given("--history") && k + 1 < improvement.steps.size())
+      add_history(
+          arguments.text("--history"),
+          {arguments.output() + ": " + label, label, step.fitted.rmse, step.held_out, w.noise.value,
+           force_rms, static_cast<int>(step.fitted.model.free_parameters().size())});
+  }
+  if (!improvement.refused.empty())
+    say(arguments, "hs-identify",
+        improvement.refused + " was called missing but does not help on unseen presses: left out");
+  else
+    say(arguments, "hs-identify",
+        verdict_name(improvement.last.verdict) + ": " + improvement.last.explanation);
+  return improvement;
+}
+
 int run(const Arguments& arguments) {
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
@@ -287,14 +334,25 @@ int run(const Arguments& arguments) {
     fail_usage("--profile and --robust exclude each other",
                "a robust loss is no likelihood: use one of them");
   final_options.profile = arguments.given("--profile");
-  FitResult result =
-      fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, final_options);
+  const double force_rms = std::sqrt(measured_forces(w.dataset, all).squaredNorm() /
+                                     (3.0 * static_cast<double>(w.dataset.rows())));
+  double held_out = std::nan("");
+  Folds folds;
+  FitResult result;
+  if (plan.automatic) {
+    const Improvement improvement =
+        improve_step_by_step(arguments, plan, body, options, fit_options, w, force_rms);
+    result = improvement.steps.back().fitted;
+    held_out = improvement.steps.back().held_out;
+    folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
+  } else {
+    result =
+        fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, final_options);
+  }
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
                   "start from a simpler model, or fix a parameter");
-  double held_out = std::nan("");
-  Folds folds;
-  if (const long count = arguments.integer("--folds"); count > 1) {
+  if (const long count = arguments.integer("--folds"); count > 1 && !plan.automatic) {
     folds = make_folds(w.dataset, static_cast<int>(count));
     FitOptions quick = fit_options;
     quick.exact_regions = false;
@@ -313,8 +371,6 @@ int run(const Arguments& arguments) {
             w.dataset, folds, *w.body, quick)
             .rmse;
   }
-  const double force_rms = std::sqrt(measured_forces(w.dataset, all).squaredNorm() /
-                                     (3.0 * static_cast<double>(w.dataset.rows())));
   Model& model = result.model;
   model.metadata = plan.start.metadata;
   model.metadata.set("rmse", format_number(result.rmse));

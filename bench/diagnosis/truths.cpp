@@ -245,12 +245,19 @@ double strength_for(const Truth& truth, const Workspace& w, double misfit, std::
     return std::sqrt((f - gain * plain).squaredNorm() / static_cast<double>(f.size()));
   };
   double low = 1e-7 * truth.most, high = truth.most;
-  if (differs(high) < misfit) return -1;
-  for (int k = 0; k < 40; ++k) {
-    const double middle = std::sqrt(low * high);
-    (differs(middle) < misfit ? low : high) = middle;
+  double most = differs(high);
+  if (most < misfit) return -1;
+  // The misfit goes about with the strength; some truths cost finite elements at each.
+  constexpr double kClose = 0.03;
+  double strength = high;
+  for (int k = 0; k < 30; ++k) {
+    strength = std::clamp(strength * misfit / most, 1.001 * low, high / 1.001);
+    if (k % 3 == 2) strength = std::sqrt(low * high);
+    most = differs(strength);
+    if (std::abs(most / misfit - 1) < kClose) break;
+    (most < misfit ? low : high) = strength;
   }
-  return high;
+  return strength;
 }
 
 }  // namespace hapsim::bench

@@ -42,22 +42,6 @@ Model without_locations(const Model& model, std::vector<std::string>& rebuilt) {
   return plain;
 }
 
-// Refits in a fold start from the fit on all data; regions are built anew from the training
-// positions.
-HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
-  std::vector<std::string> rebuilt;
-  const Model plain = without_locations(fitted, rebuilt);
-  const auto builder = [&](const Selection& training) -> std::vector<Model> {
-    Model model = plain;
-    for (const std::string& name : rebuilt) {
-      model = fit(model, w.dataset, training, *w.body, fit_options(w, 0)).model;
-      model = with_effect(model, name, w.dataset, training, *w.body, extend_options(w)).front();
-    }
-    return {model};
-  };
-  return held_out_error(builder, w.dataset, folds, *w.body, fit_options(w));
-}
-
 // Parameters that the data have to pay for: free ones and offsets solved for press by press.
 double parameter_count(const Model& model) {
   auto count = static_cast<double>(model.free_parameters().size());
@@ -161,6 +145,21 @@ CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const 
 }
 
 }  // namespace
+
+// Refits in a fold start from the fit on all data.
+HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
+  std::vector<std::string> rebuilt;
+  const Model plain = without_locations(fitted, rebuilt);
+  const auto builder = [&](const Selection& training) -> std::vector<Model> {
+    Model model = plain;
+    for (const std::string& name : rebuilt) {
+      model = fit(model, w.dataset, training, *w.body, fit_options(w, 0)).model;
+      model = with_effect(model, name, w.dataset, training, *w.body, extend_options(w)).front();
+    }
+    return {model};
+  };
+  return held_out_error(builder, w.dataset, folds, *w.body, fit_options(w));
+}
 
 Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
   Baseline base;

@@ -47,6 +47,9 @@ struct Measured {
   double smallest_seen = 0;  // size of the first parameter that would show
 };
 
+// The error on held-out data of a fitted model, by true refits; what is made from the positions is
+// made anew from the training positions.
+HeldOut held_out_of(const Model& fitted, Workspace& workspace, const Folds& folds);
 Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,

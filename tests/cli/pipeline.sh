@@ -30,6 +30,14 @@ make --no-print-directory -q -f "$root/Makefile.pipeline" BIN="$bin" OUT="$out/r
 make --no-print-directory -n -f "$root/Makefile.pipeline" OUT="$out/other" report >"$out/recipe"
 grep -q hs-tetmesh "$out/recipe" || fail "make -n does not read like a recipe"
 
+# The same by one command, every step in the history.
+"$bin/hs-identify" "$root/share/examples/phantom/data.csv" --body "$out/run/body.ply" --effects auto \
+  --history "$out/steps.csv" -q -o "$out/auto.csv"
+[[ $(field "$out/steps.csv" 0 effects) == elastic && $(field "$out/steps.csv" 1 effects) == elastic+viscoelastic &&
+  -z $(field "$out/steps.csv" 2 effects) ]] || fail "--effects auto did not add the hidden effect alone"
+below "$(field "$out/steps.csv" 1 heldout)" "$(awk -v n="$noise" 'BEGIN { print 1.5 * n }')" ||
+  fail "the held-out error of --effects auto did not fall"
+
 plain=$root/share/examples/phantom/plain.csv
 "$bin/hs-identify" "$plain" --body "$out/run/body.ply" -q -o "$out/plain.csv"
 "$bin/hs-diagnose" "$plain" --body "$out/run/body.ply" --model "$out/plain.csv" --check -q -o "$out/plain-effects.csv" ||
@@ -54,6 +62,7 @@ refused() { # CODE COMMAND...
 }
 refused 2 "$bin/hs-identify" "$plain" --body "$out/run/body.ply" --add magic
 refused 2 "$bin/hs-identify" "$plain" --body "$out/run/body.ply" --modle x
+refused 2 "$bin/hs-identify" "$plain" --body "$out/run/body.ply" --effects auto --add tip
 refused 3 "$bin/hs-identify" "$plain" --body "$out/run/surface.ply"
 refused 3 "$bin/hs-identify" "$out/run/m0.csv" --body "$out/run/body.ply"
 refused 3 "$bin/hs-simulate" "$plain" --body "$out/run/body.ply" --model "$plain"

@@ -1,0 +1,72 @@
+#include "diagnose/improve.h"
+
+#include <cmath>
+
+#include "base/error.h"
+#include "model/edit.h"
+
+namespace hapsim {
+namespace {
+
+ImprovementStep fitted_step(const std::string& added, const std::vector<Model>& starts,
+                            Workspace& w, const Folds& folds, const ImproveOptions& options) {
+  ImprovementStep step;
+  step.added = added;
+  step.fitted = fit_best(starts, w.dataset, all_episodes(w.dataset), *w.body, options.fit);
+  step.held_out = std::nan("");
+  if (step.fitted.converged && !folds.held_out.empty())
+    step.held_out = held_out_of(step.fitted.model, w, folds).rmse;
+  return step;
+}
+
+}  // namespace
+
+Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
+                    const ImproveOptions& options) {
+  const auto tell = [&](const std::string& what) {
+    if (options.progress) options.progress(what);
+  };
+  const Selection all = all_episodes(fine.dataset);
+  const Folds folds = make_folds(fine.dataset, options.diagnose.folds);
+  ExtendOptions extend;
+  extend.noise = fine.noise.value;
+  extend.floor = fine.floor;
+  Improvement result;
+  const Model first =
+      start.parameters.empty() ? elastic_model(fine.dataset, all, *fine.body) : start;
+  tell("fitting " + effects_label(first));
+  result.steps.push_back(fitted_step("", {first}, fine, folds, options));
+  if (!result.steps.front().fitted.converged)
+    fail_numerics(fine.dataset.recording.name,
+                  "the fit did not converge: " + result.steps.front().fitted.message,
+                  "start from a simpler model, or fix a parameter");
+  for (int k = 0; k < options.most_diagnoses; ++k) {
+    tell("diagnosing " + effects_label(result.steps.back().fitted.model));
+    result.last = diagnose(result.steps.back().fitted.model, draft, options.diagnose);
+    bool grown = false;
+    for (const Finding& finding : result.last.findings) {
+      if (finding.verdict != Verdict::kMissing) continue;
+      tell("adding " + finding.effect);
+      const ImprovementStep& before = result.steps.back();
+      ImprovementStep step = fitted_step(
+          finding.effect,
+          with_effect(before.fitted.model, finding.effect, fine.dataset, all, *fine.body, extend),
+          fine, folds, options);
+      // Without anything to hold out the diagnosis decides alone.
+      const bool helps =
+          step.fitted.converged &&
+          (std::isnan(step.held_out) ||
+           step.held_out <= (1 - options.diagnose.gates.held_out_fall) * before.held_out);
+      if (!helps) {
+        result.refused = finding.effect;
+        return result;
+      }
+      result.steps.push_back(std::move(step));
+      grown = true;
+    }
+    if (!grown) break;
+  }
+  return result;
+}
+
+}  // namespace hapsim

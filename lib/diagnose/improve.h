@@ -1,0 +1,40 @@
+// The loop: diagnose a model, add what is missing, refit, until nothing more is found.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "diagnose/candidate.h"
+
+namespace hapsim {
+
+struct ImproveOptions {
+  DiagnoseOptions diagnose;
+  FitOptions fit;  // of each model that is kept
+  int most_diagnoses = 4;
+  std::function<void(const std::string&)> progress;  // what is being done
+};
+
+// A model version: the one before it and one more effect.
+struct ImprovementStep {
+  std::string added;  // "" for the first
+  FitResult fitted;
+  double held_out = 0;  // [N], NaN when there is nothing to hold out
+};
+
+struct Improvement {
+  std::vector<ImprovementStep> steps;  // the last one is the result
+  Diagnosis last;                      // of the result, or of the model that could not be improved
+  std::string refused;  // an effect that was called missing but did not help on unseen presses
+};
+
+// Thesis 5.5, with the diagnosis deciding what to add: an effect stays only when the error on
+// whole positions (presses, when there is one position) that the fit has not seen falls by the
+// gate of the diagnosis. Ambiguous effects are never added: which of them it is, the data cannot
+// tell. `draft` is `fine` with WorkspaceOptions::draft, for the diagnosis. A start without
+// parameters is elastic. Error(kNoConvergence) when the first model does not fit.
+Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
+                    const ImproveOptions& options);
+
+}  // namespace hapsim
