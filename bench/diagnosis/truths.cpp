@@ -71,6 +71,30 @@ Truth by_place(const std::string& name, const std::function<double(const Vec3&, 
   return truth;
 }
 
+// One half of the body stiffer than the other.
+Truth halves() {
+  Truth truth{"regions", "regions", false, 3, {}, {}};
+  truth.forces = [](const Workspace& w, const Model& base, double s, Random&) {
+    Model model = base;
+    if (s > 0) {
+      Parameter stiffer = *model.find("elastic", 0, "E");
+      stiffer.region = 1;
+      stiffer.value *= 1 + s;
+      model.parameters.insert(model.parameters.begin() + 1, stiffer);
+      for (const int region : {0, 1})
+        for (Parameter row :
+             effect_rows(require_effect("regions"), 1, {region == 0 ? -0.02 : 0.02, 0, 0})) {
+          if (row.name == "local") continue;
+          row.name = row.name.substr(0, 1) + "1";
+          row.region = region;
+          model.parameters.push_back(row);
+        }
+    }
+    return forces_of(w, model);
+  };
+  return truth;
+}
+
 std::vector<Truth> own_forms() {
   std::vector<Truth> t;
   t.push_back(own_form("viscoelastic", "viscoelastic", 5, [](double s) {
@@ -138,7 +162,7 @@ std::vector<Truth> own_forms() {
 
 std::vector<Truth> other_forms() {
   std::vector<Truth> t;
-  t.push_back(by_place("regions", [](const Vec3& p, double s) { return p.x() > 0 ? 1 + s : 1; }));
+  t.push_back(halves());
   t.push_back(by_place("regions-gradual", [](const Vec3& p, double s) {
     return std::exp(s * (p.x() + 0.5 * p.y()) / 0.05);
   }));

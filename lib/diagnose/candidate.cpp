@@ -15,7 +15,7 @@ namespace {
 // Regions are solved for where that takes seconds; with more positions they are first order.
 constexpr std::size_t kMostSolvedPositions = 60;
 
-FitOptions fit_options(const Workspace& w, int rounds = 10) {
+FitOptions fit_options(const Workspace& w, int rounds = 6) {
   FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
   options.settled = 1e-3;

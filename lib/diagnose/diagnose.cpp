@@ -79,6 +79,25 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
 // by less than the baseline.
 constexpr double kPromising = 2.5, kBetter = 0.99;
 
+// The best estimates first: what they become decides what else is worth the solutions.
+void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, Workspace& w) {
+  std::vector<Candidate*> order;
+  double least = base.fitted.rmse;
+  for (Candidate& c : candidates) {
+    order.push_back(&c);
+    least = std::min(least, c.fitted.rmse);
+  }
+  std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
+    return a->fitted.rmse < b->fitted.rmse;
+  });
+  for (Candidate* c : order) {
+    if (c->fitted.rmse >= kPromising * least || c->fitted.rmse >= kBetter * base.fitted.rmse)
+      continue;
+    refine(*c, w);
+    least = std::min(least, c->fitted.rmse);
+  }
+}
+
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
@@ -108,11 +127,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     finding.next_measurement = lack;
     round.untestable.push_back(finding);
   }
-  double least = base.fitted.rmse;
-  for (const Candidate& c : round.candidates) least = std::min(least, c.fitted.rmse);
-  for (Candidate& c : round.candidates)
-    if (c.fitted.rmse < kPromising * least && c.fitted.rmse < kBetter * base.fitted.rmse)
-      refine(c, w);
+  refine_promising(round.candidates, base, w);
   const Yardstick yardstick = make_yardstick(base, round.candidates, w);
   std::vector<Measured> measured;
   for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, w));
@@ -128,6 +143,13 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     f.one_more_term = c.one_more_term;
     f.rmse_now = base.fitted.rmse;
     f.rmse_after = c.fitted.rmse;
+    f.held_out_now = base.held_out.rmse;
+    f.held_out_after = std::nan("");
+    f.evidence = implausible(c.fitted.model, *c.effect, w.dataset);
+    if (!f.evidence.empty()) {
+      round.findings.push_back(f);
+      continue;
+    }
     f.p_value = p[k];
     f.criterion_gain = before - m.sum_of_squares - m.penalty;
     const double fall = base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse;
@@ -136,7 +158,6 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     // Refits for held-out positions cost most and only matter to what passes otherwise.
     if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share)
       hold_out(c, w, folds);
-    f.held_out_now = base.held_out.rmse;
     f.held_out_after = c.held_out.rmse;
     // Where few presses carry an effect their signs cannot prove it, however large it is.
     const double by_size =

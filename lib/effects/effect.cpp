@@ -16,6 +16,10 @@ void Effect::move(const PressView&, const Values&, Motion&) const {}
 
 void Effect::apply(const PressView&, const Values&, Signal&) const {}
 
+std::string Effect::implausible(const Values&, const std::vector<Vec3>&) const {
+  return "";
+}
+
 bool Effect::live(const Values&, double, std::vector<MaxwellTerm>&) const {
   return false;
 }

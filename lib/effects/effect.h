@@ -173,6 +173,9 @@ class Effect {
   // The effect as a loop at a fixed rate takes it, sample by sample: what it needs beyond the
   // material (describe()), for the modulus of region 0 [Pa]. False: it has no such form.
   virtual bool live(const Values& values, double modulus, std::vector<MaxwellTerm>& terms) const;
+  // Why fitted values are not what the effect is meant for, given the points that were pressed;
+  // "" when they are.
+  virtual std::string implausible(const Values& values, const std::vector<Vec3>& pressed) const;
   // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
   // card's.
   virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;

@@ -36,6 +36,14 @@ class Inclusion : public Effect {
   void describe(const Values& values, MaterialSpec& material) const override {
     add_feature(Feature::kInclusion, values, card(), material);
   }
+  std::string implausible(const Values& values, const std::vector<Vec3>& pressed) const override {
+    const auto value = [&](const char* name) { return find_value(values, name).value; };
+    const Vec3 centre(value("x"), value("y"), value("z"));
+    for (const Vec3& p : pressed)
+      if ((p - centre).norm() < value("radius"))
+        return "the ball that would do it reaches the pressed surface: that is a region";
+    return "";
+  }
   // Under the place that departs most from the others, weighted with its neighbours; at two depths.
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
     if (data.places.empty()) return Effect::starts(data, 1);

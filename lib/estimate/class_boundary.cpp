@@ -44,7 +44,8 @@ class Tracer {
   using Links = std::map<int, std::vector<int>>;  // crossing: its neighbours
 
   Vec2d at(int point) const {
-    return low_ + Vec2d((point % (nx_ + 1)) * step_.x(), (point / (nx_ + 1)) * step_.y());
+    const int row = point / (nx_ + 1), column = point % (nx_ + 1);
+    return low_ + Vec2d(column * step_.x(), row * step_.y());
   }
 
   int crossing(int p, int q) {

@@ -159,7 +159,7 @@ LeastSquaresResult minimise(const std::vector<Unknown>& start, const ResidualFun
   if (open.empty()) return result;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(triangular(J(Eigen::all, open), r).R,
                                               Eigen::ComputeFullV);
-  const Eigen::VectorXd s = svd.singularValues();
+  const Eigen::VectorXd& s = svd.singularValues();
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(s.size(), s.size());
   for (Eigen::Index d = 0; d < s.size(); ++d) {
     const auto v = svd.matrixV().col(d);

@@ -29,7 +29,7 @@ using Gradients = Eigen::Map<const Eigen::Matrix<double, 3, N>>;
 template <int N>
 BodyAssembly::Point BodyAssembly::point(std::size_t tet, int q,
                                         const Eigen::Matrix<double, 3, N>& u) const {
-  const std::size_t at = static_cast<std::size_t>(first_point_[tet] + q);
+  const std::size_t at = static_cast<std::size_t>(first_point_[tet]) + static_cast<std::size_t>(q);
   const Gradients<N> G(gradient_.data() + at * 3 * N);
   Point p;
   p.weight = weight_[at];

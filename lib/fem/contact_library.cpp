@@ -89,7 +89,7 @@ std::shared_ptr<ContactBodies> ContactLibrary::bodies_at(const Vec3& p, bool kee
   const std::lock_guard lock(kept_mutex_);
   std::shared_ptr<ContactBodies>& bodies = kept_[{p.x(), p.y(), p.z()}];
   if (!bodies) bodies = fresh();
-  const auto result = bodies;
+  auto result = bodies;
   if (kept_.size() > kMost) kept_.erase(kept_.begin());
   return result;
 }

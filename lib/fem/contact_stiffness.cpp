@@ -17,7 +17,8 @@ int PlanGrid::cell(const Vec3& p) const {
 }
 
 Vec3 PlanGrid::centre(int cell) const {
-  return {x0 + (cell % columns + 0.5) * step_x, y0 + (cell / columns + 0.5) * step_y, 0};
+  const int row = cell / columns, column = cell % columns;
+  return {x0 + (column + 0.5) * step_x, y0 + (row + 0.5) * step_y, 0};
 }
 
 PlanGrid plan_grid(const Surface& surface, int cells_along) {

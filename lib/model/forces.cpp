@@ -65,6 +65,12 @@ MaterialSpec material_of(const Model& model) {
   return material;
 }
 
+std::string implausible(const Model& model, const Effect& effect, const Dataset& dataset) {
+  for (const Instance& i : instances(model, false))
+    if (i.effect == &effect) return effect.implausible(i.values, dataset.positions);
+  return "";
+}
+
 Selection all_episodes(const Dataset& dataset) {
   Selection selection(dataset.episodes.size());
   std::iota(selection.begin(), selection.end(), 0);

@@ -13,6 +13,9 @@ namespace hapsim {
 // What the model's body effects say of the material; columns number the free parameters.
 MaterialSpec material_of(const Model& model);
 
+// Why the fitted values of an effect are not what it is meant for; "" when they are.
+std::string implausible(const Model& model, const Effect& effect, const Dataset& dataset);
+
 // Episodes to evaluate, in this order; their rows follow one another in all stacked vectors.
 using Selection = std::vector<int>;
 Selection all_episodes(const Dataset& dataset);
