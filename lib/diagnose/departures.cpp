@@ -1,6 +1,7 @@
 #include "diagnose/departures.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace hapsim {
@@ -10,8 +11,9 @@ bool Departures::anywhere() const {
 }
 
 bool Departures::at_one() const {
-  constexpr double kRare = 45;  // chi-square of six degrees, 5e-8
-  return largest > kRare;
+  constexpr double kRare = 45;   // chi-square of six degrees, 5e-8
+  constexpr double kUnlike = 5;  // a model that errs a little everywhere departs everywhere
+  return largest > kRare && largest > kUnlike * typical;
 }
 
 Departures stiffness_departures(const Model& model, const Workspace& w) {
@@ -20,6 +22,7 @@ Departures stiffness_departures(const Model& model, const Workspace& w) {
   Eigen::VectorXd residual = measured_forces(w.dataset, all) - f;
   Weights(w.dataset, all, f, w.noise.value, w.floor).whiten(residual);
   Departures d;
+  std::vector<double> squares;
   const std::vector<GainBlock> blocks = gain_directions(w.dataset, all, f);
   for (std::size_t p = 0; p < blocks.size(); ++p) {
     // The weights map the span of these directions on itself.
@@ -27,10 +30,16 @@ Departures stiffness_departures(const Model& model, const Workspace& w) {
     const Eigen::VectorXd r = qr.householderQ().transpose() * residual(blocks[p].rows);
     const double square = r.head(qr.rank()).squaredNorm();
     d.total += square;
+    squares.push_back(square);
     d.freedom += static_cast<double>(qr.rank());
     if (square <= d.largest) continue;
     d.largest = square;
     d.where = w.dataset.positions[static_cast<std::size_t>(blocks[p].position)];
+  }
+  if (!squares.empty()) {
+    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+    std::nth_element(squares.begin(), middle, squares.end());
+    d.typical = *middle;
   }
   return d;
 }

@@ -12,9 +12,11 @@ namespace hapsim {
 struct Departures {
   double total = 0, freedom = 0;
   double largest = 0;         // of one position, of six degrees
+  double typical = 0;         // median over the positions
   Vec3 where = Vec3::Zero();  // that position [m]
   bool anywhere() const;      // beyond three standard deviations
-  bool at_one() const;        // beyond what chance does to one position in ten million
+  // One position beyond what chance does to one in ten million, and unlike the others.
+  bool at_one() const;
 };
 Departures stiffness_departures(const Model& model, const Workspace& workspace);
 

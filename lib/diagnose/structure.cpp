@@ -1,5 +1,7 @@
 #include "diagnose/structure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -140,6 +142,32 @@ Hypothesis try_grouping(const Search& search, const Grouping& grouping) {
   return h;
 }
 
+// What nothing explains: larger than noise, and neighbouring samples of a press err alike.
+Observation what_is_left(const Search& search, double total) {
+  constexpr double kBeyondNoise = 1.5, kAlike = 0.2;
+  double square = 0, product = 0;
+  for (std::size_t i = 0; i < search.measured.size(); ++i) {
+    const Vec3 r = search.measured[i] - search.simulated[i];
+    square += r.squaredNorm();
+    if (i > 0 && search.facts.press[i] == search.facts.press[i - 1])
+      product += r.dot(search.measured[i - 1] - search.simulated[i - 1]);
+  }
+  const auto rows = static_cast<double>(search.measured.size());
+  const double left = std::sqrt(square / (3 * rows));
+  Observation rest;
+  if (search.noise <= 0 || left < kBeyondNoise * search.noise || product < kAlike * square ||
+      square < kSmallestShare * total)
+    return rest;
+  rest.kind = "left";
+  rest.p_value = 0;  // of many samples, none alike by chance
+  rest.share = square / total;
+  rest.sentence = fmt::format(
+      "{:.2g} N, {:.2g} times the noise, is left that goes with nothing that was looked at, and is "
+      "no noise: neighbouring samples err alike (correlation {:.2f}).",
+      left, left / search.noise, product / square);
+  return rest;
+}
+
 }  // namespace
 
 std::vector<Observation> find_structure(const RowFacts& facts, const std::vector<Vec3>& measured,
@@ -181,6 +209,8 @@ std::vector<Observation> find_structure(const RowFacts& facts, const std::vector
     if (found.size() > 1)
       found.back().sentence = "Beyond that, t" + found.back().sentence.substr(1);
   }
+  if (const Observation rest = what_is_left(search, total); !rest.sentence.empty())
+    found.push_back(rest);
   return found;
 }
 
