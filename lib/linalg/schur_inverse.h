@@ -29,7 +29,6 @@ class SchurInverse {
   bool invert(const SymmetricSparse& matrix, Eigen::MatrixXd& inverse, int threads = 1);
 
   Eigen::Index kept() const;
-  int analyses() const;  // symbolic ones so far: 1
   double factor_nonzeros() const;
 
  private:

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
+#include "linalg/counts.h"
 
 namespace hapsim {
 namespace {
@@ -79,12 +80,14 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
   impl_->check_memory();
   if (impl_->factor == nullptr)
     fail_numerics("", "symbolic factorisation failed", "report this mesh");
+  ++solver_counts.analyses;
 }
 
 SparseCholesky::~SparseCholesky() = default;
 
 bool SparseCholesky::factorise(const SymmetricSparse& matrix) {
   cholmod_sparse a = cholmod_view(matrix);
+  ++solver_counts.factorisations;
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   impl_->check_memory();
   return impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
