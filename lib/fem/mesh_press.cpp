@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "fem/elastic_assembly.h"
+#include "fem/surface_compliance.h"
 
 namespace hapsim {
 namespace {
@@ -25,38 +26,26 @@ std::vector<char> not_bonded(const TetMesh& mesh) {
 }  // namespace
 
 MeshPatch patch_under_tool(const TetMesh& mesh, const Vec3& point, double radius) {
-  std::vector<int> node;
-  const Surface surface = boundary_surface(mesh, &node);
+  const Surface surface = boundary_surface(mesh);
   const SurfacePoint at = nearest_point(surface, point);
   if (at.distance > std::max(3 * radius, 0.01))
     fail_input(fmt::format("contact at ({:.6g}, {:.6g}, {:.6g})", point.x(), point.y(), point.z()),
                fmt::format("it lies {:.3g} m off the body's surface", at.distance),
                "check the frame and the unit");
   MeshPatch patch{{}, at.point, face_normal(surface, at.face).normalized()};
-  std::vector<char> in(mesh.nodes.size(), 0), corner(mesh.nodes.size(), 0);
   int nearest = -1;
-  for (const int n : node) {
-    corner[n] = 1;
+  for (const int n : surface_nodes(mesh)) {
     if (mesh.fixed[n]) continue;
     const Vec3 away = mesh.nodes[n] - at.point;
     if (nearest < 0 || away.norm() < (mesh.nodes[nearest] - at.point).norm()) nearest = n;
     const double height = away.dot(patch.normal);
-    in[n] = std::abs(height) <= 0.5 * radius &&
-            (away - height * patch.normal).norm() <= radius * (1 + 1e-9);
+    if (std::abs(height) <= 0.5 * radius &&
+        (away - height * patch.normal).norm() <= radius * (1 + 1e-9))
+      patch.nodes.push_back(n);
   }
   if (nearest < 0)
     fail_input("", "every surface node of the body is bonded", "fix its support only");
-  in[nearest] = 1;
-  if (mesh.order == 2) {
-    // Middles follow their edge, also one through the inside: it would be stretched otherwise.
-    for (const auto& tet : mesh.tets)
-      for (int e = 0; e < 6; ++e) {
-        const int a = tet[kTetEdges[e][0]], b = tet[kTetEdges[e][1]];
-        if (in[a] && in[b] && corner[a] && corner[b]) in[tet[4 + e]] = 1;
-      }
-  }
-  for (std::size_t n = 0; n < in.size(); ++n)
-    if (in[n]) patch.nodes.push_back(static_cast<int>(n));
+  if (patch.nodes.empty()) patch.nodes.push_back(nearest);
   return patch;
 }
 

@@ -9,10 +9,10 @@
 
 namespace hapsim {
 
-// The corner nodes of the boundary within `radius` of `point` and within half of it of the tangent
-// plane there, and the middles of the edges between them; never bonded ones. At least the nearest
-// one: a mesh coarser than the tool has no patch of its size (then the force depends on the mesh).
-// Error(kBadInput): the point lies farther than 3 radii (at least 10 mm) from the surface.
+// The nodes of the boundary within `radius` of `point` and within half of it of the tangent plane
+// there; never bonded ones. At least the nearest one: a mesh coarser than the tool has no patch of
+// its size (then the force depends on the mesh). Error(kBadInput): the point lies farther than 3
+// radii (at least 10 mm) from the surface.
 struct MeshPatch {
   std::vector<int> nodes;
   Vec3 point, normal;  // on the surface; outward, unit

@@ -175,12 +175,17 @@ void StiffnessField::correct(const std::vector<KnownStiffness>& known) {
   }
 }
 
+Vec3 StiffnessField::weights(int face, const Vec3& point) const noexcept {
+  const Triangle& t = surface_.faces[face];
+  const Vec3 weight = corner_weights(point, surface_.vertices[t[0]], surface_.vertices[t[1]],
+                                     surface_.vertices[t[2]])
+                          .cwiseMax(0.0);
+  return weight / weight.sum();
+}
+
 Matrix3d StiffnessField::at(int face, const Vec3& point) const noexcept {
   const Triangle& t = surface_.faces[face];
-  Vec3 weight = corner_weights(point, surface_.vertices[t[0]], surface_.vertices[t[1]],
-                               surface_.vertices[t[2]]);
-  weight = weight.cwiseMax(0.0);
-  weight /= weight.sum();
+  const Vec3 weight = weights(face, point);
   return weight[0] * K_[t[0]] + weight[1] * K_[t[1]] + weight[2] * K_[t[2]];
 }
 

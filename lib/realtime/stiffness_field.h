@@ -48,6 +48,8 @@ class StiffnessField {
   const Eigen::Matrix3d& at_vertex(int vertex) const { return K_[vertex]; }
   // At a point of a face of surface() [N/m]; a table look-up: allocates and throws nothing.
   Eigen::Matrix3d at(int face, const Vec3& point) const noexcept;
+  // Of the face's corners there: not negative, they sum to one.
+  Vec3 weights(int face, const Vec3& point) const noexcept;
 
  private:
   void correct(const std::vector<KnownStiffness>& known);

@@ -37,7 +37,8 @@ TEST(MeshPatch, HoldsTheNodesUnderTheTool) {
       EXPECT_LE((x - kMiddle).norm(), 0.011 + 1e-12);
       if (n < static_cast<int>(first.nodes.size())) corners.push_back(n);
     }
-    EXPECT_EQ(corners.size(), 13u);  // within 2.2 cells of a grid point
+    // Within 2.2 cells of a point of the grid: 13 corners, and middles half-way between them.
+    EXPECT_EQ(corners.size(), 13u);
     EXPECT_EQ(patch.nodes.size() > corners.size(), mesh == &second);
   }
   // A tool smaller than the mesh has one node; one far off has none.
