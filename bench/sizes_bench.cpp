@@ -210,7 +210,7 @@ void batches() {
 }
 
 void growth(const char* svg) {
-  constexpr double kMostDirect = 150000;
+  constexpr double kMostDirect = 400000;
   fmt::print(
       "\ngrowth: time to the first force [s] and largest memory [MB]; direct up to {} "
       "tetrahedra\n{:>8} {:>9} {:>10} {:>9} {:>8} {:>12}\n",

@@ -25,7 +25,8 @@ class FieldMaker {
   FieldMaker(const TetMesh& mesh, const PreparedBodyOptions& options)
       : mesh_(mesh), options_(options), compliance_(mesh, Dilatation::kPointwise) {}
 
-  std::unique_ptr<StiffnessField> field(const MaterialSpec& material) {
+  std::unique_ptr<StiffnessField> field(const MaterialSpec& material,
+                                        const StiffnessField* like = nullptr) {
     const auto modulus_at = [&](const Vec3& p) {
       return material.modulus[static_cast<std::size_t>(region_at(material, p))];
     };
@@ -47,7 +48,7 @@ class FieldMaker {
     const FieldMaterial about{material.nu, modulus_at, apart};
     return std::make_unique<StiffnessField>(
         mesh_, compliance_, about, options_.tool_radius,
-        options_.contacts ? options_.contacts(material) : std::vector<KnownStiffness>{});
+        options_.contacts ? options_.contacts(material) : std::vector<KnownStiffness>{}, like);
   }
   std::size_t unknowns() const { return static_cast<std::size_t>(compliance_.matrix().rows()); }
 
@@ -71,7 +72,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
   terms_ = relaxation.common;
   if (!relaxation.regional.empty())
     prepare_regional(relaxation.regional, material,
-                     [&](const MaterialSpec& m) { return maker.field(m); });
+                     [&](const MaterialSpec& m) { return maker.field(m, field_.get()); });
   if (terms_.size() > static_cast<std::size_t>(kMostTerms))
     fail_usage("the model has " + std::to_string(terms_.size()) + " relaxation times",
                "the real-time loop takes up to " + std::to_string(kMostTerms));

@@ -91,7 +91,8 @@ Matrix3d disc_compliance(double modulus, double nu, double radius, const Vec3& n
 
 StiffnessField::StiffnessField(const TetMesh& mesh, const SurfaceCompliance& compliance,
                                const FieldMaterial& material, double tool_radius,
-                               const std::vector<KnownStiffness>& known) {
+                               const std::vector<KnownStiffness>& known,
+                               const StiffnessField* like) {
   assert(mesh.order == 1);
   std::vector<int> node;
   surface_ = boundary_surface(mesh, &node);
@@ -108,6 +109,7 @@ StiffnessField::StiffnessField(const TetMesh& mesh, const SurfaceCompliance& com
     const Matrix3d tool = open * disc_compliance(modulus, material.nu, tool_radius, normal);
     if (compliance.index_of(n) < 0) {
       K_.push_back(tool.inverse());
+      plain_.push_back(0);
       continue;
     }
     patch.clear();
@@ -129,8 +131,10 @@ StiffnessField::StiffnessField(const TetMesh& mesh, const SurfaceCompliance& com
     // What is left below the tool's own disc is the body's, which yields too.
     const double least =
         Eigen::SelfAdjointEigenSolver<Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues()[0];
-    const double bound = 0.5 * tool.trace() / 3;
-    K_.push_back(least > bound ? Matrix3d(C.inverse()) : K);
+    const double bound = like == nullptr ? 0.5 * tool.trace() / 3 : 0;
+    const bool plain = least <= bound || (like != nullptr && like->plain_[plain_.size()]);
+    plain_.push_back(plain ? 1 : 0);
+    K_.push_back(plain ? K : Matrix3d(C.inverse()));
   }
   if (!known.empty()) correct(known);
 }

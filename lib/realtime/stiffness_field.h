@@ -38,10 +38,13 @@ struct FieldMaterial {
 class StiffnessField {
  public:
   // `compliance` of `mesh` (first order), factorised. Error(kBadInput): a known contact off the
-  // surface by more than a tenth of its size, or not positive definite.
+  // surface by more than a tenth of its size, or not positive definite. `like`: a field of another
+  // material on the same mesh, whose choices are kept, so that the stiffness is a smooth function
+  // of the material.
   StiffnessField(const TetMesh& mesh, const SurfaceCompliance& compliance,
                  const FieldMaterial& material, double tool_radius,
-                 const std::vector<KnownStiffness>& known = {});
+                 const std::vector<KnownStiffness>& known = {},
+                 const StiffnessField* like = nullptr);
 
   // The body's boundary, split where contacts are known.
   const Surface& surface() const { return surface_; }
@@ -56,6 +59,7 @@ class StiffnessField {
 
   Surface surface_;
   std::vector<Eigen::Matrix3d> K_;
+  std::vector<char> plain_;  // one a vertex of the mesh; 1: the nodes' own stiffness, no disc's
 };
 
 }  // namespace hapsim
