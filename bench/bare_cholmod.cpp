@@ -1,11 +1,11 @@
 #include "bare_cholmod.h"
 
 #include <cholmod.h>
-#include <time.h>
 
 #include <algorithm>
 
 #include "linalg/cholmod_view.h"
+#include "whole_run.h"
 
 extern "C" void dpotri_(const char* triangle, const int* n, double* a, const int* lda, int* info);
 
@@ -22,12 +22,6 @@ struct Common {
 };
 
 }  // namespace
-
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 BareTimes bare_first_force(const SymmetricSparse& a, const Eigen::MatrixXd& b, Eigen::MatrixXd& x) {
   Common c;

@@ -19,6 +19,4 @@ BareTimes bare_first_force(const SymmetricSparse& a, const Eigen::MatrixXd& b, E
 BareTimes bare_schur_inverse(const SymmetricSparse& a, const std::vector<char>& kept,
                              Eigen::MatrixXd& inverse);
 
-double processor_seconds();
-
 }  // namespace hapsim::bench

@@ -3,14 +3,11 @@
 // reading the mesh, solving, writing the force. Seconds of the processor (the least of the runs),
 // largest memory, the tool's normal force, and how many times faster hs-simulate is.
 //
-//   bench_calculix BIN [runs]
+//   bench_calculix BIN [runs [order]]
 //
 // BIN is the folder of hs-simulate. CalculiX's second-order elements have no mean dilatation, so
 // the forces of second order differ a little; those of first order are the same.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,13 +15,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "calculix_input.h"
 #include "fem/mesh_press.h"
 #include "geometry/body_mesh.h"
 #include "support/block_mesh.h"
+#include "whole_run.h"
 
 namespace {
 
@@ -33,41 +31,6 @@ namespace fs = std::filesystem;
 
 constexpr double kRadius = 0.004, kDepth = 0.003, kModulus = 1e4, kNu = 0.3;
 const Vec3 kPlace(0.06, 0.105, 0.06);
-
-struct Run {
-  double seconds = 1e300, megabytes = 0;
-  bool done = false;
-};
-
-// In `folder`; the least of `runs`.
-Run run(const fs::path& folder, const std::vector<std::string>& command, int runs) {
-  Run best;
-  for (int i = 0; i < runs; ++i) {
-    const pid_t child = fork();
-    if (child == 0) {
-      const int nowhere = open("/dev/null", O_WRONLY);
-      dup2(nowhere, STDOUT_FILENO);
-      dup2(nowhere, STDERR_FILENO);
-      if (chdir(folder.c_str()) != 0) _exit(126);
-      setenv("OMP_NUM_THREADS", "1", 1);
-      std::vector<char*> words;
-      for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-      words.push_back(nullptr);
-      execvp(words[0], words.data());
-      _exit(127);
-    }
-    int status = 0;
-    rusage used{};
-    wait4(child, &status, 0, &used);
-    double seconds = 0;
-    for (const timeval& t : {used.ru_utime, used.ru_stime})
-      seconds += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    best.done = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    best.seconds = std::min(best.seconds, seconds);
-    best.megabytes = std::max(best.megabytes, static_cast<double>(used.ru_maxrss) / 1024);
-  }
-  return best;
-}
 
 // A block refined at the tool with about `tets` tetrahedra.
 TetMesh pressed_block(std::size_t tets, int order) {
@@ -103,42 +66,6 @@ void write_ours(const fs::path& folder, const TetMesh& mesh) {
                      kPlace.x(), kPlace.y(), kPlace.z(), -kDepth);
 }
 
-void write_calculix(const fs::path& folder, const std::string& name, const TetMesh& mesh,
-                    const std::vector<int>& patch, const std::string& solver) {
-  std::ofstream out(folder / (name + ".inp"));
-  out << "*NODE, NSET=NALL\n";
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    out << fmt::format("{},{:.12e},{:.12e},{:.12e}\n", n + 1, mesh.nodes[n].x(), mesh.nodes[n].y(),
-                       mesh.nodes[n].z());
-  out << "*ELEMENT, ELSET=EALL, TYPE=" << (mesh.order == 1 ? "C3D4" : "C3D10") << "\n";
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    out << t + 1;
-    for (int a = 0; a < (mesh.order == 1 ? 4 : 10); ++a) out << "," << mesh.tets[t][a] + 1;
-    out << "\n";
-  }
-  out << "*NSET, NSET=PATCH\n";
-  for (const int n : patch) out << n + 1 << "\n";
-  out << "*NSET, NSET=HELD\n";
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    if (mesh.fixed[n]) out << n + 1 << "\n";
-  out << fmt::format(
-      "*MATERIAL, NAME=M\n*ELASTIC\n{},{}\n*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*STEP\n"
-      "*STATIC, SOLVER={}\n*BOUNDARY\nHELD,1,3\nPATCH,1,2\nPATCH,3,3,{}\n"
-      "*NODE PRINT, NSET=PATCH, TOTALS=ONLY\nRF\n*END STEP\n",
-      kModulus, kNu, solver, -kDepth);
-}
-
-double calculix_force(const fs::path& file) {
-  std::ifstream in(file);
-  double force = NAN;
-  for (std::string line; std::getline(in, line);) {
-    std::istringstream words(line);
-    double x = 0, y = 0, z = 0;
-    if (words >> x >> y >> z) force = -z;
-  }
-  return force;
-}
-
 double our_force(const fs::path& file) {
   std::ifstream in(file);
   std::string line, last;
@@ -151,7 +78,7 @@ double our_force(const fs::path& file) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    fmt::print("bench_calculix BIN [runs]\n");
+    fmt::print("bench_calculix BIN [runs [order]]\n");
     return 2;
   }
   const std::string tool = fs::absolute(fs::path(argv[1]) / "hs-simulate");
@@ -166,10 +93,11 @@ int main(int argc, char** argv) {
              "program", "s", "MB", "force N", "ratio");
   for (const auto& [tets, order] :
        {std::pair<std::size_t, int>{20000, 1}, {100000, 1}, {6000, 2}, {20000, 2}}) {
+    if (argc > 3 && std::atoi(argv[3]) != order) continue;
     const TetMesh mesh = pressed_block(tets, order);
     write_ours(folder, mesh);
     const std::vector<int> patch = patch_under_tool(mesh, kPlace, kRadius).nodes;
-    const auto row = [&](const char* name, const Run& r, double force, double ours) {
+    const auto row = [&](const char* name, const bench::Run& r, double force, double ours) {
       fmt::print("{:>8} {:>5} {:>6} {:<28} {:>8.2f} {:>6.0f} {:>10.6f} {:>6.2f}{}\n",
                  mesh.tets.size(), order, patch.size(), name, r.seconds, r.megabytes, force,
                  r.seconds / ours, r.done ? "" : "  FAILED");
@@ -177,18 +105,21 @@ int main(int argc, char** argv) {
     };
     double ours = 0;
     for (const char* solver : {"by-size", "direct", "iterative"}) {
-      const Run r = run(folder,
-                        {tool, "motion.csv", "--body", "body.ply", "--model", "model.csv",
-                         "--own-mesh", "--solver", solver, "-q", "-o", "forces.csv"},
-                        runs);
+      const bench::Run r =
+          bench::run_whole(folder,
+                           {tool, "motion.csv", "--body", "body.ply", "--model", "model.csv",
+                            "--own-mesh", "--solver", solver, "-q", "-o", "forces.csv"},
+                           runs);
       if (ours == 0) ours = r.seconds;
       row(fmt::format("hs-simulate {}", solver).c_str(), r, our_force(folder / "forces.csv"), ours);
     }
     for (const char* solver : {"SPOOLES", "ITERATIVE CHOLESKY", "ITERATIVE SCALING"}) {
-      write_calculix(folder, "run", mesh, patch, solver);
+      bench::write_calculix(folder / "run.inp", mesh, patch, kModulus, kNu, {0, 0, -kDepth},
+                            solver);
       const bool slow = order == 2 && tets > 10000 && std::string(solver) == "SPOOLES";
-      const Run r = run(folder, {"ccx", "-i", "run"}, slow ? 1 : runs);
-      row(fmt::format("ccx {}", solver).c_str(), r, calculix_force(folder / "run.dat"), ours);
+      const bench::Run r = bench::run_whole(folder, {"ccx", "-i", "run"}, slow ? 1 : runs);
+      row(fmt::format("ccx {}", solver).c_str(), r, -bench::calculix_force(folder / "run.dat").z(),
+          ours);
     }
   }
   fs::remove_all(folder);

@@ -26,6 +26,7 @@
 #include "linalg/blas.h"
 #include "log_plot.h"
 #include "support/block_mesh.h"
+#include "whole_run.h"
 
 namespace {
 
@@ -179,8 +180,8 @@ Batch batched(const std::array<int, 3>& n) {
   const TetMesh mesh = block(n);
   std::vector<MeshPatch> patches;
   for (int i = 0; i < 20; ++i)
-    patches.push_back(
-        patch_under_tool(mesh, {0.02 + 0.02 * (i % 5), 0.03 + 0.05 * (i / 5), kSize.z()}, kRadius));
+    patches.push_back(patch_under_tool(
+        mesh, {0.02 + 0.02 * (i % 5), 0.03 + 0.05 * (i / 5), kSize.z()}, 2 * kRadius));
   Batch r;
   r.tets = mesh.tets.size();
   for (const MeshPatch& p : patches) r.columns += 3 * p.nodes.size();

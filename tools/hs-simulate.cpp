@@ -12,6 +12,8 @@
 #include "model/forces.h"
 #include "model/own_mesh.h"
 #include "realtime/live_session.h"
+#include "realtime/motion_lines.h"
+#include "realtime/motion_records.h"
 #include "realtime/real_time.h"
 
 namespace hapsim {
@@ -37,6 +39,13 @@ ToolSpec specification() {
       "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
       "live; there, rows of the viscoelastic effect with a region above 0 give each region its own "
       "Maxwell elements.",
+      "With --binary, motion and forces are records of fixed size, little-endian, without header "
+      "or "
+      "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
+      "units. In, tip (32 bytes): t x y z; press (64 bytes): i press, i contact (0: in the air), t "
+      "x "
+      "y z ux uy uz. Out (88 bytes): i press, i contact, t x y z ux uy uz fx fy fz. Give "
+      "--tool-radius.",
       "With --own-mesh nothing is meshed: the body's own tetrahedra, of either order, are pressed "
       "at the nodes under the tool, by a sparse factorisation or by conjugate gradients, whichever "
       "is faster for the size (it says which). The force is as good as that mesh is fine there."};
@@ -93,6 +102,12 @@ ToolSpec specification() {
                                   "locked and real-time scheduling where they are permitted.",
                           .minimum = 0.001,
                           .maximum = 100000});
+  spec.options.push_back({.flag = "--binary",
+                          .kind = OptionKind::kChoice,
+                          .value = "KIND",
+                          .help = "Live: records instead of lines in and out; tip positions or "
+                                  "presses come in.",
+                          .choices = {"tip", "press"}});
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",
@@ -115,9 +130,9 @@ std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh
                         options);
 }
 
-double live_radius(const Arguments& arguments, const MotionLines& lines) {
+double live_radius(const Arguments& arguments, const Metadata& metadata) {
   if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
-  const auto radius = lines.metadata().number("tool_radius", arguments.input());
+  const auto radius = metadata.number("tool_radius", arguments.input());
   if (!radius || !(*radius > 0))
     fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
   return *radius;
@@ -130,9 +145,20 @@ int run_live_mode(const Arguments& arguments) {
   const Model model = read_model(model_input);
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
-  MotionLines lines(input);
+  std::unique_ptr<MotionSource> source;
+  Metadata metadata;  // binary motion has none
+  const bool binary = arguments.given("--binary");
+  if (binary) {
+    source = std::make_unique<MotionRecords>(input, arguments.text("--binary") == "tip"
+                                                        ? MotionRecords::Kind::kTip
+                                                        : MotionRecords::Kind::kPress);
+  } else {
+    auto lines = std::make_unique<MotionLines>(input);
+    metadata = lines->metadata();
+    source = std::move(lines);
+  }
   PreparedBodyOptions options;
-  options.tool_radius = live_radius(arguments, lines);
+  options.tool_radius = live_radius(arguments, metadata);
   const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model);
   if (fine)
     options.contacts = [&](const MaterialSpec& material) {
@@ -153,13 +179,12 @@ int run_live_mode(const Arguments& arguments) {
 
   LiveOptions live;
   if (arguments.has("--rate")) live.rate = arguments.number("--rate");
-  live.loop.relaxed = lines.metadata().find("recovery").value_or("") != "none";
+  live.loop.relaxed = metadata.find("recovery").value_or("") != "none";
   if (live.rate > 0) say(arguments, "hs-simulate", enter_real_time());
-  Metadata metadata = lines.metadata();
   metadata.remove("force_noise");
   metadata.set("simulated", effects_label(model));
   Output output(arguments.output());
-  CsvWriter(output.stream(), metadata, kForceColumns);
+  if (!binary) CsvWriter(output.stream(), metadata, kForceColumns);
   output.stream().flush();
   LiveReport report;
   const auto tell = [&] {
@@ -169,7 +194,7 @@ int run_live_mode(const Arguments& arguments) {
     say(arguments, "hs-simulate", text);
   };
   try {
-    run_live(lines, output.stream(), body, live, report);
+    run_live(*source, output.stream(), body, live, report);
   } catch (const Error&) {
     output.commit();  // the forces before a bad line stay
     tell();
@@ -245,7 +270,7 @@ int run(const Arguments& arguments) {
   if (arguments.given("--rows") && !arguments.given("--vtu"))
     fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
   if (arguments.given("--live")) return run_live_mode(arguments);
-  for (const char* flag : {"--rate", "--contacts"})
+  for (const char* flag : {"--rate", "--contacts", "--binary"})
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
   if (arguments.given("--own-mesh")) return run_own_mesh(arguments);
