@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -14,8 +13,8 @@
 namespace hapsim {
 namespace {
 
-// Beyond this many patch nodes a position is cheaper on a factorisation of its own.
-constexpr std::size_t kMostShared = 64;
+// Beyond this many patch nodes the dense part costs more than factorisations of their own.
+constexpr std::size_t kMostShared = 2000;
 
 std::vector<char> not_bonded(const TetMesh& mesh) {
   std::vector<char> free;
@@ -54,13 +53,21 @@ MeshPress::MeshPress(const TetMesh& mesh, std::vector<MeshPatch> patches, Solver
       patches_(std::move(patches)),
       dilatation_(mesh.order == 2 ? Dilatation::kElement : Dilatation::kPointwise) {
   assert(!patches_.empty());
-  const bool small = std::all_of(patches_.begin(), patches_.end(),
-                                 [](const MeshPatch& p) { return p.nodes.size() <= kMostShared; });
   if (patches_.size() > 1) {
     shared_ = std::make_unique<NodeSystem>(not_bonded(mesh), element_cliques(mesh));
     choice_ = choose_solver(solver, shared_->unknowns(), shared_->matrix().row.size(),
                             4 * static_cast<int>(patches_.size()));
-    if (small && choice_.kind == SolverKind::kDirect) return;
+    std::size_t nodes = 0;
+    for (const MeshPatch& p : patches_) nodes += p.nodes.size();
+    if (nodes <= kMostShared && choice_.kind == SolverKind::kDirect) {
+      std::vector<char> under(mesh.nodes.size(), 0), kept;
+      for (const MeshPatch& p : patches_)
+        for (const int n : p.nodes) under[n] = 1;
+      for (std::size_t n = 0; n < under.size(); ++n)
+        if (shared_->is_free(static_cast<int>(n))) kept.push_back(under[n]);
+      condensed_ = std::make_unique<SchurInverse>(shared_->matrix(), kept);
+      return;
+    }
     shared_.reset();
     solver = choice_.kind;
   }
@@ -88,37 +95,46 @@ std::vector<MeshPress::Solution> MeshPress::solve(const std::vector<Lame>& lame_
 
 std::vector<MeshPress::Solution> MeshPress::solve_together(const std::vector<Lame>& lame_of_tet) {
   assemble_elastic(*shared_, mesh_, lame_of_tet, dilatation_);
-  if (!shared_->factorise())
+  Eigen::MatrixXd compliance;
+  if (!condensed_->invert(shared_->matrix(), compliance))
     fail_numerics("", "the stiffness matrix is not positive definite",
                   "check that the body has fixed nodes, nu < 0.5 and all moduli are positive");
+  // Of a node: its block of the matrix, and its place among those under a tool; -1: none.
+  std::vector<int> block(mesh_.nodes.size(), -1), place(mesh_.nodes.size(), -1);
+  for (const MeshPatch& p : patches_)
+    for (const int n : p.nodes) place[n] = 0;
+  int blocks = 0, places = 0;
+  for (std::size_t n = 0; n < block.size(); ++n) {
+    if (shared_->is_free(static_cast<int>(n))) block[n] = blocks++;
+    if (place[n] == 0) place[n] = places++;
+  }
   std::vector<Solution> solutions;
-  // Some hundred columns at a time: enough for the solver to be busy, few enough for the memory.
-  for (std::size_t first = 0, last = 0; first < patches_.size(); first = last) {
-    Eigen::Index columns = 0;
-    for (last = first; last < patches_.size() && (last == first || columns < 192); ++last)
-      columns += 3 * static_cast<Eigen::Index>(patches_[last].nodes.size());
-    Eigen::MatrixXd load =
-        Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(mesh_.nodes.size()), columns);
-    Eigen::Index column = 0;
-    for (std::size_t p = first; p < last; ++p)
-      for (const int n : patches_[p].nodes)
-        for (int k = 0; k < 3; ++k) load(3 * n + k, column++) = 1;
-    const Eigen::MatrixXd x = shared_->solve(load);
-    column = 0;
-    for (std::size_t p = first; p < last; ++p) {
-      const std::vector<int>& nodes = patches_[p].nodes;
-      const auto m = 3 * static_cast<Eigen::Index>(nodes.size());
-      Eigen::MatrixXd c(m, m), together(m, 3);
-      for (std::size_t a = 0; a < nodes.size(); ++a) {
-        const auto row = 3 * static_cast<Eigen::Index>(a);
-        c.middleRows(row, 3) = x.block(3 * nodes[a], column, 3, m);
-        together.middleRows(row, 3).setIdentity();
-      }
-      const Eigen::MatrixXd forces = c.llt().solve(together);
-      const Eigen::Matrix3d K = together.transpose() * forces;
-      solutions.push_back({0.5 * (K + K.transpose()), x.middleCols(column, m) * forces});
-      column += m;
-    }
+  Eigen::MatrixXd load =
+      Eigen::MatrixXd::Zero(shared_->unknowns(), 3 * static_cast<Eigen::Index>(patches_.size()));
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const std::vector<int>& nodes = patches_[p].nodes;
+    const auto m = static_cast<Eigen::Index>(nodes.size());
+    Eigen::MatrixXd c(3 * m, 3 * m);
+    for (Eigen::Index a = 0; a < m; ++a)
+      for (Eigen::Index b = 0; b < m; ++b)
+        c.block<3, 3>(3 * a, 3 * b) =
+            compliance.block<3, 3>(3 * place[nodes[a]], 3 * place[nodes[b]]);
+    const Eigen::MatrixXd together = Eigen::Matrix3d::Identity().replicate(m, 1);
+    const Eigen::MatrixXd forces = c.llt().solve(together);
+    const Eigen::Matrix3d K = together.transpose() * forces;
+    for (Eigen::Index a = 0; a < m; ++a)
+      load.block<3, 3>(3 * block[nodes[a]], 3 * static_cast<Eigen::Index>(p)) =
+          forces.middleRows<3>(3 * a);
+    solutions.push_back({0.5 * (K + K.transpose()), {}});
+  }
+  const Eigen::MatrixXd x = condensed_->solve(load);
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    Eigen::MatrixXd& field = solutions[p].field;
+    field = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(mesh_.nodes.size()), 3);
+    for (std::size_t n = 0; n < block.size(); ++n)
+      if (block[n] >= 0)
+        field.middleRows<3>(3 * static_cast<Eigen::Index>(n)) =
+            x.block<3, 3>(3 * block[n], 3 * static_cast<Eigen::Index>(p));
   }
   return solutions;
 }

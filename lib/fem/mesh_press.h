@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fem/elastic_body.h"
+#include "linalg/schur_inverse.h"
 
 namespace hapsim {
 
@@ -19,10 +20,11 @@ struct MeshPatch {
 };
 MeshPatch patch_under_tool(const TetMesh& mesh, const Vec3& point, double radius);
 
-// One system, one position after the other: the nodes of a patch move together, all else is free or
-// bonded. With the direct solver several positions share one factorisation of the body held at its
-// support: with X the displacements by unit forces on the patch's nodes, C those of the patch
-// itself and T the three translations, K = T' C^-1 T and the displacements X C^-1 T.
+// The nodes of a patch move together, all else is free or bonded. With the direct solver several
+// positions share one factorisation of the body held at its support, in which the nodes of all
+// patches come last: with C the displacements of a patch's nodes by unit forces on them (the dense
+// inverse of the Schur complement) and T the three translations, K = T' C^-1 T, and the forces
+// C^-1 T give the fields, three right-hand sides a position.
 class MeshPress {
  public:
   // The mesh must outlive it. `solver`: by size means for all these positions together.
@@ -48,7 +50,8 @@ class MeshPress {
   std::vector<MeshPatch> patches_;
   Dilatation dilatation_;
   SolverChoice choice_;
-  std::unique_ptr<NodeSystem> shared_;               // of all positions, or
+  std::unique_ptr<NodeSystem> shared_;               // of all positions,
+  std::unique_ptr<SchurInverse> condensed_;          // to the nodes of their patches, or
   std::vector<std::unique_ptr<ElasticBody>> apart_;  // one a position
 };
 

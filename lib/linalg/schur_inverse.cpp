@@ -198,6 +198,10 @@ bool SchurInverse::invert(const SymmetricSparse& matrix, Eigen::MatrixXd& invers
   return invert_from_cholesky(inverse);
 }
 
+Eigen::MatrixXd SchurInverse::solve(const Eigen::MatrixXd& b) const {
+  return cholmod_solution(impl_->factor, b, &impl_->common);
+}
+
 Eigen::Index SchurInverse::kept() const {
   return impl_->kept;
 }

@@ -85,6 +85,18 @@ TEST(SchurInverse, TakesNewValuesOnTheSamePattern) {
   EXPECT_EQ(solver_counts.analyses, analyses);
 }
 
+TEST(SchurInverse, SolvesByTheSameFactor) {
+  std::vector<char> kept(40, 0);
+  for (int b = 12; b < 20; ++b) kept[b] = 1;
+  const Eigen::MatrixXd a = chain(40, 3);
+  SchurInverse schur(sparse(a), kept);
+  Eigen::MatrixXd inverse, b(a.rows(), 4);
+  for (Eigen::Index i = 0; i < b.size(); ++i) b.data()[i] = std::sin(0.3 * static_cast<double>(i));
+  ASSERT_TRUE(schur.invert(sparse(a), inverse));
+  const Eigen::MatrixXd x = schur.solve(b);
+  EXPECT_LT((a.selfadjointView<Eigen::Lower>() * x - b).norm(), 1e-11 * b.norm());
+}
+
 TEST(SchurInverse, KeepsNothingAndRefusesIndefinite) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(6, 6), inverse;
   SchurInverse none(sparse(a), {0, 0});
