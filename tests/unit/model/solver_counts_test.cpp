@@ -1,4 +1,5 @@
-// What new material values cost on bodies that are prepared, counted in analyses and factorisations.
+// What new material values cost on bodies that are prepared, counted in analyses and
+// factorisations.
 #include <gtest/gtest.h>
 
 #include "linalg/counts.h"
