@@ -1,13 +1,10 @@
 // What a real-time force costs: making a body ready, one step of the loop, and all compliances of a
-// surface beside CHOLMOD's own solutions. Prints tables; --large: those of
-// 20,000 and 100,000 tetrahedra.
+// surface beside CHOLMOD's own solutions. Prints tables; larger bodies: bench_sizes.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <sstream>
@@ -62,6 +59,29 @@ Model model_with(int terms) {
     if (values.empty()) continue;
     const auto rows = effect_rows(*effect, std::max(1, effect->card().terms ? terms : 1), values);
     model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+  }
+  return model;
+}
+
+// Two halves in plan view, each with its own modulus and two Maxwell elements of its own.
+Model regional_model(const Vec3& low, const Vec3& high) {
+  Model model = model_with(0);
+  const auto add = [&](const char* effect, int region, const char* name, double value) {
+    Parameter p;
+    p.effect = effect;
+    p.region = region;
+    p.name = name;
+    p.value = value;
+    model.parameters.push_back(p);
+  };
+  add("elastic", 1, "E", 6e3);
+  for (int r = 0; r < 2; ++r) {
+    add("regions", r, "x0", low.x() + (0.25 + 0.5 * r) * (high.x() - low.x()));
+    add("regions", r, "y0", 0.5 * (low.y() + high.y()));
+    add("viscoelastic", r, "E1", 5e3 - 2e3 * r);
+    add("viscoelastic", r, "tau1", 0.03 + 0.05 * r);
+    add("viscoelastic", r, "E2", 5e3);
+    add("viscoelastic", r, "tau2", 0.4 + 0.6 * r);
   }
   return model;
 }
@@ -122,10 +142,12 @@ void creation(const Named& body, int terms) {
 
 // A tool that wanders over the top and presses as it goes, each step by the clock; the clock's own
 // 20 to 40 ns are in it.
-void steps(const Named& body, int terms, bool slides) {
+void steps(const Named& body, const Model& model, bool slides) {
   PreparedBodyOptions prepare;
   prepare.tool_radius = kRadius;
-  const PreparedBody prepared(body.mesh, model_with(terms), prepare);
+  const std::clock_t begun = std::clock();
+  const PreparedBody prepared(body.mesh, model, prepare);
+  const double ready = 1e3 * static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
   ForceLoopOptions options;
   options.contact.slides = slides;
   ForceLoop loop(prepared, options);
@@ -150,10 +172,14 @@ void steps(const Named& body, int terms, bool slides) {
   }
   fmt::print(
       "{:<8} {:>5} {:>8} {:>5.0f} % {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>10.1f}   {:.3g}\n",
-      body.name, terms, slides ? "slides" : "holds", 100.0 * touching / kSteps,
+      body.name, prepared.terms().size(), slides ? "slides" : "holds", 100.0 * touching / kSteps,
       1e-3 * histogram.quantile(0.5), 1e-3 * histogram.quantile(0.99),
       1e-3 * histogram.quantile(0.999), 1e-3 * histogram.quantile(0.9999),
       1e-3 * histogram.largest(), work / kSteps);
+  if (prepared.is_regional())
+    fmt::print(
+        "         (made ready in {:.0f} ms of the processor, within {:.0e} of the stiffness)\n",
+        ready, prepared.misfit());
 }
 
 // All compliances of the free surface, as condensed here and by CHOLMOD 48 columns at a time.
@@ -211,24 +237,13 @@ void compliances_heading() {
       "  ratio difference\n");
 }
 
-// Blocks of 20,000 and 100,000 tetrahedra.
-void large_bodies() {
-  compliances_heading();
-  for (const auto& [nx, ny, nz] : {std::array{14, 24, 10}, std::array{24, 42, 16}}) {
-    const TetMesh mesh = test::block_mesh({0.12, 0.21, 0.06}, nx, ny, nz, 1, 0.2);
-    compliances("block", mesh, 2, 1);
-    if (nx < 20) compliances("block", mesh, 1, 1);
-  }
-}
-
 }  // namespace
 
-int main(int argc, char** argv) {
+int main() {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each line when it is known
   prepare_blas_for_many_threads();
   fmt::print("machine: {}, {} threads; {}\n", machine(), std::thread::hardware_concurrency(),
              blas_name());
-  if (argc > 1 && std::strcmp(argv[1], "--large") == 0) return large_bodies(), 0;
   const Surface block = boundary_surface(test::block_mesh({0.12, 0.21, 0.06}, 1, 1, 1, 1));
   const Named cuboid = named("cuboid", body_of(block, 568));
   const Named organ = named("organ", body_of(test::lump(12), 1763));
@@ -243,7 +258,11 @@ int main(int argc, char** argv) {
   fmt::print("({})\n", enter_real_time());
   for (const Named* body : {&cuboid, &organ})
     for (const int terms : {0, 2, 4})
-      for (const bool slides : {false, true}) steps(*body, terms, slides);
+      for (const bool slides : {false, true}) steps(*body, model_with(terms), slides);
+  fmt::print("regions with two Maxwell elements each, of their own\n");
+  for (const Named* body : {&cuboid, &organ})
+    for (const bool slides : {false, true})
+      steps(*body, regional_model(body->low, body->high), slides);
   leave_real_time();
   compliances_heading();
   compliances("cuboid", cuboid.mesh, 1, 21);

@@ -1,13 +1,19 @@
 // hs-simulate: the forces of a model along a motion.
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "base/error.h"
 #include "base/random.h"
 #include "common_options.h"
 #include "io/csv.h"
 #include "model/edit.h"
+#include "model/field_rows.h"
 #include "model/forces.h"
+#include "model/own_mesh.h"
 #include "realtime/live_session.h"
+#include "realtime/motion_lines.h"
+#include "realtime/motion_records.h"
 #include "realtime/real_time.h"
 
 namespace hapsim {
@@ -31,7 +37,18 @@ ToolSpec specification() {
       "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
       "which contacts are found. At the positions of --contacts the forces are those of the batch "
       "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
-      "live."};
+      "live; there, rows of the viscoelastic effect with a region above 0 give each region its own "
+      "Maxwell elements.",
+      "With --binary, motion and forces are records of fixed size, little-endian, without header "
+      "or "
+      "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
+      "units. In, tip (32 bytes): t x y z; press (64 bytes): i press, i contact (0: in the air), t "
+      "x "
+      "y z ux uy uz. Out (88 bytes): i press, i contact, t x y z ux uy uz fx fy fz. Give "
+      "--tool-radius.",
+      "With --own-mesh nothing is meshed: the body's own tetrahedra, of either order, are pressed "
+      "at the nodes under the tool, by a sparse factorisation or by conjugate gradients, whichever "
+      "is faster for the size (it says which). The force is as good as that mesh is fine there."};
   spec.options = workspace_flags();
   spec.options.push_back({.flag = "--model",
                           .kind = OptionKind::kFile,
@@ -50,6 +67,26 @@ ToolSpec specification() {
                           .help = "Seed of the added noise.",
                           .default_text = "1",
                           .minimum = 0});
+  spec.options.push_back(
+      {.flag = "--own-mesh",
+       .kind = OptionKind::kSwitch,
+       .help = "Presses the body's own mesh instead of meshes of its contacts."});
+  spec.options.push_back({.flag = "--solver",
+                          .kind = OptionKind::kChoice,
+                          .value = "NAME",
+                          .help = "Own mesh: how it is solved.",
+                          .default_text = "by-size",
+                          .choices = {"by-size", "direct", "iterative"}});
+  spec.options.push_back({.flag = "--vtu",
+                          .kind = OptionKind::kText,
+                          .value = "PREFIX",
+                          .help =
+                              "Own mesh: writes PREFIX-ROW.vtu with displacement, stress and "
+                              "energy density at the deepest row of each press, or at --rows."});
+  spec.options.push_back({.flag = "--rows",
+                          .kind = OptionKind::kText,
+                          .value = "LIST",
+                          .help = "Rows of the motion to write with --vtu, from 1: 20,40,60."});
   spec.options.push_back({.flag = "--live",
                           .kind = OptionKind::kSwitch,
                           .help = "Answers each line as it comes; latencies on standard error."});
@@ -65,6 +102,12 @@ ToolSpec specification() {
                                   "locked and real-time scheduling where they are permitted.",
                           .minimum = 0.001,
                           .maximum = 100000});
+  spec.options.push_back({.flag = "--binary",
+                          .kind = OptionKind::kChoice,
+                          .value = "KIND",
+                          .help = "Live: records instead of lines in and out; tip positions or "
+                                  "presses come in.",
+                          .choices = {"tip", "press"}});
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",
@@ -76,23 +119,20 @@ ToolSpec specification() {
   return spec;
 }
 
-// The finely solved contacts of --contacts; none without.
-std::vector<KnownStiffness> solved_contacts(const Arguments& arguments, const TetMesh& body,
-                                            const Model& model) {
-  if (!arguments.given("--contacts")) return {};
+// The positions of --contacts, to be solved finely for any material.
+std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh& body,
+                                       const Model& model) {
+  if (!arguments.given("--contacts")) return std::nullopt;
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
   set_poisson_range(model, options);
-  Workspace w =
-      make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false), options);
-  progress.reset();
-  w.body->solve(material_of(model));
-  return known_contacts(*w.body, material_of(model));
+  return make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false),
+                        options);
 }
 
-double live_radius(const Arguments& arguments, const MotionLines& lines) {
+double live_radius(const Arguments& arguments, const Metadata& metadata) {
   if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
-  const auto radius = lines.metadata().number("tool_radius", arguments.input());
+  const auto radius = metadata.number("tool_radius", arguments.input());
   if (!radius || !(*radius > 0))
     fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
   return *radius;
@@ -105,26 +145,46 @@ int run_live_mode(const Arguments& arguments) {
   const Model model = read_model(model_input);
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
-  MotionLines lines(input);
+  std::unique_ptr<MotionSource> source;
+  Metadata metadata;  // binary motion has none
+  const bool binary = arguments.given("--binary");
+  if (binary) {
+    source = std::make_unique<MotionRecords>(input, arguments.text("--binary") == "tip"
+                                                        ? MotionRecords::Kind::kTip
+                                                        : MotionRecords::Kind::kPress);
+  } else {
+    auto lines = std::make_unique<MotionLines>(input);
+    metadata = lines->metadata();
+    source = std::move(lines);
+  }
   PreparedBodyOptions options;
-  options.tool_radius = live_radius(arguments, lines);
-  options.contacts = solved_contacts(arguments, mesh, model);
+  options.tool_radius = live_radius(arguments, metadata);
+  const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model);
+  if (fine)
+    options.contacts = [&](const MaterialSpec& material) {
+      fine->body->solve(material);
+      return known_contacts(*fine->body, material);
+    };
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
   say(arguments, "hs-simulate",
       fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
                   body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
-                  options.contacts.size()));
+                  fine ? fine->dataset.positions.size() : 0));
+  if (body.is_regional())
+    say(arguments, "hs-simulate",
+        fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
+                    "stiffness",
+                    body.terms().size(), body.misfit()));
 
   LiveOptions live;
   if (arguments.has("--rate")) live.rate = arguments.number("--rate");
-  live.loop.relaxed = lines.metadata().find("recovery").value_or("") != "none";
+  live.loop.relaxed = metadata.find("recovery").value_or("") != "none";
   if (live.rate > 0) say(arguments, "hs-simulate", enter_real_time());
-  Metadata metadata = lines.metadata();
   metadata.remove("force_noise");
   metadata.set("simulated", effects_label(model));
   Output output(arguments.output());
-  CsvWriter(output.stream(), metadata, kForceColumns);
+  if (!binary) CsvWriter(output.stream(), metadata, kForceColumns);
   output.stream().flush();
   LiveReport report;
   const auto tell = [&] {
@@ -134,7 +194,7 @@ int run_live_mode(const Arguments& arguments) {
     say(arguments, "hs-simulate", text);
   };
   try {
-    run_live(lines, output.stream(), body, live, report);
+    run_live(*source, output.stream(), body, live, report);
   } catch (const Error&) {
     output.commit();  // the forces before a bad line stay
     tell();
@@ -145,26 +205,17 @@ int run_live_mode(const Arguments& arguments) {
   return 0;
 }
 
-int run(const Arguments& arguments) {
-  if (arguments.given("--live")) return run_live_mode(arguments);
-  for (const char* flag : {"--rate", "--contacts"})
-    if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
-  Input model_input(arguments.text("--model"));
-  const Model model = read_model(model_input);
-  const TetMesh body = load_body(arguments);
-  std::shared_ptr<Progress> progress;
-  WorkspaceOptions options = workspace_options(arguments, progress);
-  set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
-  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), false), options);
-  progress.reset();
-  w.body->solve(material_of(model));
-  const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = model_forces(model, w.dataset, all, *w.body, false).f;
+SolverKind solver_kind(const Arguments& arguments) {
+  const std::string name = arguments.text("--solver");
+  if (name == "direct") return SolverKind::kDirect;
+  return name == "iterative" ? SolverKind::kIterative : SolverKind::kBySize;
+}
 
-  Recording out = w.dataset.recording;
+void write_forces(const Arguments& arguments, const Model& model, const Dataset& dataset,
+                  const Selection& all, const Eigen::VectorXd& f) {
+  Recording out = dataset.recording;
   out.f.assign(out.rows(), Vec3::Zero());
-  const std::vector<int> rows = stacked_rows(w.dataset, all);
+  const std::vector<int> rows = stacked_rows(dataset, all);
   for (std::size_t i = 0; i < rows.size(); ++i)
     out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
   out.metadata.remove("force_noise");
@@ -180,8 +231,63 @@ int run(const Arguments& arguments) {
   Output output(arguments.output());
   write_recording(output.stream(), out);
   output.commit();
+}
+
+int run_own_mesh(const Arguments& arguments) {
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  const TetMesh mesh = load_body(arguments);
+  Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
+  std::vector<FieldRow> fields;
+  if (arguments.given("--vtu"))
+    fields = field_rows(dataset, arguments.given("--rows") ? arguments.text("--rows") : "");
+  const OwnMesh body(mesh, model, dataset.positions, dataset.recording.tool_radius(),
+                     solver_kind(arguments));
+  set_normals(dataset, body.normals());
+  const Selection all = all_episodes(dataset);
+  const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
+  write_forces(arguments, model, dataset, all,
+               model_forces(model, dataset, all, stiffness_at, false).f);
+  for (const FieldRow& row : fields) {
+    Output output(fmt::format("{}-{}.vtu", arguments.text("--vtu"), row.row + 1));
+    body.write_field(output.stream(), dataset.episodes[row.episode], row.sample);
+    output.commit();
+  }
   say(arguments, "hs-simulate",
-      fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", out.rows(),
+      fmt::format("{} rows, {} positions on {} tetrahedra, {} nodes under the tool; {}",
+                  dataset.rows(), dataset.positions.size(), mesh.tets.size(), body.patch_size(0),
+                  body.solver().why));
+  return 0;
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.given("--own-mesh") && arguments.given("--live"))
+    fail_usage("--own-mesh is of the batch mode", "leave out --live or --own-mesh");
+  for (const char* flag : {"--vtu", "--rows", "--solver"})
+    if (arguments.given(flag) && !arguments.given("--own-mesh"))
+      fail_usage(std::string(flag) + " is of the body's own mesh",
+                 "add --own-mesh, or leave it out");
+  if (arguments.given("--rows") && !arguments.given("--vtu"))
+    fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
+  if (arguments.given("--live")) return run_live_mode(arguments);
+  for (const char* flag : {"--rate", "--contacts", "--binary"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
+  if (arguments.given("--own-mesh")) return run_own_mesh(arguments);
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  const TetMesh body = load_body(arguments);
+  std::shared_ptr<Progress> progress;
+  WorkspaceOptions options = workspace_options(arguments, progress);
+  set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
+  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), false), options);
+  progress.reset();
+  w.body->solve(material_of(model));
+  const Selection all = all_episodes(w.dataset);
+  write_forces(arguments, model, w.dataset, all,
+               model_forces(model, w.dataset, all, *w.body, false).f);
+  say(arguments, "hs-simulate",
+      fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", w.dataset.rows(),
                   w.dataset.positions.size(), effects_label(model),
                   100 * w.body->mesh_uncertainty()));
   return 0;

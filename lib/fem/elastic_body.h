@@ -2,11 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "fem/elasticity.h"
-#include "linalg/sparse_cholesky.h"
+#include "fem/node_system.h"
 
 namespace hapsim {
 
@@ -19,9 +18,11 @@ class ElasticBody {
  public:
   // `handle`: one a node, kFreeNode, kHeldNode or a handle's number 0..n-1. Nodes that no element
   // uses are held. The mesh must outlive the body. Cost: the analysis of the sparsity, once.
-  // `dilatation`: kPointwise, or kElement, with which second order does not lock.
+  // `dilatation`: kPointwise, or kElement, with which second order does not lock. `solver`: by size
+  // means for one solve() of three columns a handle.
   ElasticBody(const TetMesh& mesh, const std::vector<int>& handle,
-              Dilatation dilatation = Dilatation::kPointwise);
+              Dilatation dilatation = Dilatation::kPointwise,
+              SolverKind solver = SolverKind::kDirect);
 
   // Assembles and factorises for one pair of Lame's constants an element [Pa].
   // Error(kNoConvergence) when the stiffness is not positive definite (body not held, nu >= 0.5).
@@ -36,18 +37,18 @@ class ElasticBody {
   Response solve(const Eigen::MatrixXd& prescribed) const;
 
   int handles() const { return handles_; }
-  int unknowns() const { return matrix_.size; }
+  int unknowns() const { return system_.unknowns(); }
+  const SolverChoice& solver() const { return choice_; }
 
  private:
-  void build_pattern();
+  bool is_touched(std::size_t tet) const;
 
   const TetMesh& mesh_;
   std::vector<int> handle_;
-  std::vector<int> block_of_node_;  // free block number, or -1
   int handles_ = 0;
   Dilatation dilatation_;
-  SymmetricSparse matrix_;
-  std::unique_ptr<SparseCholesky> cholesky_;
+  NodeSystem system_;
+  SolverChoice choice_;
   std::vector<Lame> lame_;
 };
 

@@ -24,25 +24,43 @@ NodeSystem::NodeSystem(std::vector<char> free, Cliques cliques)
 
 void NodeSystem::build_pattern() {
   const std::size_t blocks = static_cast<std::size_t>(matrix_.size / 3);
-  std::vector<std::vector<int>> below(blocks);  // rows of blocks at and below the diagonal
+  // The cliques of each block, and from them the rows of blocks at and below the diagonal: a row
+  // is new to a column when its mark is not that column's.
+  std::vector<int> first(blocks + 1, 0);
+  for (const int n : cliques_.node)
+    if (const int b = block_[static_cast<std::size_t>(n)]; b >= 0) ++first[b + 1];
+  for (std::size_t b = 0; b < blocks; ++b) first[b + 1] += first[b];
+  std::vector<int> member(static_cast<std::size_t>(first[blocks]));
+  std::vector<int> next(first.begin(), first.end() - 1);
   for (std::size_t q = 0; q < cliques_.size(); ++q)
     for (int a = 0; a < cliques_.count(q); ++a)
-      for (int b = 0; b < cliques_.count(q); ++b) {
-        const int column = block_[cliques_.nodes(q)[a]], row = block_[cliques_.nodes(q)[b]];
-        if (column >= 0 && row >= column) below[column].push_back(row);
-      }
-  matrix_.column_start.assign(1, 0);
+      if (const int b = block_[cliques_.nodes(q)[a]]; b >= 0)
+        member[next[b]++] = static_cast<int>(q);
+  std::vector<int> below_start(1, 0), below, mark(blocks, -1);
+  below.reserve(8 * blocks);
   for (std::size_t c = 0; c < blocks; ++c) {
-    auto& rows = below[c];
-    std::sort(rows.begin(), rows.end());
-    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    const int column = static_cast<int>(c);
+    for (int k = first[c]; k < first[c + 1]; ++k) {
+      const std::size_t q = static_cast<std::size_t>(member[k]);
+      for (int a = 0; a < cliques_.count(q); ++a)
+        if (const int r = block_[cliques_.nodes(q)[a]]; r >= column && mark[r] != column) {
+          mark[r] = column;
+          below.push_back(r);
+        }
+    }
+    std::sort(below.begin() + below_start.back(), below.end());
+    below_start.push_back(static_cast<int>(below.size()));
+  }
+  matrix_.column_start.assign(1, 0);
+  matrix_.column_start.reserve(3 * blocks + 1);
+  matrix_.row.reserve(9 * below.size());
+  for (std::size_t c = 0; c < blocks; ++c)
     for (int k = 0; k < 3; ++k) {
-      for (const int r : rows)
-        for (int l = (r == static_cast<int>(c) ? k : 0); l < 3; ++l)
-          matrix_.row.push_back(3 * r + l);
+      for (int i = below_start[c]; i < below_start[c + 1]; ++i)
+        for (int l = (below[i] == static_cast<int>(c) ? k : 0); l < 3; ++l)
+          matrix_.row.push_back(3 * below[i] + l);
       matrix_.column_start.push_back(static_cast<int>(matrix_.row.size()));
     }
-  }
   matrix_.value.assign(matrix_.row.size(), 0);
 
   for (std::size_t q = 0; q < cliques_.size(); ++q) {
@@ -55,9 +73,9 @@ void NodeSystem::build_pattern() {
           place_.push_back(-1);
           continue;
         }
-        const auto& rows = below[column];
-        place_.push_back(
-            static_cast<int>(std::lower_bound(rows.begin(), rows.end(), row) - rows.begin()));
+        const auto rows = below.begin() + below_start[column];
+        place_.push_back(static_cast<int>(
+            std::lower_bound(rows, below.begin() + below_start[column + 1], row) - rows));
       }
   }
 }
@@ -89,19 +107,19 @@ void NodeSystem::add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>
 
 bool NodeSystem::factorise() {
   if (matrix_.size == 0) return true;
-  if (!cholesky_) cholesky_ = std::make_unique<SparseCholesky>(matrix_, 3);
-  return cholesky_->factorise(matrix_);
+  if (!solver_) solver_ = std::make_unique<StiffnessSolver>(matrix_, kind_);
+  return solver_->factorise(matrix_);
 }
 
 Eigen::MatrixXd NodeSystem::solve(const Eigen::MatrixXd& load) const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(load.rows(), load.cols());
   if (matrix_.size == 0) return result;
-  assert(cholesky_ && load.rows() == 3 * static_cast<Eigen::Index>(block_.size()));
+  assert(solver_ && load.rows() == 3 * static_cast<Eigen::Index>(block_.size()));
   Eigen::MatrixXd compact(matrix_.size, load.cols());
   for (std::size_t n = 0; n < block_.size(); ++n)
     if (block_[n] >= 0)
       compact.middleRows(3 * block_[n], 3) = load.middleRows(3 * static_cast<Eigen::Index>(n), 3);
-  compact = cholesky_->solve(compact);
+  compact = solver_->solve(compact);
   for (std::size_t n = 0; n < block_.size(); ++n)
     if (block_[n] >= 0)
       result.middleRows(3 * static_cast<Eigen::Index>(n), 3) = compact.middleRows(3 * block_[n], 3);

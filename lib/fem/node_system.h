@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "linalg/sparse_cholesky.h"
+#include "linalg/stiffness_solver.h"
 
 namespace hapsim {
 
@@ -33,6 +33,8 @@ class NodeSystem {
   void clear();
   // Adds a symmetric matrix (3 nodes squared, node by node) of a clique.
   void add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>& dense);
+  // Before the first factorise(); direct otherwise.
+  void use(SolverKind kind) { kind_ = kind; }
   // False when the matrix is not positive definite. True when nothing is free.
   bool factorise();
   // Rows of the free nodes of `load` (3 nodes x m) solved for; rows of the others are zero.
@@ -49,7 +51,8 @@ class NodeSystem {
   // column of blocks, -1 when one of both is not free.
   std::vector<int> place_;
   std::vector<std::size_t> place_start_;
-  std::unique_ptr<SparseCholesky> cholesky_;
+  SolverKind kind_ = SolverKind::kDirect;
+  std::unique_ptr<StiffnessSolver> solver_;
 };
 
 }  // namespace hapsim

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/error.h"
+#include "fem/elastic_assembly.h"
 
 namespace hapsim {
 namespace {
@@ -16,22 +17,10 @@ std::uint64_t edge_key(int a, int b) {
   return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
 }
 
-int nodes_per_tet(const TetMesh& mesh) {
-  return mesh.order == 1 ? 4 : 10;
-}
-
 NodeSystem make_system(const TetMesh& mesh) {
   std::vector<char> free(mesh.nodes.size());
   for (std::size_t n = 0; n < free.size(); ++n) free[n] = mesh.fixed[n] ? 0 : 1;
-  const int count = nodes_per_tet(mesh);
-  Cliques cliques;
-  cliques.start.reserve(mesh.tets.size() + 1);
-  cliques.node.reserve(mesh.tets.size() * static_cast<std::size_t>(count));
-  for (const auto& tet : mesh.tets) {
-    cliques.node.insert(cliques.node.end(), tet.begin(), tet.begin() + count);
-    cliques.start.push_back(static_cast<int>(cliques.node.size()));
-  }
-  NodeSystem system(std::move(free), std::move(cliques));
+  NodeSystem system(std::move(free), element_cliques(mesh));
   if (system.unknowns() == 0)
     fail_input("", "all nodes of the body are fixed", "fix its support only");
   return system;
@@ -94,20 +83,7 @@ SurfaceCompliance::SurfaceCompliance(const TetMesh& mesh, Dilatation dilatation)
 }
 
 void SurfaceCompliance::factorise(const std::vector<Lame>& lame_of_tet, int threads) {
-  assert(lame_of_tet.size() == mesh_.tets.size());
-  const int count = nodes_per_tet(mesh_);
-  Eigen::MatrixXd dense(3 * count, 3 * count);
-  system_.clear();
-  for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-    const ElementStiffness element(mesh_, t, lame_of_tet[t], dilatation_);
-    for (int a = 0; a < count; ++a)
-      for (int b = 0; b <= a; ++b) {
-        const Eigen::Matrix3d k = element.block(a, b);
-        dense.block<3, 3>(3 * a, 3 * b) = k;
-        dense.block<3, 3>(3 * b, 3 * a) = k.transpose();
-      }
-    system_.add(t, dense);
-  }
+  assemble_elastic(system_, mesh_, lame_of_tet, dilatation_);
   if (!schur_.invert(system_.matrix(), matrix_, threads))
     fail_numerics("", "the stiffness matrix is not positive definite",
                   "check that the body has fixed nodes, nu < 0.5 and all moduli are positive");

@@ -42,7 +42,6 @@ class SurfaceCompliance {
 
   int unknowns() const { return system_.unknowns(); }
   const SymmetricSparse& stiffness() const { return system_.matrix(); }  // of all free nodes [N/m]
-  int analyses() const { return schur_.analyses(); }
 
  private:
   const TetMesh& mesh_;

@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "base/error.h"
+#include "geometry/field_vtu.h"
 #include "geometry/mesh_parts.h"
 #include "io/vtu.h"
 
@@ -136,7 +137,10 @@ RawMesh parse_vtu_mesh(const std::string& bytes, const std::string& where) {
   return mesh;
 }
 
-void write_mesh_vtu(std::ostream& out, const TetMesh& mesh, bool ascii) {
+namespace {
+
+void write_vtu(std::ostream& out, const TetMesh& mesh, bool ascii,
+               const std::vector<VtuArray>& point_data, const std::vector<VtuArray>& cell_data) {
   const std::size_t width = mesh.order == 1 ? 4 : 10;
   std::vector<double> points;
   points.reserve(3 * mesh.nodes.size());
@@ -161,11 +165,27 @@ void write_mesh_vtu(std::ostream& out, const TetMesh& mesh, bool ascii) {
   writer.array("UInt8", "types", 1, types);
   out << "</Cells>\n<PointData>\n";
   writer.array("UInt8", "fixed", 1, mesh.fixed);
+  for (const VtuArray& a : point_data)
+    writer.array("Float64", a.name.c_str(), a.components, a.values);
   out << "</PointData>\n<CellData>\n";
   writer.array("Int32", "region", 1, mesh.region);
+  for (const VtuArray& a : cell_data)
+    writer.array("Float64", a.name.c_str(), a.components, a.values);
   out << "</CellData>\n</Piece>\n</UnstructuredGrid>\n";
   writer.finish();
   out << "</VTKFile>\n";
+}
+
+}  // namespace
+
+void write_mesh_vtu(std::ostream& out, const TetMesh& mesh, bool ascii) {
+  write_vtu(out, mesh, ascii, {}, {});
+}
+
+void write_field_vtu(std::ostream& out, const TetMesh& mesh,
+                     const std::vector<VtuArray>& point_data,
+                     const std::vector<VtuArray>& cell_data) {
+  write_vtu(out, mesh, false, point_data, cell_data);
 }
 
 void write_body_vtu(std::ostream& out, const TetMesh& mesh) {

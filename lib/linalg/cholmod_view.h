@@ -3,6 +3,8 @@
 
 #include <cholmod.h>
 
+#include <new>
+
 #include "linalg/sparse_cholesky.h"
 
 namespace hapsim {
@@ -22,6 +24,24 @@ inline cholmod_sparse cholmod_view(const SymmetricSparse& matrix) {
   a.sorted = 1;
   a.packed = 1;
   return a;
+}
+
+// Solution of A X = B by a factor of A.
+inline Eigen::MatrixXd cholmod_solution(cholmod_factor* factor, const Eigen::MatrixXd& b,
+                                        cholmod_common* common) {
+  cholmod_dense view{};
+  view.nrow = view.d = static_cast<std::size_t>(b.rows());
+  view.ncol = static_cast<std::size_t>(b.cols());
+  view.nzmax = view.nrow * view.ncol;
+  view.x = const_cast<double*>(b.data());
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor, &view, common);
+  if (x == nullptr) throw std::bad_alloc();
+  Eigen::MatrixXd result =
+      Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), b.rows(), b.cols());
+  cholmod_free_dense(&x, common);
+  return result;
 }
 
 }  // namespace hapsim

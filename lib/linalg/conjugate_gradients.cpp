@@ -1,116 +1,190 @@
 #include "linalg/conjugate_gradients.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
+#include "linalg/block_sparse.h"
+#include "linalg/counts.h"
+
 namespace hapsim {
+namespace {
 
-Eigen::VectorXd multiply(const SymmetricSparse& matrix, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(x.size());
-  for (int c = 0; c < matrix.size; ++c) {
-    const int begin = matrix.column_start[c], end = matrix.column_start[c + 1];
-    double sum = matrix.value[begin] * x[c];  // the diagonal stands first
-    for (int k = begin + 1; k < end; ++k) {
-      y[matrix.row[k]] += matrix.value[k] * x[c];
-      sum += matrix.value[k] * x[matrix.row[k]];
-    }
-    y[c] += sum;
-  }
-  return y;
+using Lanes = std::array<double, kLanes>;
+using Vector = std::vector<double>;  // kLanes columns side by side
+
+Lanes dots(const Vector& a, const Vector& b) {
+  Lanes sum{};
+  for (std::size_t i = 0; i < a.size(); i += kLanes)
+    for (int l = 0; l < kLanes; ++l) sum[l] += a[i + l] * b[i + l];
+  return sum;
 }
 
-bool ConjugateGradients::prepare(const SymmetricSparse& matrix) {
-  factor_ = matrix;
-  scale_.resize(matrix.size);
-  for (int c = 0; c < matrix.size; ++c) {
-    const int diagonal = matrix.column_start[c];
-    if (diagonal == matrix.column_start[c + 1] || matrix.row[diagonal] != c ||
-        !(matrix.value[diagonal] > 0))
-      return false;
-    scale_[c] = 1 / std::sqrt(matrix.value[diagonal]);
-  }
-  scaled_ = matrix.value;
-  for (int c = 0; c < matrix.size; ++c)
-    for (int k = matrix.column_start[c]; k < matrix.column_start[c + 1]; ++k)
-      scaled_[k] *= scale_[c] * scale_[matrix.row[k]];
-  for (shift_ = 0; shift_ < 100; shift_ = shift_ == 0 ? 1e-3 : 2 * shift_)
-    if (factorise(shift_)) return true;
-  return false;
+// y += a x, or y = x + a y.
+void add(const Lanes& a, const Vector& x, Vector& y) {
+  for (std::size_t i = 0; i < y.size(); i += kLanes)
+    for (int l = 0; l < kLanes; ++l) y[i + l] += a[l] * x[i + l];
+}
+void extend(const Lanes& a, const Vector& x, Vector& y) {
+  for (std::size_t i = 0; i < y.size(); i += kLanes)
+    for (int l = 0; l < kLanes; ++l) y[i + l] = x[i + l] + a[l] * y[i + l];
 }
 
-bool ConjugateGradients::factorise(double shift) {
-  factor_.value = scaled_;
-  const auto& start = factor_.column_start;
-  const auto& row = factor_.row;
-  auto& value = factor_.value;
-  for (int c = 0; c < factor_.size; ++c) value[start[c]] += shift;
-  for (int c = 0; c < factor_.size; ++c) {
-    const int begin = start[c], end = start[c + 1];
-    // A pivot far below one makes a factor worse than none.
-    if (!(value[begin] > 1e-3)) return false;
-    const double pivot = std::sqrt(value[begin]);
-    value[begin] = pivot;
-    for (int k = begin + 1; k < end; ++k) value[k] /= pivot;
-    // Column c times its own entries, where the target column has a place for it.
-    for (int k = begin + 1; k < end; ++k) {
-      const double factor = value[k];
-      int target = start[row[k]];
-      const int target_end = start[row[k] + 1];
-      for (int i = k; i < end; ++i) {
-        while (target < target_end && row[target] < row[i]) ++target;
-        if (target == target_end) break;
-        if (row[target] == row[i]) value[target] -= factor * value[i];
+}  // namespace
+
+struct ConjugateGradients::Impl {
+  virtual ~Impl() = default;
+  virtual bool prepare(const SymmetricSparse& matrix) = 0;
+  virtual void multiply_by_matrix(const Vector& x, Vector& y) const = 0;
+  virtual void precondition(Vector& z) const = 0;
+  std::vector<int> order;  // of the unknowns
+  Eigen::VectorXd scale;   // 1 / sqrt(diagonal), in that order
+  double shift = 0;
+};
+
+namespace {
+
+template <int B, class Base>
+struct Blocked : Base {
+  BlockSparse<B, double> a;  // scaled
+  BlockSparse<B, float> l;
+
+  bool prepare(const SymmetricSparse& matrix) override {
+    const std::vector<int> blocks = cuthill_mckee_order(block_pattern(matrix, B));
+    a = reordered_blocks<B>(matrix, blocks);
+    this->order.clear();
+    for (const int b : blocks)
+      for (int i = 0; i < B; ++i) this->order.push_back(B * b + i);
+    this->scale.resize(matrix.size);
+    const LowerPattern& p = a.pattern;
+    for (int c = 0; c < p.size(); ++c)
+      for (int i = 0; i < B; ++i) {
+        const double d = a.value[static_cast<std::size_t>(B * B) * p.start[c] + B * i + i];
+        if (!(d > 0)) return false;
+        this->scale[B * c + i] = 1 / std::sqrt(d);
       }
+    double* value = a.value.data();
+    for (int c = 0; c < p.size(); ++c)
+      for (int k = p.start[c]; k < p.start[c + 1]; ++k)
+        for (int i = 0; i < B; ++i)
+          for (int j = 0; j < B; ++j)
+            *value++ *= this->scale[B * p.row[k] + i] * this->scale[B * c + j];
+    for (double& raised = this->shift = 0; raised < 100; raised = raised == 0 ? 1e-3 : 2 * raised)
+      if (incomplete_cholesky<B>(a, raised, l)) return true;
+    return false;
+  }
+  void multiply_by_matrix(const Vector& x, Vector& y) const override {
+    multiply(a, x.data(), y.data());
+  }
+  void precondition(Vector& z) const override { apply_inverse(l, z.data()); }
+};
+
+}  // namespace
+
+ConjugateGradients::ConjugateGradients() = default;
+ConjugateGradients::~ConjugateGradients() = default;
+ConjugateGradients::ConjugateGradients(ConjugateGradients&&) noexcept = default;
+ConjugateGradients& ConjugateGradients::operator=(ConjugateGradients&&) noexcept = default;
+
+bool ConjugateGradients::prepare(const SymmetricSparse& matrix, int block) {
+  ++solver_counts.factorisations;
+  assert((block == 1 || block == 3) && matrix.size % block == 0);
+  for (int c = 0; c < matrix.size; ++c)
+    if (matrix.column_start[c] == matrix.column_start[c + 1] ||
+        matrix.row[matrix.column_start[c]] != c)
+      return false;
+  if (block == 3)
+    impl_ = std::make_unique<Blocked<3, Impl>>();
+  else
+    impl_ = std::make_unique<Blocked<1, Impl>>();
+  return impl_->prepare(matrix);
+}
+
+IterationReport ConjugateGradients::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x,
+                                          double tolerance, int limit) const {
+  const std::vector<int>& order = impl_->order;
+  const auto size = static_cast<Eigen::Index>(order.size());
+  assert(b.rows() == size && x.rows() == size && b.cols() == x.cols());
+  if (limit == 0) limit = std::max(1000, static_cast<int>(10 * std::sqrt(size)));
+  IterationReport all;
+  all.converged = true;
+  const std::size_t length = order.size() * kLanes;
+  for (Eigen::Index first = 0; first < b.cols(); first += kLanes) {
+    const int columns = static_cast<int>(std::min<Eigen::Index>(kLanes, b.cols() - first));
+    // The scaled system D A D y = D b in the order of the factor; x = D y. Its residual is D times
+    // the true one, so the true one's norm is taken where a column is to stop.
+    Vector load(length, 0.0), y(length, 0.0), r(length), z(length), p(length), q(length);
+    Lanes norm{};
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (int l = 0; l < columns; ++l) {
+        const double value = b(order[i], first + l), s = impl_->scale[i];
+        load[kLanes * i + l] = s * value;
+        y[kLanes * i + l] = x(order[i], first + l) / s;
+        norm[l] += value * value;
+      }
+    const auto residuals = [&](const Vector& scaled) {
+      Lanes sum{};
+      for (Eigen::Index i = 0; i < size; ++i) {
+        const double back = 1 / impl_->scale[i];
+        for (int l = 0; l < kLanes; ++l)
+          sum[l] += scaled[kLanes * i + l] * scaled[kLanes * i + l] * back * back;
+      }
+      for (int l = 0; l < kLanes; ++l) sum[l] = norm[l] > 0 ? std::sqrt(sum[l] / norm[l]) : 0;
+      return sum;
+    };
+    const auto true_residual = [&] {
+      impl_->multiply_by_matrix(y, q);
+      for (std::size_t i = 0; i < length; ++i) r[i] = load[i] - q[i];
+    };
+    for (int l = 0; l < columns; ++l)
+      if (norm[l] == 0)
+        for (Eigen::Index i = 0; i < size; ++i) y[kLanes * i + l] = 0;
+    true_residual();
+    Lanes rho{};
+    int steps = 0;
+    for (; steps < limit; ++steps) {
+      const Lanes left = residuals(r);
+      if (*std::max_element(left.begin(), left.end()) <= tolerance) break;
+      z = r;
+      impl_->precondition(z);
+      const Lanes next = dots(r, z);
+      Lanes beta{}, step{}, back{};
+      for (int l = 0; l < kLanes; ++l) beta[l] = rho[l] > 0 ? next[l] / rho[l] : 0;
+      if (steps == 0)
+        p = z;
+      else
+        extend(beta, z, p);
+      rho = next;
+      impl_->multiply_by_matrix(p, q);
+      const Lanes curvature = dots(p, q);
+      bool moves = false;
+      for (int l = 0; l < kLanes; ++l) {
+        // A column that has arrived, or meets a direction of no curvature, stands still.
+        if (left[l] > tolerance && curvature[l] > 0) step[l] = rho[l] / curvature[l];
+        back[l] = -step[l];
+        moves = moves || step[l] != 0;
+      }
+      if (!moves) break;
+      add(step, p, y);
+      add(back, q, r);
     }
+    // The recurrence drifts from the truth: say the true residual.
+    true_residual();
+    const Lanes left = residuals(r);
+    const double worst = *std::max_element(left.begin(), left.end());
+    all.iterations = std::max(all.iterations, steps);
+    all.residual = std::max(all.residual, worst);
+    all.converged = all.converged && worst <= 2 * tolerance;
+    for (Eigen::Index i = 0; i < size; ++i)
+      for (int l = 0; l < columns; ++l)
+        x(order[i], first + l) = impl_->scale[i] * y[kLanes * i + l];
   }
-  return true;
+  return all;
 }
 
-Eigen::VectorXd ConjugateGradients::preconditioned(const Eigen::VectorXd& r) const {
-  const auto& start = factor_.column_start;
-  Eigen::VectorXd z = scale_.cwiseProduct(r);
-  for (int c = 0; c < factor_.size; ++c) {
-    z[c] /= factor_.value[start[c]];
-    for (int k = start[c] + 1; k < start[c + 1]; ++k) z[factor_.row[k]] -= factor_.value[k] * z[c];
-  }
-  for (int c = factor_.size - 1; c >= 0; --c) {
-    for (int k = start[c] + 1; k < start[c + 1]; ++k) z[c] -= factor_.value[k] * z[factor_.row[k]];
-    z[c] /= factor_.value[start[c]];
-  }
-  return scale_.cwiseProduct(z);
-}
-
-IterationReport ConjugateGradients::solve(const SymmetricSparse& matrix, const Eigen::VectorXd& b,
-                                          Eigen::VectorXd& x, double tolerance, int limit) const {
-  assert(factor_.size == matrix.size && b.size() == matrix.size && x.size() == matrix.size);
-  if (limit == 0) limit = std::max(1000, static_cast<int>(10 * std::sqrt(matrix.size)));
-  IterationReport report;
-  const double norm = b.norm();
-  if (norm == 0) {
-    x.setZero();
-    report.converged = true;
-    return report;
-  }
-  Eigen::VectorXd r = b - multiply(matrix, x), p;
-  double rho = 0;
-  for (report.residual = r.norm() / norm; report.iterations < limit; ++report.iterations) {
-    if (report.residual <= tolerance) break;
-    const Eigen::VectorXd z = preconditioned(r);
-    const double next = r.dot(z);
-    p = report.iterations == 0 ? z : Eigen::VectorXd(z + next / rho * p);
-    rho = next;
-    const Eigen::VectorXd q = multiply(matrix, p);
-    const double curvature = p.dot(q);
-    if (!(curvature > 0)) break;  // not positive definite
-    x += rho / curvature * p;
-    r -= rho / curvature * q;
-    report.residual = r.norm() / norm;
-  }
-  // The recurrence drifts from the truth: say the true residual.
-  report.residual = (b - multiply(matrix, x)).norm() / norm;
-  report.converged = report.residual <= 2 * tolerance;
-  return report;
+double ConjugateGradients::shift() const {
+  return impl_->shift;
 }
 
 }  // namespace hapsim

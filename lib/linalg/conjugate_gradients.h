@@ -1,8 +1,9 @@
 // Conjugate gradients preconditioned by an incomplete Cholesky factor, for systems that are too
-// large to factorise or change too often.
+// large to factorise, or solved for too few right-hand sides to be worth it.
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "linalg/sparse_cholesky.h"
@@ -12,36 +13,34 @@ namespace hapsim {
 struct IterationReport {
   bool converged = false;
   int iterations = 0;
-  double residual = 0;  // |b - A x| / |b|
+  double residual = 0;  // the largest |b - A x| / |b| of the columns
 };
 
-// Hestenes and Stiefel, J. Res. Natl. Bur. Stand. 49, 1952; IC(0) of the symmetrically scaled
-// matrix (Meijerink and van der Vorst, Math. Comput. 31, 1977), its diagonal raised until it exists
-// (Manteuffel, Math. Comput. 34, 1980). Memory: the matrix once more. Not to be shared between
-// threads.
+// Hestenes and Stiefel, J. Res. Natl. Bur. Stand. 49, 1952, up to four columns at a time over one
+// pass through the matrix; IC(0) by blocks of the symmetrically scaled matrix (Meijerink and van
+// der Vorst, Math. Comput. 31, 1977) in single precision, its diagonal raised until it exists
+// (Manteuffel, Math. Comput. 34, 1980); unknowns in the order of Cuthill and McKee (ACM '69), which
+// keeps what is near in memory. Memory: the matrix one and a half times. One thread.
 class ConjugateGradients {
  public:
-  // Factorises incompletely. False when the diagonal is not positive.
-  bool prepare(const SymmetricSparse& matrix);
-  // Solves A x = b from the given x; A must be the matrix prepared, or close to it (a
-  // preconditioner may serve several Newton steps). Stops at |b - A x| <= tolerance |b| or after
-  // `limit` steps (0: ten times the square root of the size, at least 1000); not converged is
+  ConjugateGradients();
+  ~ConjugateGradients();
+  ConjugateGradients(ConjugateGradients&&) noexcept;
+  ConjugateGradients& operator=(ConjugateGradients&&) noexcept;
+
+  // Copies the matrix and factorises incompletely. `block` (1 or 3) consecutive unknowns share
+  // their sparsity. False when the diagonal is not positive.
+  bool prepare(const SymmetricSparse& matrix, int block = 3);
+  // Solves A X = B from the given X (size x m). A column stops at |b - A x| <= tolerance |b|; all
+  // after `limit` steps (0: ten times the square root of the size, at least 1000). Not converged is
   // reported, not thrown.
-  IterationReport solve(const SymmetricSparse& matrix, const Eigen::VectorXd& b, Eigen::VectorXd& x,
-                        double tolerance = 1e-8, int limit = 0) const;
-  double shift() const { return shift_; }  // by which the unit diagonal was raised
+  IterationReport solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x, double tolerance = 1e-8,
+                        int limit = 0) const;
+  double shift() const;  // by which the unit diagonal was raised
 
  private:
-  bool factorise(double shift);
-  Eigen::VectorXd preconditioned(const Eigen::VectorXd& r) const;
-
-  SymmetricSparse factor_;      // lower triangle of IC(0) of the scaled matrix
-  std::vector<double> scaled_;  // values of the scaled matrix
-  Eigen::VectorXd scale_;       // 1 / sqrt(diagonal)
-  double shift_ = 0;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
-
-// A x of a lower-stored symmetric matrix.
-Eigen::VectorXd multiply(const SymmetricSparse& matrix, const Eigen::VectorXd& x);
 
 }  // namespace hapsim

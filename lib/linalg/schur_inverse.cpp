@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
+#include "linalg/counts.h"
 #include "linalg/schur_dense.h"
 
 namespace hapsim {
@@ -44,7 +45,7 @@ SymmetricSparse eliminated_graph(const SymmetricSparse& pattern, const std::vect
 struct SchurInverse::Impl {
   cholmod_common common{};
   cholmod_factor* factor = nullptr;
-  int kept = 0, analyses = 0;
+  int kept = 0;
   SymmetricSparse padded;   // the matrix, with the first kept column full over the kept rows
   int first = 0;            // that column
   std::vector<int> place;   // of its own entries within it
@@ -174,7 +175,7 @@ SchurInverse::SchurInverse(const SymmetricSparse& pattern, const std::vector<cha
   impl_->common.method[0].ordering = CHOLMOD_GIVEN;
   impl_->factor = cholmod_analyze_p(&full, permutation.data(), nullptr, 0, &impl_->common);
   impl_->check(impl_->factor, "symbolic factorisation failed");
-  ++impl_->analyses;
+  ++solver_counts.analyses;
   const int* final_order = static_cast<const int*>(impl_->factor->Perm);
   impl_->row_of.resize(static_cast<std::size_t>(pattern.size));
   for (int i = 0; i < pattern.size; ++i) impl_->row_of[i] = dense_row[final_order[i]];
@@ -186,6 +187,7 @@ bool SchurInverse::invert(const SymmetricSparse& matrix, Eigen::MatrixXd& invers
   const BlasThreads scope(threads);
   impl_->fill(matrix);
   cholmod_sparse a = cholmod_view(impl_->padded);
+  ++solver_counts.factorisations;
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   if (impl_->common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
   if (impl_->common.status != CHOLMOD_OK || impl_->factor->minor != impl_->factor->n) return false;
@@ -196,11 +198,12 @@ bool SchurInverse::invert(const SymmetricSparse& matrix, Eigen::MatrixXd& invers
   return invert_from_cholesky(inverse);
 }
 
+Eigen::MatrixXd SchurInverse::solve(const Eigen::MatrixXd& b) const {
+  return cholmod_solution(impl_->factor, b, &impl_->common);
+}
+
 Eigen::Index SchurInverse::kept() const {
   return impl_->kept;
-}
-int SchurInverse::analyses() const {
-  return impl_->analyses;
 }
 double SchurInverse::factor_nonzeros() const {
   return impl_->common.lnz;

@@ -28,8 +28,10 @@ class SchurInverse {
   // factorisation and 2/3 kept^3 flops; memory: the factor and kept^2 numbers.
   bool invert(const SymmetricSparse& matrix, Eigen::MatrixXd& inverse, int threads = 1);
 
+  // Solution of A X = B (size x m) by the factor of the last invert().
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
   Eigen::Index kept() const;
-  int analyses() const;  // symbolic ones so far: 1
   double factor_nonzeros() const;
 
  private:

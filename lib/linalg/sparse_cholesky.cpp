@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
+#include "linalg/counts.h"
 
 namespace hapsim {
 namespace {
@@ -79,33 +80,21 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
   impl_->check_memory();
   if (impl_->factor == nullptr)
     fail_numerics("", "symbolic factorisation failed", "report this mesh");
+  ++solver_counts.analyses;
 }
 
 SparseCholesky::~SparseCholesky() = default;
 
 bool SparseCholesky::factorise(const SymmetricSparse& matrix) {
   cholmod_sparse a = cholmod_view(matrix);
+  ++solver_counts.factorisations;
   cholmod_factorize(&a, impl_->factor, &impl_->common);
   impl_->check_memory();
   return impl_->common.status == CHOLMOD_OK && impl_->factor->minor == impl_->factor->n;
 }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) const {
-  cholmod_common* common = &impl_->common;
-  cholmod_dense b{};
-  b.nrow = b.d = static_cast<std::size_t>(right_hand_sides.rows());
-  b.ncol = static_cast<std::size_t>(right_hand_sides.cols());
-  b.nzmax = b.nrow * b.ncol;
-  b.x = const_cast<double*>(right_hand_sides.data());
-  b.xtype = CHOLMOD_REAL;
-  b.dtype = CHOLMOD_DOUBLE;
-  cholmod_dense* x = cholmod_solve(CHOLMOD_A, impl_->factor, &b, common);
-  impl_->check_memory();
-  assert(x != nullptr);
-  Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(
-      static_cast<const double*>(x->x), right_hand_sides.rows(), right_hand_sides.cols());
-  cholmod_free_dense(&x, common);
-  return result;
+  return cholmod_solution(impl_->factor, right_hand_sides, &impl_->common);
 }
 
 double SparseCholesky::factor_nonzeros() const {

@@ -4,6 +4,7 @@
 
 #include "effects/catalogue.h"
 #include "model/nearest_region.h"
+#include "model/relaxation.h"
 
 namespace hapsim {
 namespace {
@@ -86,6 +87,14 @@ std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection
 
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
                     const BodyStiffness& body, bool derivatives) {
+  const MaterialSpec material = material_of(model);
+  return model_forces(
+      model, dataset, selection, [&](std::size_t p) { return body.at(p, material); }, derivatives);
+}
+
+Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
+                    const StiffnessAt& stiffness_at, bool derivatives) {
+  refuse_regional_relaxation(model);
   const std::vector<Instance> effects = instances(model, derivatives);
   const MaterialSpec material = material_of(model);
   const Eigen::Index columns =
@@ -100,7 +109,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
   for (const int e : selection) {
     const Episode& episode = dataset.episodes[e];
     if (!known[episode.position]) {
-      stiffness[episode.position] = body.at(episode.position, material);
+      stiffness[episode.position] = stiffness_at(episode.position);
       known[episode.position] = 1;
     }
     const PositionStiffness& s = stiffness[episode.position];

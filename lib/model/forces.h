@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "model/body_stiffness.h"
@@ -25,6 +26,11 @@ std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection
 // Stacked forces (3 x rows) and, when asked, their derivatives by the free parameters.
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
                     const BodyStiffness& body, bool derivatives);
+
+// The same with stiffnesses by position from elsewhere.
+using StiffnessAt = std::function<PositionStiffness(std::size_t position)>;
+Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
+                    const StiffnessAt& stiffness_at, bool derivatives);
 
 // The measured forces in the same order.
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);

@@ -7,6 +7,8 @@ namespace hapsim {
 ForceLoop::ForceLoop(const PreparedBody& body, const ForceLoopOptions& options)
     : body_(body), options_(options), contact_(body.distance(), options.contact) {
   state_.h.fill(Vec3::Zero());
+  state_.driver.fill(Vec3::Zero());
+  state_.maxwell.fill(Eigen::Matrix3d::Zero());
 }
 
 void ForceLoop::restore(const ForceLoopState& state) noexcept {
@@ -22,41 +24,47 @@ Vec3 ForceLoop::step(double t, const Vec3& tool) noexcept {
   if (began || options_.contact.slides) {
     state_.anchor = now.anchor;
     state_.normal = now.surface.normal;
-    state_.K = body_.field().at(now.surface.face, now.anchor);
+    take_stiffness(now.surface.face);
   }
-  return advance(t, -state_.K * now.displacement);
+  return advance(t, now.displacement);
 }
 
 void ForceLoop::begin(const Vec3& contact) noexcept {
   const SurfaceSide side = body_.distance().at(contact);
   state_.anchor = side.point;
   state_.normal = side.normal;
-  state_.K = body_.field().at(side.face, side.point);
+  take_stiffness(side.face);
   if (options_.relaxed) state_.begun = false;
 }
 
 Vec3 ForceLoop::press(double t, const Vec3& u, bool in_air) noexcept {
   if (in_air) return advance(t, Vec3::Zero()), Vec3::Zero();
-  return advance(t, -state_.K * u);
+  return advance(t, u);
 }
 
-Vec3 ForceLoop::advance(double t, const Vec3& elastic) noexcept {
+void ForceLoop::take_stiffness(int face) noexcept {
+  state_.K = body_.field().at(face, state_.anchor);
+  if (body_.is_regional()) body_.maxwell_at(face, state_.anchor, state_.maxwell.data());
+}
+
+Vec3 ForceLoop::advance(double t, const Vec3& u) noexcept {
+  const Vec3 elastic = -(state_.K * u);
   Vec3 force = elastic;
   const bool first = !state_.begun;
   const double dt = t > state_.t ? t - state_.t : 0;
-  const Vec3 change = elastic - state_.elastic;
   const std::vector<MaxwellTerm>& terms = body_.terms();
   for (std::size_t i = 0; i < terms.size(); ++i) {
     Vec3& h = state_.h[i];
+    const Vec3 driver = body_.is_regional() ? Vec3(-(state_.maxwell[i] * u)) : elastic;
     if (first) {
-      h = elastic;  // relaxed until now, then a jump
+      h = driver;  // relaxed until now, then a jump
     } else {
       const MemoryStep s = memory_step(dt, terms[i].tau);
-      h = s.a * h + s.c * change;
+      h = s.a * h + s.c * (driver - state_.driver[i]);
     }
+    state_.driver[i] = driver;
     force += terms[i].share * h;
   }
-  state_.elastic = elastic;
   if (first || t > state_.t) state_.t = t;
   state_.begun = true;
   return force;

@@ -16,17 +16,21 @@ struct ForceLoopOptions {
 // All that a loop remembers: plain data, to be stored and gone on from.
 struct ForceLoopState {
   ToolState tool;
-  Vec3 anchor = Vec3::Zero();                         // contact point on the surface [m]
-  Vec3 normal = Vec3::UnitZ();                        // outward there
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();        // stiffness there [N/m]
-  double t = 0;                                       // of the last sample [s]
-  bool begun = false;                                 // there was a sample
-  Vec3 elastic = Vec3::Zero();                        // force without memory [N]
-  std::array<Vec3, PreparedBody::kMostTerms> h = {};  // of the Maxwell elements [N]
+  Vec3 anchor = Vec3::Zero();                   // contact point on the surface [m]
+  Vec3 normal = Vec3::UnitZ();                  // outward there
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // stiffness there [N/m]
+  double t = 0;                                 // of the last sample [s]
+  bool begun = false;                           // there was a sample
+  // Of the Maxwell elements: the force that each remembers of and what it remembers [N]; where
+  // regions relax each in its own way, their stiffnesses there [N/m].
+  std::array<Vec3, PreparedBody::kMostTerms> driver = {}, h = {};
+  std::array<Eigen::Matrix3d, PreparedBody::kMostTerms> maxwell = {};
 };
 
-// f = f_e + sum_i (E_i/E) h_i with f_e = -K u: the step of the batch mode (viscoelastic effect,
-// memory.h), exact for motion that is straight between samples, for any time steps. step() and
+// f = f_e + sum_i (E_i/E) h_i with f_e = -K u, h_i the memory of f_e: the step of the batch mode
+// (viscoelastic effect, memory.h), exact for motion that is straight between samples, for any time
+// steps. Where regions relax each in its own way f = f_e + sum_j h_j, h_j the memory of -K_j u
+// (RelaxationSpectrum). step() and
 // press() allocate nothing, lock nothing, throw nothing and make no system call. `body` must
 // outlive the loop. Not to be shared between threads; one loop a tool.
 class ForceLoop {
@@ -47,7 +51,8 @@ class ForceLoop {
   void restore(const ForceLoopState& state) noexcept;
 
  private:
-  Vec3 advance(double t, const Vec3& elastic) noexcept;
+  void take_stiffness(int face) noexcept;  // at the anchor
+  Vec3 advance(double t, const Vec3& u) noexcept;
 
   const PreparedBody& body_;
   ForceLoopOptions options_;

@@ -14,7 +14,7 @@ bool goes_on(const MotionLine& last, const MotionLine& line) {
 
 }  // namespace
 
-void run_live(MotionLines& in, std::ostream& out, const PreparedBody& body,
+void run_live(MotionSource& in, std::ostream& out, const PreparedBody& body,
               const LiveOptions& options, LiveReport& report) {
   const bool remembers = !options.loop.relaxed;
   ForceLoopOptions loop_options = options.loop;
@@ -43,7 +43,7 @@ void run_live(MotionLines& in, std::ostream& out, const PreparedBody& body,
       line.point = line.in_air ? tool.surface.point : tool.anchor;
       line.u = tool.displacement;
     }
-    write_force_line(text, line, force);
+    in.write_force(text, line, force);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.flush();
     const std::int64_t took = monotonic_ns() - since;

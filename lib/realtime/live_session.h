@@ -1,11 +1,11 @@
-// Motion lines in, force lines out at once.
+// Motion in, forces out at once.
 #pragma once
 
 #include <ostream>
 
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"
-#include "realtime/motion_lines.h"
+#include "realtime/motion_source.h"
 
 namespace hapsim {
 
@@ -23,7 +23,7 @@ struct LiveReport {
 // Runs until the input ends. Every force is written and flushed before the next line is read, so an
 // Error of a bad line comes after all forces before it; the error of a closed pipe comes through.
 // Nothing is allocated once the first line is through, apart from lines longer than those before.
-void run_live(MotionLines& in, std::ostream& out, const PreparedBody& body,
+void run_live(MotionSource& in, std::ostream& out, const PreparedBody& body,
               const LiveOptions& options, LiveReport& report);
 
 }  // namespace hapsim

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::array<const char*, 9> kNames{"press", "t",  "x",  "y",      "z",
                                             "ux",    "uy", "uz", "contact"};
-// As in recordings: beyond these the unit is wrong [m].
-constexpr double kLargestPosition = 10, kLargestDisplacement = 1, kSamePoint = 1e-4;
 
 void append(std::string& buffer, double value) {
   char text[32];
@@ -60,26 +58,13 @@ bool MotionLines::next(MotionLine& line) {
                  "number the contact episodes 1, 2, 3");
     line.press = static_cast<int>(value_[kPress]);
   }
-  check(line);
-  last_ = line;
-  first_ = false;
+  check_.check(line, csv_.where());
   return true;
 }
 
-void MotionLines::check(const MotionLine& line) {
-  if (line.point.cwiseAbs().maxCoeff() > kLargestPosition ||
-      line.u.cwiseAbs().maxCoeff() > kLargestDisplacement)
-    fail_input(csv_.where(), "a position beyond 10 m or a displacement beyond 1 m",
-               "are these millimetres? divide lengths by 1000");
-  if (first_ || (known_ && line.press != last_.press)) return;
-  if (line.t < last_.t)
-    fail_input(csv_.where(),
-               "time runs backwards: " + format_number(line.t) + " s after " +
-                   format_number(last_.t) + " s",
-               "send the samples in their order, or begin a new press");
-  if (known_ && (line.point - last_.point).norm() > kSamePoint)
-    fail_input(csv_.where(), "the contact point moves within press " + std::to_string(line.press),
-               "give each contact point its own press number");
+void MotionLines::write_force(std::string& buffer, const MotionLine& line,
+                              const Vec3& force) const {
+  write_force_line(buffer, line, force);
 }
 
 void write_force_line(std::string& buffer, const MotionLine& line, const Vec3& force) {

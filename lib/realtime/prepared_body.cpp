@@ -1,10 +1,10 @@
 #include "realtime/prepared_body.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "base/error.h"
-#include "effects/catalogue.h"
 #include "model/forces.h"
 #include "model/nearest_region.h"
 
@@ -19,22 +19,45 @@ TetMesh corners_only(TetMesh mesh) {
   return mesh;
 }
 
-std::vector<MaxwellTerm> live_terms(const Model& model, const MaterialSpec& material) {
-  std::vector<MaxwellTerm> terms;
-  for (const Effect* effect : catalogue()) {
-    Values values;
-    for (const Parameter& p : model.parameters)
-      if (p.effect == effect->card().name) values.push_back({p.region, p.name, p.value, -1});
-    if (values.empty()) continue;
-    if (!effect->live(values, material.modulus[0], terms))
-      fail_usage("the model has " + effect->card().name + ", which the real-time loop cannot do",
-                 "simulate without --live, or fit a model without it");
+// The field of one material on a mesh whose sparsity is analysed once.
+class FieldMaker {
+ public:
+  FieldMaker(const TetMesh& mesh, const PreparedBodyOptions& options)
+      : mesh_(mesh), options_(options), compliance_(mesh, Dilatation::kPointwise) {}
+
+  std::unique_ptr<StiffnessField> field(const MaterialSpec& material,
+                                        const StiffnessField* like = nullptr) {
+    const auto modulus_at = [&](const Vec3& p) {
+      return material.modulus[static_cast<std::size_t>(region_at(material, p))];
+    };
+    // A contact that feels its own region alone stands on a body of that modulus.
+    const bool apart = material.local || material.modulus.size() == 1;
+    if (!apart || !condensed_) {
+      std::vector<Lame> constants;
+      constants.reserve(mesh_.tets.size());
+      const Lame unit = lame(1, material.nu);
+      for (const auto& t : mesh_.tets) {
+        const Vec3 centre =
+            (mesh_.nodes[t[0]] + mesh_.nodes[t[1]] + mesh_.nodes[t[2]] + mesh_.nodes[t[3]]) / 4;
+        const double modulus = apart ? 1 : modulus_at(centre);
+        constants.push_back({modulus * unit.lambda, modulus * unit.mu});
+      }
+      compliance_.factorise(constants, options_.threads);
+      condensed_ = apart;
+    }
+    const FieldMaterial about{material.nu, modulus_at, apart};
+    return std::make_unique<StiffnessField>(
+        mesh_, compliance_, about, options_.tool_radius,
+        options_.contacts ? options_.contacts(material) : std::vector<KnownStiffness>{}, like);
   }
-  if (terms.size() > static_cast<std::size_t>(PreparedBody::kMostTerms))
-    fail_usage("the model has " + std::to_string(terms.size()) + " relaxation times",
-               "the real-time loop takes up to " + std::to_string(PreparedBody::kMostTerms));
-  return terms;
-}
+  std::size_t unknowns() const { return static_cast<std::size_t>(compliance_.matrix().rows()); }
+
+ private:
+  const TetMesh& mesh_;
+  const PreparedBodyOptions& options_;
+  SurfaceCompliance compliance_;
+  bool condensed_ = false;  // of unit modulus: serves any
+};
 
 }  // namespace
 
@@ -42,29 +65,59 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
                            const PreparedBodyOptions& options) {
   const TetMesh mesh = corners_only(body);
   const MaterialSpec material = material_of(model);
-  terms_ = live_terms(model, material);
-  const auto modulus_at = [&](const Vec3& p) {
-    return material.modulus[static_cast<std::size_t>(region_at(material, p))];
-  };
-  // A contact that feels its own region alone stands on a body of that modulus.
-  const bool apart = material.local || material.modulus.size() == 1;
-  std::vector<Lame> constants;
-  constants.reserve(mesh.tets.size());
-  const Lame unit = lame(1, material.nu);
-  for (const auto& t : mesh.tets) {
-    const Vec3 centre =
-        (mesh.nodes[t[0]] + mesh.nodes[t[1]] + mesh.nodes[t[2]] + mesh.nodes[t[3]]) / 4;
-    const double modulus = apart ? 1 : modulus_at(centre);
-    constants.push_back({modulus * unit.lambda, modulus * unit.mu});
-  }
-  SurfaceCompliance compliance(mesh,
-                               mesh.order == 2 ? Dilatation::kElement : Dilatation::kPointwise);
-  compliance.factorise(constants, options.threads);
-  surface_unknowns_ = static_cast<std::size_t>(compliance.matrix().rows());
-  FieldMaterial about{material.nu, modulus_at, apart};
-  field_ = std::make_unique<StiffnessField>(mesh, compliance, about, options.tool_radius,
-                                            options.contacts);
+  const Relaxation relaxation = relaxation_of(model, material, "the real-time loop");
+  FieldMaker maker(mesh, options);
+  field_ = maker.field(material);
+  surface_unknowns_ = maker.unknowns();
+  terms_ = relaxation.common;
+  if (!relaxation.regional.empty())
+    prepare_regional(relaxation.regional, material,
+                     [&](const MaterialSpec& m) { return maker.field(m, field_.get()); });
+  if (terms_.size() > static_cast<std::size_t>(kMostTerms))
+    fail_usage("the model has " + std::to_string(terms_.size()) + " relaxation times",
+               "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");
+}
+
+void PreparedBody::prepare_regional(
+    const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
+    const std::function<std::unique_ptr<StiffnessField>(const MaterialSpec&)>& field_for) {
+  assert(terms_.empty());  // an effect's terms are common or regional
+  const RelaxationSpectrum spectrum(regions, kMostTerms);
+  const std::size_t vertices = field_->surface().vertices.size(), terms = spectrum.times().size();
+  const std::size_t samples = spectrum.moduli().size();
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(samples),
+                         static_cast<Eigen::Index>(9 * vertices));
+  for (std::size_t k = 0; k < samples; ++k) {
+    MaterialSpec material = relaxed;
+    material.modulus = spectrum.moduli()[k];
+    const std::unique_ptr<StiffnessField> field = field_for(material);
+    for (std::size_t v = 0; v < vertices; ++v)
+      values.block<1, 9>(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(9 * v)) =
+          field->at_vertex(static_cast<int>(v)).reshaped().transpose();
+  }
+  const Eigen::MatrixXd parts = spectrum.parts(values);
+  maxwell_.resize(vertices * terms);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const auto column = static_cast<Eigen::Index>(9 * v);
+    for (std::size_t j = 0; j < terms; ++j)
+      maxwell_[v * terms + j] =
+          parts.block<1, 9>(static_cast<Eigen::Index>(j), column).reshaped(3, 3);
+    for (const Eigen::Index diagonal : {0, 4, 8})
+      misfit_ = std::max(
+          misfit_, spectrum.misfit(values.col(column + diagonal), parts.col(column + diagonal)));
+  }
+  for (const double tau : spectrum.times()) terms_.push_back({1, tau});
+}
+
+void PreparedBody::maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) const noexcept {
+  const Vec3 weight = field_->weights(face, point);
+  const Triangle& t = field_->surface().faces[face];
+  const std::size_t terms = terms_.size();
+  for (std::size_t j = 0; j < terms; ++j)
+    K[j] = weight[0] * maxwell_[static_cast<std::size_t>(t[0]) * terms + j] +
+           weight[1] * maxwell_[static_cast<std::size_t>(t[1]) * terms + j] +
+           weight[2] * maxwell_[static_cast<std::size_t>(t[2]) * terms + j];
 }
 
 std::vector<KnownStiffness> known_contacts(const BodyStiffness& body,

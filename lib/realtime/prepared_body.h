@@ -1,25 +1,29 @@
 // A body and a model made ready for a loop that asks for forces a thousand times a second.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "geometry/signed_distance.h"
 #include "model/body_stiffness.h"
 #include "model/model.h"
+#include "model/relaxation.h"
 #include "realtime/stiffness_field.h"
 
 namespace hapsim {
 
 struct PreparedBodyOptions {
-  double tool_radius = 0;                // of the flat tool [m]
-  std::vector<KnownStiffness> contacts;  // finely solved ones; see known_contacts()
-  int threads = 1;                       // of the condensation's dense part
+  double tool_radius = 0;  // of the flat tool [m]
+  // Finely solved contacts for a material, see known_contacts(); none where it is not set. Asked
+  // once, or for some thirty materials where regions relax each in its own way.
+  std::function<std::vector<KnownStiffness>(const MaterialSpec&)> contacts;
+  int threads = 1;  // of the condensation's dense part
 };
 
 // Reads nothing, and holds all that a loop reads: never changed after, so any number of loops and
-// threads may share one. Cost: one factorisation and condensation of the body's mesh
-// (its corners, of first order).
+// threads may share one. Cost: one factorisation and condensation of the body's mesh (its corners,
+// of first order); some thirty where regions relax each in its own way.
 class PreparedBody {
  public:
   // Error(kUsage): an effect of the model has no form for a loop (Effect::live), or more than
@@ -29,13 +33,26 @@ class PreparedBody {
 
   const SignedDistance& distance() const { return *distance_; }
   const StiffnessField& field() const { return *field_; }
+  // Shares of the stiffness field; or, regional, of a field of their own each: share 1.
   const std::vector<MaxwellTerm>& terms() const { return terms_; }
+  bool is_regional() const { return !maxwell_.empty(); }
+  // The stiffnesses of all terms at a point of a face [N/m], interpolated as the field is.
+  void maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) const noexcept;
+  // Of regional relaxation: what the Maxwell elements leave of the stiffness, the worst vertex's,
+  // relative to it.
+  double misfit() const { return misfit_; }
   std::size_t surface_unknowns() const { return surface_unknowns_; }
 
-  static constexpr int kMostTerms = 16;
+  static constexpr int kMostTerms = 32;
 
  private:
+  void prepare_regional(
+      const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
+      const std::function<std::unique_ptr<StiffnessField>(const MaterialSpec&)>& field_for);
+
   std::vector<MaxwellTerm> terms_;
+  std::vector<Eigen::Matrix3d> maxwell_;  // [vertex * terms + term]
+  double misfit_ = 0;
   std::size_t surface_unknowns_ = 0;
   std::unique_ptr<StiffnessField> field_;
   std::unique_ptr<SignedDistance> distance_;

@@ -91,7 +91,8 @@ Matrix3d disc_compliance(double modulus, double nu, double radius, const Vec3& n
 
 StiffnessField::StiffnessField(const TetMesh& mesh, const SurfaceCompliance& compliance,
                                const FieldMaterial& material, double tool_radius,
-                               const std::vector<KnownStiffness>& known) {
+                               const std::vector<KnownStiffness>& known,
+                               const StiffnessField* like) {
   assert(mesh.order == 1);
   std::vector<int> node;
   surface_ = boundary_surface(mesh, &node);
@@ -108,6 +109,7 @@ StiffnessField::StiffnessField(const TetMesh& mesh, const SurfaceCompliance& com
     const Matrix3d tool = open * disc_compliance(modulus, material.nu, tool_radius, normal);
     if (compliance.index_of(n) < 0) {
       K_.push_back(tool.inverse());
+      plain_.push_back(0);
       continue;
     }
     patch.clear();
@@ -129,8 +131,10 @@ StiffnessField::StiffnessField(const TetMesh& mesh, const SurfaceCompliance& com
     // What is left below the tool's own disc is the body's, which yields too.
     const double least =
         Eigen::SelfAdjointEigenSolver<Matrix3d>(C, Eigen::EigenvaluesOnly).eigenvalues()[0];
-    const double bound = 0.5 * tool.trace() / 3;
-    K_.push_back(least > bound ? Matrix3d(C.inverse()) : K);
+    const double bound = like == nullptr ? 0.5 * tool.trace() / 3 : 0;
+    const bool plain = least <= bound || (like != nullptr && like->plain_[plain_.size()]);
+    plain_.push_back(plain ? 1 : 0);
+    K_.push_back(plain ? K : Matrix3d(C.inverse()));
   }
   if (!known.empty()) correct(known);
 }
@@ -175,12 +179,17 @@ void StiffnessField::correct(const std::vector<KnownStiffness>& known) {
   }
 }
 
+Vec3 StiffnessField::weights(int face, const Vec3& point) const noexcept {
+  const Triangle& t = surface_.faces[face];
+  const Vec3 weight = corner_weights(point, surface_.vertices[t[0]], surface_.vertices[t[1]],
+                                     surface_.vertices[t[2]])
+                          .cwiseMax(0.0);
+  return weight / weight.sum();
+}
+
 Matrix3d StiffnessField::at(int face, const Vec3& point) const noexcept {
   const Triangle& t = surface_.faces[face];
-  Vec3 weight = corner_weights(point, surface_.vertices[t[0]], surface_.vertices[t[1]],
-                               surface_.vertices[t[2]]);
-  weight = weight.cwiseMax(0.0);
-  weight /= weight.sum();
+  const Vec3 weight = weights(face, point);
   return weight[0] * K_[t[0]] + weight[1] * K_[t[1]] + weight[2] * K_[t[2]];
 }
 

@@ -38,22 +38,28 @@ struct FieldMaterial {
 class StiffnessField {
  public:
   // `compliance` of `mesh` (first order), factorised. Error(kBadInput): a known contact off the
-  // surface by more than a tenth of its size, or not positive definite.
+  // surface by more than a tenth of its size, or not positive definite. `like`: a field of another
+  // material on the same mesh, whose choices are kept, so that the stiffness is a smooth function
+  // of the material.
   StiffnessField(const TetMesh& mesh, const SurfaceCompliance& compliance,
                  const FieldMaterial& material, double tool_radius,
-                 const std::vector<KnownStiffness>& known = {});
+                 const std::vector<KnownStiffness>& known = {},
+                 const StiffnessField* like = nullptr);
 
   // The body's boundary, split where contacts are known.
   const Surface& surface() const { return surface_; }
   const Eigen::Matrix3d& at_vertex(int vertex) const { return K_[vertex]; }
   // At a point of a face of surface() [N/m]; a table look-up: allocates and throws nothing.
   Eigen::Matrix3d at(int face, const Vec3& point) const noexcept;
+  // Of the face's corners there: not negative, they sum to one.
+  Vec3 weights(int face, const Vec3& point) const noexcept;
 
  private:
   void correct(const std::vector<KnownStiffness>& known);
 
   Surface surface_;
   std::vector<Eigen::Matrix3d> K_;
+  std::vector<char> plain_;  // one a vertex of the mesh; 1: the nodes' own stiffness, no disc's
 };
 
 }  // namespace hapsim

@@ -67,6 +67,16 @@ exec {to}>&- {from}<&-
 eval "exec ${live[1]}>&-" 2>/dev/null
 wait
 
+# A body of second order serves as well: the same forces where the contacts are solved finely.
+"$bin/hs-tetmesh" box.off --edge 0.012 --order 2 -q -o body2.ply || complain 'no body of second order'
+"$bin/hs-simulate" --live --contacts motion.csv --body body2.ply --model model.csv --rim-edge 0.3 \
+  motion.csv -q -o second.csv 2>err || complain 'live on second order failed'
+paste -d' ' <(forces batch.csv) <(forces second.csv) | awk '
+  { for (k = 1; k <= 3; ++k) {
+      d = $k - $(k + 3); if (d < 0) d = -d; if (d > worst) worst = d
+      a = $k < 0 ? -$k : $k; if (a > most) most = a } }
+  END { exit !(NR == 93 && most > 0 && worst < 2e-3 * most) }' || complain 'second order differs'
+
 # A bad line: one error with its line, exit 3, the forces before it written, to a file too.
 { cat motion.csv; echo '4,0,0.03,0.025,0.04,0,0,much'; } >bad.csv
 for target in - kept.csv; do
@@ -83,6 +93,34 @@ yes '0,0.03,0.025,0.039' | { echo t,x,y,z; cat; } |
   "$bin/hs-simulate" --live "${common[@]}" --tool-radius 0.004 -q 2>err | head -5 >out.csv
 [[ $(wc -l <out.csv) == 5 && ! -s err ]] || complain 'a closed pipe is not quiet'
 
+# Records: the same forces as the lines, to the last bit; a cut one is an error.
+if command -v python3 >/dev/null; then
+  python3 - motion.csv <<'END' >motion.bin || complain 'no records were made'
+import struct, sys
+rows = [l.split(",") for l in open(sys.argv[1]) if l[0] not in "#p"]
+for r in rows:
+    sys.stdout.buffer.write(struct.pack("<ii7d", int(r[0]), 1, *map(float, r[1:8])))
+END
+  "$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q <motion.bin >forces.bin 2>err ||
+    complain 'records failed'
+  "$bin/hs-simulate" --live motion.csv "${common[@]}" -q >lines.csv 2>err || complain 'lines failed'
+  python3 - <<'END' || complain 'records and lines differ'
+import struct
+data = open("forces.bin", "rb").read()
+lines = [l.split(",") for l in open("lines.csv") if l[0] not in "#p"]
+assert len(data) == 88 * len(lines) == 88 * 93, len(data)
+for k, line in enumerate(lines):
+    press, contact, *numbers = struct.unpack_from("<ii10d", data, 88 * k)
+    assert (press, contact) == (int(line[0]), int(line[11]))
+    assert numbers == [float(x) for x in line[1:11]]
+END
+  head -c 100 motion.bin | "$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q >out.bin 2>err
+  (($? == 3)) && grep -q '^hs-simulate: stdin: record 2: it has 36 bytes of 64' err &&
+    [[ $(wc -c <out.bin) == 88 ]] || complain 'a cut record'
+else
+  echo 'SKIPPED: records, python3 is not installed'
+fi
+
 # Paced by the clock: 93 lines at 1 kHz take 92 ms or more.
 "$bin/hs-simulate" --live --rate 1000 motion.csv "${common[@]}" 2>err >out.csv || complain 'paced'
 grep -Eq 'memory (not )?locked' err && grep -q 'of 93 later than a period' err || complain 'the pace'
@@ -95,6 +133,7 @@ refuse() { # CODE TEXT ARGUMENTS...
   ((got == code)) && grep -qF -- "$text" err || complain "exit $got, not $code with '$text': $*"
 }
 refuse 2 'live mode' motion.csv "${common[@]}" --rate 1000
+refuse 2 'live mode' motion.csv "${common[@]}" --binary tip
 refuse 2 'batch mode' --live motion.csv "${common[@]}" --add-noise 1
 { head -n 3 model.csv; echo 'sensor-lag,0,tau,0.1,s,,0,10,fixed'; } >lag.csv
 refuse 2 'sensor-lag' --live motion.csv --body body.ply --model lag.csv

@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include "linalg/counts.h"
+
 namespace hapsim {
 namespace {
 
@@ -73,13 +75,26 @@ TEST(SchurInverse, TakesNewValuesOnTheSamePattern) {
   for (int b = 10; b < 30; ++b) kept[b] = 1;
   const Eigen::MatrixXd first = chain(40, 1), second = chain(40, 2);
   SchurInverse schur(sparse(first), kept);
+  const long analyses = solver_counts.analyses;
   Eigen::MatrixXd inverse;
   for (const Eigen::MatrixXd& a : {first, second, first}) {
     ASSERT_TRUE(schur.invert(sparse(a), inverse));
     const Eigen::MatrixXd expected = dense_answer(a, kept);
     EXPECT_LT((inverse - expected).norm(), 1e-12 * expected.norm());
   }
-  EXPECT_EQ(schur.analyses(), 1);
+  EXPECT_EQ(solver_counts.analyses, analyses);
+}
+
+TEST(SchurInverse, SolvesByTheSameFactor) {
+  std::vector<char> kept(40, 0);
+  for (int b = 12; b < 20; ++b) kept[b] = 1;
+  const Eigen::MatrixXd a = chain(40, 3);
+  SchurInverse schur(sparse(a), kept);
+  Eigen::MatrixXd inverse, b(a.rows(), 4);
+  for (Eigen::Index i = 0; i < b.size(); ++i) b.data()[i] = std::sin(0.3 * static_cast<double>(i));
+  ASSERT_TRUE(schur.invert(sparse(a), inverse));
+  const Eigen::MatrixXd x = schur.solve(b);
+  EXPECT_LT((a.selfadjointView<Eigen::Lower>() * x - b).norm(), 1e-11 * b.norm());
 }
 
 TEST(SchurInverse, KeepsNothingAndRefusesIndefinite) {

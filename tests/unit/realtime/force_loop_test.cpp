@@ -66,7 +66,7 @@ TEST(ForceLoop, IsTheBatchModeAtPreparedContacts) {
   for (const int terms : {0, 1, 3}) {
     const Model model = viscoelastic_model(terms);
     PreparedBodyOptions options = tool();
-    options.contacts = known_contacts(*w.body, material_of(model));
+    options.contacts = [&](const MaterialSpec& m) { return known_contacts(*w.body, m); };
     const PreparedBody body(body_mesh(), model, options);
     const Selection all = all_episodes(w.dataset);
     const Eigen::VectorXd batch = model_forces(model, w.dataset, all, *w.body, false).f;
@@ -154,6 +154,87 @@ TEST(ForceLoop, TheStepSizeDoesNotMatterOnStraightMotion) {
     return f;
   };
   EXPECT_LT((pressed(1) - pressed(1000)).norm(), 1e-12 * pressed(1).norm());
+}
+
+// Two halves of the body, each with its own modulus and Maxwell elements.
+Model regional_model(const std::vector<double>& E, const std::vector<std::vector<double>>& terms) {
+  Model model = viscoelastic_model(0);
+  model.find("elastic", 0, "E")->value = E[0];
+  const auto add = [&](const char* effect, int region, const std::string& name, double value) {
+    Parameter p;
+    p.effect = effect;
+    p.region = region;
+    p.name = name;
+    p.value = value;
+    model.parameters.push_back(p);
+  };
+  add("elastic", 1, "E", E[1]);
+  for (int r = 0; r < 2; ++r) {
+    add("regions", r, "x0", r == 0 ? 0.02 : 0.06);
+    add("regions", r, "y0", 0.04);
+  }
+  for (std::size_t r = 0; r < terms.size(); ++r)
+    for (std::size_t k = 0; k + 1 < terms[r].size(); k += 2) {
+      add("viscoelastic", static_cast<int>(r), "E" + std::to_string(k / 2 + 1), terms[r][k]);
+      add("viscoelastic", static_cast<int>(r), "tau" + std::to_string(k / 2 + 1), terms[r][k + 1]);
+    }
+  return model;
+}
+
+Vec3 pressed(const PreparedBody& body, int steps, double hold) {
+  ForceLoop loop(body);
+  loop.begin({0.045, 0.04, 0.04});
+  loop.press(0, Vec3::Zero());
+  Vec3 f = Vec3::Zero();
+  for (int i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    f = loop.press(0.1 * share, share * Vec3(2e-4, 0, -2e-3));
+  }
+  return hold > 0 ? loop.press(0.1 + hold, Vec3(2e-4, 0, -2e-3)) : f;
+}
+
+TEST(ForceLoop, RegionsOfTheSameRelaxationAreTheCommonOne) {
+  const PreparedBody common(body_mesh(), regional_model({2e4, 1e4}, {{8e3, 0.05, 4e3, 0.5}}),
+                            tool());
+  const PreparedBody apart(
+      body_mesh(), regional_model({2e4, 1e4}, {{8e3, 0.05, 4e3, 0.5}, {4e3, 0.05, 2e3, 0.5}}),
+      tool());
+  EXPECT_FALSE(common.is_regional());
+  EXPECT_TRUE(apart.is_regional());
+  EXPECT_LT(apart.misfit(), 1e-9);
+  for (const double hold : {0.0, 0.02, 0.3}) {
+    const Vec3 f = pressed(common, 10, hold);
+    EXPECT_LT((pressed(apart, 10, hold) - f).norm(), 1e-8 * f.norm()) << hold;
+  }
+}
+
+TEST(ForceLoop, EachRegionRelaxesInItsOwnWay) {
+  const PreparedBody body(body_mesh(),
+                          regional_model({2e4, 1e4}, {{8e3, 0.05}, {2e4, 0.4, 3e3, 2}}), tool());
+  // Straight motion in one step or many; both ends of the relaxation are elastic bodies.
+  EXPECT_LT((pressed(body, 1, 0) - pressed(body, 500, 0)).norm(),
+            1e-10 * pressed(body, 1, 0).norm());
+  const PreparedBody relaxed(body_mesh(), regional_model({2e4, 1e4}, {}), tool());
+  const PreparedBody at_once(body_mesh(), regional_model({2.8e4, 3.3e4}, {}), tool());
+  const Vec3 slow = pressed(relaxed, 1, 0), fast = pressed(at_once, 1, 0);
+  EXPECT_LT((pressed(body, 1, 1e4) - slow).norm(), 1e-9 * slow.norm());
+  ForceLoop loop(body);
+  loop.begin({0.045, 0.04, 0.04});
+  EXPECT_LT((loop.press(0, Vec3(2e-4, 0, -2e-3)) - fast).norm(), 1e-9 * fast.norm());
+  EXPECT_LT(pressed(body, 1, 0.1).z(), fast.z());
+  EXPECT_GT(pressed(body, 1, 0.1).z(), slow.z());
+}
+
+TEST(Batch, RefusesRegionsThatRelaxEachInItsOwnWay) {
+  const Workspace w = test::workspace();
+  const Model model = regional_model({2e4, 1e4}, {{8e3, 0.05}, {2e4, 0.4}});
+  try {
+    model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false);
+    FAIL() << "nothing was thrown";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(error.what()).find("--live"), std::string::npos) << error.what();
+  }
 }
 
 TEST(ForceLoop, SurvivesBadSamples) {

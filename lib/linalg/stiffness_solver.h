@@ -1,0 +1,47 @@
+// Direct or iterative, by size: one face for both.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+
+#include "linalg/conjugate_gradients.h"
+#include "linalg/sparse_cholesky.h"
+
+namespace hapsim {
+
+enum class SolverKind { kBySize, kDirect, kIterative };
+
+struct SolverChoice {
+  SolverKind kind = SolverKind::kDirect;  // never kBySize
+  // For a person: "conjugate gradients: 51600 unknowns, 3 right-hand sides; about 1.5 s direct
+  // ...".
+  std::string why;
+};
+
+// kBySize: the one that takes less time for this many right-hand sides of a body of tetrahedra, by
+// measured costs (bench/RESULTS.md, Growth with size); another wish is kept. `unknowns`; entries of
+// the lower triangle.
+SolverChoice choose_solver(SolverKind wished, int unknowns, std::size_t entries,
+                           int right_hand_sides);
+
+// A symmetric positive definite system of displacements (three unknowns a node).
+class StiffnessSolver {
+ public:
+  // The analysis of the sparsity, once (direct).
+  StiffnessSolver(const SymmetricSparse& pattern, SolverKind kind);
+  // False when the matrix is not positive definite.
+  bool factorise(const SymmetricSparse& matrix);
+  // A X = B. Error(kNoConvergence) when the iteration stops above a relative residual of 2e-9.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+  int iterations() const { return report_.iterations; }  // of the last solution; 0: direct
+  double residual() const { return report_.residual; }
+
+ private:
+  std::unique_ptr<SparseCholesky> direct_;
+  std::unique_ptr<ConjugateGradients> iterative_;
+  mutable IterationReport report_;
+};
+
+}  // namespace hapsim

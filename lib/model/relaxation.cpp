@@ -1,0 +1,80 @@
+#include "model/relaxation.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+#include "effects/catalogue.h"
+
+namespace hapsim {
+namespace {
+
+Values values_of(const Model& model, const Effect& effect, int region) {
+  Values values;
+  for (const Parameter& p : model.parameters)
+    if (p.effect == effect.card().name && (region < 0 || p.region == region))
+      values.push_back({p.region, p.name, p.value, -1});
+  return values;
+}
+
+// Its Maxwell elements in a region (-1: all rows together) for that modulus; false: it has no form
+// for a loop.
+bool terms_of(const Model& model, const Effect& effect, int region, double modulus,
+              std::vector<MaxwellTerm>& terms) {
+  return effect.live(values_of(model, effect, region), modulus, terms);
+}
+
+// The largest region that an effect with Maxwell elements has rows of.
+int last_region(const Model& model) {
+  int last = 0;
+  for (const Effect* effect : catalogue()) {
+    std::vector<MaxwellTerm> terms;
+    if (!terms_of(model, *effect, -1, 1, terms) || terms.empty()) continue;
+    for (const Parameter& p : model.parameters)
+      if (p.effect == effect->card().name) last = std::max(last, p.region);
+  }
+  return last;
+}
+
+}  // namespace
+
+Relaxation relaxation_of(const Model& model, const MaterialSpec& material,
+                         const std::string& asked) {
+  Relaxation relaxation;
+  const int last = last_region(model);
+  const bool regional = last > 0;
+  if (regional)
+    for (const double modulus : material.modulus) relaxation.regional.push_back({modulus, {}});
+  if (last >= static_cast<int>(material.modulus.size()))
+    fail_usage("region " + std::to_string(last) + " relaxes but has no modulus E",
+               "give the effect elastic a row E of that region");
+  for (const Effect* effect : catalogue()) {
+    if (values_of(model, *effect, -1).empty()) continue;
+    std::vector<MaxwellTerm> terms;
+    if (!terms_of(model, *effect, -1, material.modulus[0], terms))
+      fail_usage("the model has " + effect->card().name + ", which " + asked + " cannot do",
+                 "leave it out, or fit a model without that effect");
+    if (!regional) {
+      relaxation.common.insert(relaxation.common.end(), terms.begin(), terms.end());
+      continue;
+    }
+    for (std::size_t r = 0; r < material.modulus.size(); ++r) {
+      terms.clear();
+      terms_of(model, *effect, static_cast<int>(r), 1, terms);
+      for (const MaxwellTerm& t : terms)
+        if (t.share > 0) relaxation.regional[r].terms.push_back({t.share, t.tau});
+    }
+  }
+  if (std::all_of(relaxation.regional.begin(), relaxation.regional.end(),
+                  [](const RegionRelaxation& r) { return r.terms.empty(); }))
+    relaxation.regional.clear();
+  return relaxation;
+}
+
+void refuse_regional_relaxation(const Model& model) {
+  if (last_region(model) > 0)
+    fail_usage("the model's regions relax each in its own way",
+               "simulate it with hs-simulate --live, or give all of them the terms of region 0");
+}
+
+}  // namespace hapsim

@@ -1,0 +1,42 @@
+// Where a loop's motion comes from and its forces go to, whatever they are written as.
+#pragma once
+
+#include <string>
+
+#include "base/vec3.h"
+
+namespace hapsim {
+
+struct MotionLine {
+  bool has_contact_point = true;  // else `point` is the tool's tip and `u` is zero
+  int press = 1;
+  double t = 0;               // [s]
+  Vec3 point = Vec3::Zero();  // [m]
+  Vec3 u = Vec3::Zero();      // [m]
+  bool in_air = false;
+};
+
+class MotionSource {
+ public:
+  virtual ~MotionSource() = default;
+  virtual bool has_contact_point() const = 0;
+  // The next one, false at the end; returns as soon as it is there. Error(kBadInput) with its
+  // place: what is no number, time that runs backwards within a press, sizes that mean another
+  // unit, a contact point that moves within a press.
+  virtual bool next(MotionLine& line) = 0;
+  // The bytes that answer it, in place of `buffer`, which keeps its memory from one to the next.
+  virtual void write_force(std::string& buffer, const MotionLine& line,
+                           const Vec3& force) const = 0;
+};
+
+// What next() promises of a motion, one sample after the other.
+class MotionCheck {
+ public:
+  void check(const MotionLine& line, const std::string& where);
+
+ private:
+  bool first_ = true;
+  MotionLine last_;
+};
+
+}  // namespace hapsim

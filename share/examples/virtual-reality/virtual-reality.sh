@@ -1,0 +1,89 @@
+#!/bin/sh
+# virtual-reality.sh [FOLDER]: the virtual objects of Tables A.1 and A.2, a cuboid 120 x 210 x 60 mm
+# of six elastic and ten viscoelastic materials, pressed at the middle of its top; forces as CSV and
+# force over displacement as SVG. Needs the hs- tools on the PATH; writes into FOLDER (virtual).
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+out=${1:-virtual}
+mkdir -p "$out"
+cd "$out"
+
+# The cuboid, held at its base.
+awk 'BEGIN {
+  print "OFF"; print 8, 12, 0
+  for (i = 0; i < 8; ++i) print (i % 2) * 0.12, (int(i / 2) % 2) * 0.21, (i >= 4) * 0.06
+  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
+  for (i = 1; i <= 12; ++i) print 3, f[i]
+}' >cuboid.off
+hs-tetmesh cuboid.off --edge 0.035 -q -o cuboid.ply
+
+# motion FUNCTION RATE: 1 kHz, two cycles. ramp: in and out at that rate, 10 mm deep; sine: the rate
+# is 0.02 sin(RATE t), so the depth 0.02 (1 - cos(RATE t)) / RATE.
+motion() {
+  awk -v kind="$1" -v rate="$2" 'BEGIN {
+    print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
+    period = kind == "ramp" ? 2 * 0.01 / rate : 8 * atan2(1, 1) / rate
+    n = int(2 * period / 0.001 + 0.5)
+    for (i = 0; i <= n; ++i) {
+      t = i * 0.001; s = t % period
+      u = kind == "sine" ? 0.02 * (1 - cos(rate * t)) / rate : rate * (s < period / 2 ? s : period - s)
+      printf "1,%.3f,0.06,0.105,0.06,0,0,%.9g\n", t, -u
+    }
+  }'
+}
+# simulate NAME E NU [E1 TAU1 E2 TAU2]: NAME.motion.csv to NAME.csv.
+simulate() {
+  {
+    echo effect,region,parameter,value,unit,state
+    echo "elastic,0,E,$2,Pa,fixed"
+    echo "elastic,0,nu,$3,1,fixed"
+    if [ $# -gt 3 ]; then
+      printf 'viscoelastic,0,E1,%s,Pa,fixed\nviscoelastic,0,tau1,%s,s,fixed\n' "$4" "$5"
+      printf 'viscoelastic,0,E2,%s,Pa,fixed\nviscoelastic,0,tau2,%s,s,fixed\n' "$6" "$7"
+    fi
+  } >"$1.model.csv"
+  hs-simulate "$1.motion.csv" --body cuboid.ply --model "$1.model.csv" -q -o "$1.csv"
+}
+
+# Table A.1: index, E [Pa]; nu = 0.3.
+while read -r index modulus; do
+  motion ramp 0.05 >"elastic-$index.motion.csv"
+  simulate "elastic-$index" "$modulus" 0.3
+done <<'END'
+1 10000
+2 20000
+3 30000
+4 50000
+5 60000
+6 70000
+END
+
+# Table A.2: index, motion, rate, tau1, tau2 [s]; E = 20 kPa, nu = 0.3, E1 = 10 kPa, E2 = 6 kPa.
+while read -r index kind rate tau1 tau2; do
+  motion "$kind" "$rate" >"viscoelastic-$index.motion.csv"
+  simulate "viscoelastic-$index" 20000 0.3 10000 "$tau1" 6000 "$tau2"
+done <<'END'
+1 ramp 0.05 0.1 0.2
+2 sine 1 0.1 0.2
+3 sine 2 0.1 0.2
+4 ramp 0.025 0.1 0.2
+5 ramp 0.1 0.1 0.2
+6 ramp 0.01 0.1 0.2
+7 ramp 0.05 0.01 0.02
+8 ramp 0.05 0.05 0.1
+9 ramp 0.05 0.01 0.2
+10 ramp 0.05 0.2 0.2
+END
+
+plot() { # FILE TITLE NAME...
+  file=$1 title=$2
+  shift 2
+  awk -f "$here/plot.awk" -v title="$title" "$@" >"$file"
+}
+plot elastic.svg 'Table A.1: elastic, E = 10 to 70 kPa' elastic-[1-6].csv
+plot rates.svg 'Table A.2, 1 and 4-6: rates 10 to 100 mm/s' \
+  viscoelastic-6.csv viscoelastic-4.csv viscoelastic-1.csv viscoelastic-5.csv
+plot sines.svg 'Table A.2, 2 and 3: sinusoidal rates' viscoelastic-2.csv viscoelastic-3.csv
+plot times.svg 'Table A.2, 7-10: relaxation times' \
+  viscoelastic-7.csv viscoelastic-8.csv viscoelastic-9.csv viscoelastic-10.csv
+echo "$out: elastic.svg rates.svg sines.svg times.svg"
