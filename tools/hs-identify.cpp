@@ -15,6 +15,7 @@
 #include "model/extend.h"
 #include "model/history.h"
 #include "model/location_fit.h"
+#include "model/terms.h"
 
 namespace hapsim {
 namespace {
@@ -65,12 +66,16 @@ ToolSpec specification() {
        .repeatable = true},
       {.flag = "--free", .value = "LIST", .help = "Parameters to free again.", .repeatable = true},
       {.flag = "--terms",
-       .kind = OptionKind::kInteger,
        .value = "N",
-       .help = "Maxwell terms of viscoelastic when it is added.",
-       .default_text = "1",
-       .minimum = 1,
-       .maximum = 5},
+       .help = "Maxwell terms of viscoelastic when it is added, 1 to 5; or auto: one more as long "
+               "as both the information criterion and the error on data that the fit has not seen "
+               "fall; auto:3 offers at most three.",
+       .default_text = "1"},
+      {.flag = "--windows",
+       .value = "LIST",
+       .help = "Windows of the relaxation times [s], disjoint, from short to long, one a term: "
+               "0.05:1,2:30.",
+       .repeatable = true},
       {.flag = "--regions",
        .value = "N",
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
@@ -153,11 +158,49 @@ int regions_asked(const std::string& text) {
   return static_cast<int>(number);
 }
 
+struct TermsAsked {
+  int count = 1;
+  bool automatic = false;  // `count` is the most that is offered
+  TimeWindows windows;
+};
+
+TermsAsked terms_asked(const Arguments& arguments) {
+  constexpr int kMost = 5;
+  TermsAsked asked;
+  for (const std::string& text : arguments.list("--windows")) {
+    const std::size_t colon = text.find(':');
+    double low = 0, high = 0;
+    if (colon == std::string::npos || !parse_number(text.substr(0, colon), low) ||
+        !parse_number(text.substr(colon + 1), high) || low <= 0 || high <= low)
+      fail_usage("--windows " + text + " is no window of relaxation times",
+                 "give LOW:HIGH in seconds: 0.05:1,2:30");
+    asked.windows.emplace_back(low, high);
+  }
+  const std::string text = arguments.text("--terms");
+  double number = kMost;
+  asked.automatic = text == "auto" || text.rfind("auto:", 0) == 0;
+  const std::string count = !asked.automatic ? text : text == "auto" ? "5" : text.substr(5);
+  if (!parse_number(count, number) || number < 1 || number != std::floor(number) || number > kMost)
+    fail_usage("--terms " + text + " is not a number of terms",
+               "give 1 to 5, auto, or auto:N for at most N");
+  asked.count = static_cast<int>(number);
+  if (asked.windows.empty()) return asked;
+  if (arguments.given("--terms") &&
+      (asked.automatic || asked.count != static_cast<int>(asked.windows.size())))
+    fail_usage(fmt::format("{} windows, but --terms {}", asked.windows.size(), text),
+               "leave --terms out: each window is a term");
+  asked.automatic = false;
+  asked.count = static_cast<int>(asked.windows.size());
+  return asked;
+}
+
 struct Plan {
   Model start;                   // empty: elastic from the data
   bool automatic = false;        // what to add is found by diagnosis
   std::vector<std::string> add;  // in order
   std::vector<std::string> fix, free;
+  TermsAsked terms;
+  std::function<void(const std::string&)> say;  // what was chosen on the way; may be empty
 };
 
 // The effects that a diagnosis calls missing, in order of rank.
@@ -176,6 +219,8 @@ std::vector<std::string> missing_effects(const std::string& path) {
 
 Plan make_plan(const Arguments& arguments) {
   Plan plan;
+  plan.terms = terms_asked(arguments);
+  plan.say = [&arguments](const std::string& text) { say(arguments, "hs-identify", text); };
   plan.fix = arguments.list("--fix");
   plan.free = arguments.list("--free");
   plan.automatic = arguments.list("--effects") == std::vector<std::string>{"auto"};
@@ -203,6 +248,16 @@ Plan make_plan(const Arguments& arguments) {
   return plan;
 }
 
+std::string words_of(const TermChoice& choice, const std::string& effect) {
+  std::string trials;
+  for (const TermTrial& t : choice.trials)
+    trials +=
+        fmt::format("{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.rmse,
+                    std::isnan(t.held_out) ? "" : fmt::format(", unseen {:.4g} N", t.held_out));
+  return fmt::format("{} term{} of {} chosen ({})", choice.terms, choice.terms == 1 ? "" : "s",
+                     effect, trials);
+}
+
 // Models to fit on the chosen episodes: fitted step by step, one effect after the other.
 std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& selection,
                          const FitOptions& fit_options, const ExtendOptions& extend) {
@@ -217,7 +272,18 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
     FitOptions quick = fit_options;
     quick.exact_regions = false;
     const Model base = fit_best(starts, w.dataset, selection, *w.body, quick).model;
-    starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, extend);
+    const EffectCard& card = require_effect(plan.add[k]).card();
+    const bool terms = card.terms && !card.from_locations;
+    ExtendOptions own = extend;
+    if (terms && plan.terms.automatic) {
+      const TermChoice choice = choose_terms(base, plan.add[k], plan.terms.count, w.dataset,
+                                             selection, *w.body, quick, extend);
+      own.terms = choice.terms;
+      if (plan.say) plan.say(words_of(choice, plan.add[k]));
+    }
+    starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, own);
+    if (terms && !plan.terms.windows.empty())
+      for (Model& start : starts) set_windows(start, plan.add[k], plan.terms.windows);
   }
   for (Model& start : starts)
     for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
@@ -250,6 +316,7 @@ void report(const Arguments& arguments, const Workspace& w, const FitResult& res
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
   for (const std::string& sentence : result.blind) line(sentence);
+  for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
   for (const std::string& interval : result.intervals) line(interval);
   if (result.discounted > 0)
     line(fmt::format("{} of {} force components discounted as far off", result.discounted,
@@ -306,7 +373,7 @@ int run(const Arguments& arguments) {
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
   extend.regions = regions_asked(arguments.text("--regions"));
-  extend.terms = static_cast<int>(arguments.integer("--terms"));
+  extend.terms = plan.terms.count;
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
@@ -361,6 +428,7 @@ int run(const Arguments& arguments) {
     Plan refit = plan;
     refit.start = result.model;
     refit.add.clear();
+    refit.say = nullptr;
     if (refit.start.has("regions")) {
       remove_effect(refit.start, "regions");
       refit.add.push_back("regions");

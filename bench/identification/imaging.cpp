@@ -1,0 +1,6 @@
+#include "cases.h"
+namespace hapsim::bench {
+std::vector<Case> imaging_cases() {
+  return {};
+}
+}  // namespace hapsim::bench
