@@ -15,6 +15,8 @@
 #include "model/extend.h"
 #include "model/history.h"
 #include "model/location_fit.h"
+#include "model/plausible.h"
+#include "model/stiffness_image.h"
 #include "model/terms.h"
 
 namespace hapsim {
@@ -98,6 +100,12 @@ ToolSpec specification() {
        .help =
            "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
            "position by itself, the model's other parameters held; input of hs-cluster."},
+      {.flag = "--image",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Stiffness imaging: writes the modulus at each tetrahedron's centre (CSV) that all "
+               "presses together ask for about the fitted model, and says what is seen inside the "
+               "body, where, and how deep these presses see."},
       {.flag = "--starts",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -134,7 +142,10 @@ ToolSpec specification() {
                    {"unit", "SI unit"},
                    {"std_error", "standard error, empty when not estimated"},
                    {"lower, upper", "bounds"},
-                   {"state", "free, fixed or derived"}}}};
+                   {"state", "free, fixed or derived"}}},
+                 {"--image",
+                  {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
+                   {"E", "Young's modulus there [Pa]"}}}};
   spec.examples = {
       {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
       {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",
@@ -264,6 +275,7 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
   Model model = plan.start;
   if (model.parameters.empty()) {
     model = elastic_model(w.dataset, selection, *w.body);
+    require_like_columns(model, w.dataset, selection, *w.body);
     for (const std::string& what : plan.fix)
       if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
   }
@@ -315,6 +327,7 @@ void report(const Arguments& arguments, const Workspace& w, const FitResult& res
   warn(result.at_bound,
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
   for (const std::string& sentence : result.blind) line(sentence);
   for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
   for (const std::string& interval : result.intervals) line(interval);
@@ -369,6 +382,30 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   return improvement;
 }
 
+// The modulus of every tetrahedron as all presses ask for it; in words on standard error.
+void write_image(const Arguments& arguments, const Model& model, const Workspace& w,
+                 const TetMesh& body) {
+  const MaterialSpec material = material_of(model);
+  if (material.modulus.size() > 1 || !material.features.empty())
+    fail_usage("--image starts from a body of one modulus",
+               "remove regions, layers, inclusions and anisotropy from the model (--remove)");
+  ImageOptions options;
+  options.threads = static_cast<int>(arguments.integer("--threads"));
+  Progress progress(arguments, "sensitivities", w.dataset.positions.size());
+  options.progress = [&progress] { progress.step(); };
+  const StiffnessImage image =
+      stiffness_image(model, w.dataset, *w.body, body, w.noise.value, options);
+  Output output(arguments.text("--image"));
+  CsvWriter writer(output.stream(), {}, {"x", "y", "z", "E"});
+  for (const auto& n : body.tets) {
+    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+    writer.row({format_number(p.x()), format_number(p.y()), format_number(p.z()),
+                format_number(material.modulus[0] * modulus_ratio(image, p))});
+  }
+  output.commit();
+  for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
+}
+
 int run(const Arguments& arguments) {
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
@@ -413,8 +450,9 @@ int run(const Arguments& arguments) {
     held_out = improvement.steps.back().held_out;
     folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
   } else {
-    result =
-        fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, final_options);
+    const std::vector<Model> starts = build(plan, w, all, fit_options, extend);
+    require_enough_data(starts.front(), w.dataset, all);
+    result = fit_best(starts, w.dataset, all, *w.body, final_options);
   }
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
@@ -452,6 +490,7 @@ int run(const Arguments& arguments) {
     write_locations(locations.stream(), fit_locations(model, w.dataset, *w.body, fit_options));
     locations.commit();
   }
+  if (arguments.given("--image")) write_image(arguments, model, w, body);
   output.commit();
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),

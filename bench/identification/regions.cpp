@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cases.h"
+#include "model/extend.h"
 #include "model/location_fit.h"
 #include "model/region_map.h"
 #include "support/finer_contact.h"

@@ -30,17 +30,29 @@ void for_weights(const FieldGrid& grid, const Vec3& p, const Add& add) {
   }
 }
 
-// Centres of the eight tetrahedra of equal volume that the middles of the edges make.
-std::array<Vec3, 8> eighths(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+using Corners = std::array<Vec3, 4>;
+
+// The eight tetrahedra of equal volume that the middles of the edges make: four at the corners, and
+// the octahedron between them cut along one diagonal.
+std::array<Corners, 8> eighths(const Corners& t) {
+  const auto& [a, b, c, d] = t;
   const Vec3 ab = (a + b) / 2, ac = (a + c) / 2, ad = (a + d) / 2, bc = (b + c) / 2,
              bd = (b + d) / 2, cd = (c + d) / 2;
-  const auto centre = [](const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
-    return Vec3((p + q + r + s) / 4);
-  };
-  // Four at the corners, and the octahedron between cut along ab - cd.
-  return {centre(a, ab, ac, ad),  centre(b, ab, bc, bd),  centre(c, ac, bc, cd),
-          centre(d, ad, bd, cd),  centre(ab, cd, ac, ad), centre(ab, cd, ad, bd),
-          centre(ab, cd, bd, bc), centre(ab, cd, bc, ac)};
+  return {Corners{a, ab, ac, ad},  {b, ab, bc, bd},  {c, ac, bc, cd},  {d, ad, bd, cd},
+          Corners{ab, cd, ac, ad}, {ab, cd, ad, bd}, {ab, cd, bd, bc}, {ab, cd, bc, ac}};
+}
+
+// Points that stand for equal parts of a tetrahedron, closer than `step` where that takes no more
+// than 64.
+void add_points(const Corners& t, double step, int level, std::vector<Vec3>& points) {
+  double longest = 0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < i; ++j) longest = std::max(longest, (t[i] - t[j]).norm());
+  if (level == 0 || (level == 1 && longest < 2 * step)) {
+    points.push_back((t[0] + t[1] + t[2] + t[3]) / 4);
+    return;
+  }
+  for (const Corners& part : eighths(t)) add_points(part, step, level - 1, points);
 }
 
 }  // namespace
@@ -78,10 +90,13 @@ FieldBody::FieldBody(const ContactBase& base, const Vec3& position, double radiu
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& n = mesh.tets[t];
     std::vector<std::pair<int, double>>& weights = weights_[t];
-    for (const Vec3& p :
-         eighths(mesh.nodes[n[0]], mesh.nodes[n[1]], mesh.nodes[n[2]], mesh.nodes[n[3]]))
+    std::vector<Vec3> points;
+    const Corners corners{mesh.nodes[n[0]], mesh.nodes[n[1]], mesh.nodes[n[2]], mesh.nodes[n[3]]};
+    add_points(corners, grid_.step, 2, points);
+    const double share = 1 / static_cast<double>(points.size());
+    for (const Vec3& p : points)
       for_weights(grid_, p, [&](std::size_t node, double w) {
-        weights.emplace_back(static_cast<int>(node), w / 8);
+        weights.emplace_back(static_cast<int>(node), w * share);
       });
     std::sort(weights.begin(), weights.end());
     std::size_t kept = 0;

@@ -37,7 +37,7 @@ struct FieldGrid {
 // One contact mesh, to be solved for many fields log E(x). Not to be shared between threads.
 class FieldBody {
  public:
-  // The logarithm of an element's modulus is the mean of the field over it (eight parts of equal
+  // The logarithm of an element's modulus is the mean of the field over it (8 or 64 parts of equal
   // volume), so that the stiffness depends smoothly on every value whatever the mesh. `growth`: as
   // in make_contact_mesh(). Cost: one mesh and the analysis of its matrix.
   FieldBody(const ContactBase& base, const Vec3& position, double radius, double rim_edge,

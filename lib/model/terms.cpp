@@ -106,6 +106,20 @@ void keep_terms_apart(const Model& model, const std::vector<Unknown>& open,
   }
   if (constraints.empty()) return;
   ConstrainedResult apart = minimise_constrained(start, constraints, residuals);
+  if (!apart.fit.converged) {
+    // A term that the data do not hold leaves no curvature to the constrained solver: disjoint
+    // windows about the starts' geometric means then do the same.
+    for (const LinearConstraint& c : constraints)
+      for (std::size_t later = 0; later < start.size(); ++later) {
+        if (c.coefficient[later] != 1) continue;
+        const auto one = std::find(c.coefficient.begin(), c.coefficient.end(), -1.0);
+        const auto before = static_cast<std::size_t>(one - c.coefficient.begin());
+        const double middle = std::sqrt(start[before].value * start[later].value);
+        start[before].upper = std::min(start[before].upper, middle / std::sqrt(kApart));
+        start[later].lower = std::max(start[later].lower, middle * std::sqrt(kApart));
+      }
+    apart.fit = minimise(start, residuals);
+  }
   if (apart.fit.converged) solution = std::move(apart.fit);
 }
 
@@ -175,7 +189,7 @@ std::vector<std::string> untold_times(const Model& model, const Dataset& dataset
   for (const Episode& e : dataset.episodes)
     if (!e.view.t.empty()) longest = std::max(longest, e.view.t.back());
   std::vector<std::string> result;
-  for (const Terms& t : terms_of(model))
+  for (const Terms& t : terms_of(model)) {
     for (const auto& rows : t.rows) {
       const Parameter& p = model.parameters[rows[t.time]];
       if (p.state != ParameterState::kFree) continue;
@@ -189,6 +203,12 @@ std::vector<std::string> untold_times(const Model& model, const Dataset& dataset
                             longest)
               : fmt::format("its standard error is {:.2g} s", p.std_error)));
     }
+    if (result.empty() && t.rows.size() == 1)
+      result.push_back(fmt::format(
+          "relaxation slower than {:.3g} s is not identifiable from these data: the longest press "
+          "lasts so long, and what relaxes later counts as E",
+          longest));
+  }
   return result;
 }
 

@@ -48,7 +48,8 @@ TermChoice choose_terms(const Model& base, const std::string& effect, int most,
 constexpr double kDecisive = 10;  // Kass and Raftery, J. Am. Statist. Assoc. 90, 1995
 
 // Free relaxation times that these presses cannot tell, in words: with a standard error above a
-// third, or longer than the longest press, which no press has seen the end of.
+// third, or longer than the longest press, which no press has seen the end of. A single term has a
+// sentence in any case on what slower relaxation would be taken for.
 std::vector<std::string> untold_times(const Model& model, const Dataset& dataset);
 
 }  // namespace hapsim
