@@ -25,12 +25,12 @@
 #include <thread>
 #include <vector>
 
-#include "base/random.h"
 #include "fem/contact_stiffness.h"
 #include "fem/elastic_body.h"
 #include "geometry/body_mesh.h"
 #include "linalg/blas.h"
 #include "support/block_mesh.h"
+#include "support/finer_contact.h"
 #include "support/objects.h"
 
 namespace {
@@ -39,7 +39,6 @@ using namespace hapsim;
 
 constexpr double kToolRadius = 0.004;  // [m]
 constexpr double kLimit = 0.015;       // relative error that is asked for
-constexpr double kFiner = 2;
 
 struct Object {
   std::string name;
@@ -56,45 +55,13 @@ TetMesh body_of(const Surface& surface) {
   return make_body_mesh(surface, options);
 }
 
-// Random points of the upper surface, three radii away from the base and from sharp edges.
-std::vector<Vec3> positions_on(const TetMesh& body, int count, std::uint64_t seed) {
-  const Surface surface = boundary_surface(body);
-  double floor = 1e300;
-  for (const Vec3& v : surface.vertices) floor = std::min(floor, v.z());
-  std::vector<double> area_up_to;
-  for (std::size_t f = 0; f < surface.faces.size(); ++f)
-    area_up_to.push_back((f > 0 ? area_up_to.back() : 0) +
-                         face_normal(surface, static_cast<int>(f)).norm());
-  Random random(seed);
-  std::vector<Vec3> chosen;
-  while (static_cast<int>(chosen.size()) < count) {
-    const auto face = static_cast<int>(std::upper_bound(area_up_to.begin(), area_up_to.end() - 1,
-                                                        random.uniform() * area_up_to.back()) -
-                                       area_up_to.begin());
-    const Triangle& t = surface.faces[face];
-    const double a = std::sqrt(random.uniform()), b = random.uniform();
-    const Vec3 p = (1 - a) * surface.vertices[t[0]] + a * (1 - b) * surface.vertices[t[1]] +
-                   a * b * surface.vertices[t[2]];
-    const Vec3 n = face_normal(surface, face).normalized();
-    if (p.z() < floor + 3 * kToolRadius || n.z() < 0.2) continue;
-    bool near_edge = false;
-    for (std::size_t f = 0; f < surface.faces.size() && !near_edge; ++f)
-      if (face_normal(surface, static_cast<int>(f)).normalized().dot(n) < 0.3)
-        for (const int v : surface.faces[f])
-          near_edge = near_edge || (surface.vertices[v] - p).norm() < 3 * kToolRadius;
-    if (!near_edge) chosen.push_back(p);
-  }
-  return chosen;
-}
-
 struct Reference {
   Eigen::Matrix3d K[2];
   std::size_t elements = 0;
 };
 
 Reference reference_at(const ContactBase& base, const Vec3& position, const double (&nus)[2]) {
-  const ContactMesh contact = make_contact_mesh(base, position, kToolRadius,
-                                                kRimEdge / kFiner * kToolRadius, kGrowth / kFiner);
+  const ContactMesh contact = test::finer_mesh(base, position, kToolRadius);
   std::vector<int> handle(contact.mesh.nodes.size(), kFreeNode);
   for (std::size_t n = 0; n < handle.size(); ++n)
     if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
@@ -111,8 +78,7 @@ Reference reference_at(const ContactBase& base, const Vec3& position, const doub
 
 std::vector<Reference> references(const TetMesh& body, const std::vector<Vec3>& positions,
                                   const double (&nus)[2]) {
-  const ContactBase base =
-      make_contact_base(body, std::cbrt(3 * signed_volume(boundary_surface(body))) / 9 / kFiner);
+  const ContactBase base = test::finer_base(body);
   std::vector<Reference> result(positions.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
@@ -141,7 +107,7 @@ void measure(const Object& object, int count, bool errors, Counts& counts) {
   const ContactBase base = make_contact_base(object.body);
   const double base_seconds = seconds() - start;
   const PlanGrid grid = plan_grid(base.surface);
-  const std::vector<Vec3> positions = positions_on(object.body, count, 5);
+  const std::vector<Vec3> positions = test::positions_on(object.body, count, 5, kToolRadius);
   std::vector<Reference> reference;
   if (errors) reference = references(object.body, positions, nus);
   std::vector<std::vector<StiffnessSolution>> usual(2);

@@ -15,6 +15,9 @@
 #include "model/extend.h"
 #include "model/history.h"
 #include "model/location_fit.h"
+#include "model/plausible.h"
+#include "model/stiffness_image.h"
+#include "model/terms.h"
 
 namespace hapsim {
 namespace {
@@ -65,12 +68,16 @@ ToolSpec specification() {
        .repeatable = true},
       {.flag = "--free", .value = "LIST", .help = "Parameters to free again.", .repeatable = true},
       {.flag = "--terms",
-       .kind = OptionKind::kInteger,
        .value = "N",
-       .help = "Maxwell terms of viscoelastic when it is added.",
-       .default_text = "1",
-       .minimum = 1,
-       .maximum = 5},
+       .help = "Maxwell terms of viscoelastic when it is added, 1 to 5; or auto: one more as long "
+               "as both the information criterion and the error on data that the fit has not seen "
+               "fall; auto:3 offers at most three.",
+       .default_text = "1"},
+      {.flag = "--windows",
+       .value = "LIST",
+       .help = "Windows of the relaxation times [s], disjoint, from short to long, one a term: "
+               "0.05:1,2:30.",
+       .repeatable = true},
       {.flag = "--regions",
        .value = "N",
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
@@ -93,6 +100,12 @@ ToolSpec specification() {
        .help =
            "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
            "position by itself, the model's other parameters held; input of hs-cluster."},
+      {.flag = "--image",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Stiffness imaging: writes the modulus at each tetrahedron's centre (CSV) that all "
+               "presses together ask for about the fitted model, and says what is seen inside the "
+               "body, where, and how deep these presses see."},
       {.flag = "--starts",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -129,7 +142,10 @@ ToolSpec specification() {
                    {"unit", "SI unit"},
                    {"std_error", "standard error, empty when not estimated"},
                    {"lower, upper", "bounds"},
-                   {"state", "free, fixed or derived"}}}};
+                   {"state", "free, fixed or derived"}}},
+                 {"--image",
+                  {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
+                   {"E", "Young's modulus there [Pa]"}}}};
   spec.examples = {
       {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
       {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",
@@ -153,11 +169,49 @@ int regions_asked(const std::string& text) {
   return static_cast<int>(number);
 }
 
+struct TermsAsked {
+  int count = 1;
+  bool automatic = false;  // `count` is the most that is offered
+  TimeWindows windows;
+};
+
+TermsAsked terms_asked(const Arguments& arguments) {
+  constexpr int kMost = 5;
+  TermsAsked asked;
+  for (const std::string& text : arguments.list("--windows")) {
+    const std::size_t colon = text.find(':');
+    double low = 0, high = 0;
+    if (colon == std::string::npos || !parse_number(text.substr(0, colon), low) ||
+        !parse_number(text.substr(colon + 1), high) || low <= 0 || high <= low)
+      fail_usage("--windows " + text + " is no window of relaxation times",
+                 "give LOW:HIGH in seconds: 0.05:1,2:30");
+    asked.windows.emplace_back(low, high);
+  }
+  const std::string text = arguments.text("--terms");
+  double number = kMost;
+  asked.automatic = text == "auto" || text.rfind("auto:", 0) == 0;
+  const std::string count = !asked.automatic ? text : text == "auto" ? "5" : text.substr(5);
+  if (!parse_number(count, number) || number < 1 || number != std::floor(number) || number > kMost)
+    fail_usage("--terms " + text + " is not a number of terms",
+               "give 1 to 5, auto, or auto:N for at most N");
+  asked.count = static_cast<int>(number);
+  if (asked.windows.empty()) return asked;
+  if (arguments.given("--terms") &&
+      (asked.automatic || asked.count != static_cast<int>(asked.windows.size())))
+    fail_usage(fmt::format("{} windows, but --terms {}", asked.windows.size(), text),
+               "leave --terms out: each window is a term");
+  asked.automatic = false;
+  asked.count = static_cast<int>(asked.windows.size());
+  return asked;
+}
+
 struct Plan {
   Model start;                   // empty: elastic from the data
   bool automatic = false;        // what to add is found by diagnosis
   std::vector<std::string> add;  // in order
   std::vector<std::string> fix, free;
+  TermsAsked terms;
+  std::function<void(const std::string&)> say;  // what was chosen on the way; may be empty
 };
 
 // The effects that a diagnosis calls missing, in order of rank.
@@ -176,6 +230,8 @@ std::vector<std::string> missing_effects(const std::string& path) {
 
 Plan make_plan(const Arguments& arguments) {
   Plan plan;
+  plan.terms = terms_asked(arguments);
+  plan.say = [&arguments](const std::string& text) { say(arguments, "hs-identify", text); };
   plan.fix = arguments.list("--fix");
   plan.free = arguments.list("--free");
   plan.automatic = arguments.list("--effects") == std::vector<std::string>{"auto"};
@@ -203,12 +259,23 @@ Plan make_plan(const Arguments& arguments) {
   return plan;
 }
 
+std::string words_of(const TermChoice& choice, const std::string& effect) {
+  std::string trials;
+  for (const TermTrial& t : choice.trials)
+    trials +=
+        fmt::format("{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.rmse,
+                    std::isnan(t.held_out) ? "" : fmt::format(", unseen {:.4g} N", t.held_out));
+  return fmt::format("{} term{} of {} chosen ({})", choice.terms, choice.terms == 1 ? "" : "s",
+                     effect, trials);
+}
+
 // Models to fit on the chosen episodes: fitted step by step, one effect after the other.
 std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& selection,
                          const FitOptions& fit_options, const ExtendOptions& extend) {
   Model model = plan.start;
   if (model.parameters.empty()) {
     model = elastic_model(w.dataset, selection, *w.body);
+    require_like_columns(model, w.dataset, selection, *w.body);
     for (const std::string& what : plan.fix)
       if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
   }
@@ -217,7 +284,18 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
     FitOptions quick = fit_options;
     quick.exact_regions = false;
     const Model base = fit_best(starts, w.dataset, selection, *w.body, quick).model;
-    starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, extend);
+    const EffectCard& card = require_effect(plan.add[k]).card();
+    const bool terms = card.terms && !card.from_locations;
+    ExtendOptions own = extend;
+    if (terms && plan.terms.automatic) {
+      const TermChoice choice = choose_terms(base, plan.add[k], plan.terms.count, w.dataset,
+                                             selection, *w.body, quick, extend);
+      own.terms = choice.terms;
+      if (plan.say) plan.say(words_of(choice, plan.add[k]));
+    }
+    starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, own);
+    if (terms && !plan.terms.windows.empty())
+      for (Model& start : starts) set_windows(start, plan.add[k], plan.terms.windows);
   }
   for (Model& start : starts)
     for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
@@ -249,7 +327,9 @@ void report(const Arguments& arguments, const Workspace& w, const FitResult& res
   warn(result.at_bound,
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
   for (const std::string& sentence : result.blind) line(sentence);
+  for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
   for (const std::string& interval : result.intervals) line(interval);
   if (result.discounted > 0)
     line(fmt::format("{} of {} force components discounted as far off", result.discounted,
@@ -302,11 +382,35 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   return improvement;
 }
 
+// The modulus of every tetrahedron as all presses ask for it; in words on standard error.
+void write_image(const Arguments& arguments, const Model& model, const Workspace& w,
+                 const TetMesh& body) {
+  const MaterialSpec material = material_of(model);
+  if (material.modulus.size() > 1 || !material.features.empty())
+    fail_usage("--image starts from a body of one modulus",
+               "remove regions, layers, inclusions and anisotropy from the model (--remove)");
+  ImageOptions options;
+  options.threads = static_cast<int>(arguments.integer("--threads"));
+  Progress progress(arguments, "sensitivities", w.dataset.positions.size());
+  options.progress = [&progress] { progress.step(); };
+  const StiffnessImage image =
+      stiffness_image(model, w.dataset, *w.body, body, w.noise.value, options);
+  Output output(arguments.text("--image"));
+  CsvWriter writer(output.stream(), {}, {"x", "y", "z", "E"});
+  for (const auto& n : body.tets) {
+    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+    writer.row({format_number(p.x()), format_number(p.y()), format_number(p.z()),
+                format_number(material.modulus[0] * modulus_ratio(image, p))});
+  }
+  output.commit();
+  for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
+}
+
 int run(const Arguments& arguments) {
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
   extend.regions = regions_asked(arguments.text("--regions"));
-  extend.terms = static_cast<int>(arguments.integer("--terms"));
+  extend.terms = plan.terms.count;
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
@@ -346,8 +450,9 @@ int run(const Arguments& arguments) {
     held_out = improvement.steps.back().held_out;
     folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
   } else {
-    result =
-        fit_best(build(plan, w, all, fit_options, extend), w.dataset, all, *w.body, final_options);
+    const std::vector<Model> starts = build(plan, w, all, fit_options, extend);
+    require_enough_data(starts.front(), w.dataset, all);
+    result = fit_best(starts, w.dataset, all, *w.body, final_options);
   }
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
@@ -361,6 +466,7 @@ int run(const Arguments& arguments) {
     Plan refit = plan;
     refit.start = result.model;
     refit.add.clear();
+    refit.say = nullptr;
     if (refit.start.has("regions")) {
       remove_effect(refit.start, "regions");
       refit.add.push_back("regions");
@@ -384,6 +490,7 @@ int run(const Arguments& arguments) {
     write_locations(locations.stream(), fit_locations(model, w.dataset, *w.body, fit_options));
     locations.commit();
   }
+  if (arguments.given("--image")) write_image(arguments, model, w, body);
   output.commit();
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),

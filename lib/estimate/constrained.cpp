@@ -5,6 +5,7 @@
 #include <coin/IpIpoptApplication.hpp>
 #include <coin/IpSolveStatistics.hpp>
 #include <coin/IpTNLP.hpp>
+#include <mutex>
 
 #include "estimate/coordinates.h"
 
@@ -165,6 +166,8 @@ ConstrainedResult minimise_constrained(const std::vector<Unknown>& start,
                                        const std::vector<LinearConstraint>& constraints,
                                        const ResidualFunction& residuals,
                                        const LeastSquaresOptions& options) {
+  static std::mutex one_at_a_time;  // MUMPS keeps a state of its own
+  const std::lock_guard lock(one_at_a_time);
   const auto m = static_cast<Eigen::Index>(start.size());
   auto* problem = new Problem(start, constraints, residuals);  // owned by the pointer below
   const Ipopt::SmartPtr<Ipopt::TNLP> owner = problem;

@@ -22,9 +22,9 @@ struct ConstrainedResult {
 };
 
 // Minimises |r|^2 within bounds and constraints by Ipopt (Waechter and Biegler, Math. Program. 106,
-// 2006) with the Gauss-Newton matrix 2 J'J for the Hessian. Not thread-safe (its linear solver is
-// not). A start outside the constraints is allowed. Constraints without a feasible point, or no
-// convergence, are reported in fit.message.
+// 2006) with the Gauss-Newton matrix 2 J'J for the Hessian. Threads take turns (its linear solver
+// is not thread-safe). A start outside the constraints is allowed. Constraints without a feasible
+// point, or no convergence, are reported in fit.message.
 ConstrainedResult minimise_constrained(const std::vector<Unknown>& start,
                                        const std::vector<LinearConstraint>& constraints,
                                        const ResidualFunction& residuals,

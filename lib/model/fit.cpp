@@ -14,6 +14,7 @@
 #include "estimate/profile.h"
 #include "model/move_limits.h"
 #include "model/press_offsets.h"
+#include "model/terms.h"
 
 namespace hapsim {
 namespace {
@@ -128,6 +129,15 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
     } else {
       solution = minimise(open, residuals);
     }
+    set_values(result.model, solution.x);
+    if (options.robust != RobustLoss::kNone) return;
+    if (sort_terms(result.model)) {
+      open = unknowns(result.model);
+      if (linearised) open = within_reach(std::move(open), result.model, reach);
+      solution = minimise(open, residuals);
+      set_values(result.model, solution.x);
+    }
+    keep_terms_apart(result.model, open, residuals, solution);
     set_values(result.model, solution.x);
   };
   if (!linearised || options.rounds == 0) {
