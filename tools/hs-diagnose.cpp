@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/plan.h"
 #include "io/csv.h"
 #include "model/edit.h"
 
@@ -48,6 +49,19 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes the diagnosis as JSON."},
+      {.flag = "--plan",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the motion (CSV, without forces) of the next presses to record: those that "
+               "best tell indistinguishable effects apart, or determine the least certain "
+               "parameter."},
+      {.flag = "--plan-presses",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Number of presses of the plan.",
+       .default_text = "3",
+       .minimum = 1,
+       .maximum = 100},
       {.flag = "--folds",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -192,6 +206,25 @@ void report(const Arguments& arguments, const Diagnosis& d) {
       "with a calibration weight");
 }
 
+void write_plan(const Arguments& arguments, const Diagnosis& d, const Workspace& w) {
+  const MeasurementPlan plan =
+      plan_presses(d.rivals, w, static_cast<std::size_t>(arguments.integer("--plan-presses")));
+  Output output(arguments.text("--plan"));
+  write_recording(output.stream(), plan.motion);
+  output.commit();
+  const auto line = [&](const std::string& text) { say(arguments, "hs-diagnose", text); };
+  if (plan.parameter.empty())
+    line(fmt::format("to tell them apart, record {} ({:.3g} standard deviations of the noise):",
+                     arguments.text("--plan"), plan.separation));
+  else
+    line(fmt::format("to know {} better, record {} (its standard error falls to {:.0f} %):",
+                     plan.parameter, arguments.text("--plan"), 100 * plan.separation));
+  for (const PlannedPress& p : plan.presses)
+    line(fmt::format("  at ({:.1f}, {:.1f}, {:.1f}) mm: {}{}", 1e3 * p.position.x(),
+                     1e3 * p.position.y(), 1e3 * p.position.z(), p.motion,
+                     p.separation > 0 ? fmt::format(" ({:.3g} alone)", p.separation) : ""));
+}
+
 int run(const Arguments& arguments) {
   Input model_input(arguments.text("--model"));
   const Model model = read_model(model_input);
@@ -217,6 +250,7 @@ int run(const Arguments& arguments) {
     json.commit();
   }
   report(arguments, d);
+  if (arguments.given("--plan")) write_plan(arguments, d, w);
   const bool failed = arguments.given("--check") && d.verdict != ModelVerdict::kComplete;
   return static_cast<int>(failed ? ExitCode::kCheckFailed : ExitCode::kDone);
 }

@@ -290,6 +290,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
       ambiguous = true;
       rivals.insert(rivals.begin(), best);
       for (const std::size_t k : rivals) {
+        d.rivals.push_back(last.candidates[k].fitted.model);
         Finding finding = last.findings[k];
         finding.verdict = Verdict::kIndistinguishable;
         for (const std::size_t other : rivals)
@@ -334,6 +335,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
   d.findings.insert(d.findings.end(), last.ruled_out.begin(), last.ruled_out.end());
   d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
 
+  if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.rmse;
   d.held_out_end = base.held_out.rmse;
   const Selection all = all_episodes(w.dataset);

@@ -59,6 +59,9 @@ struct Diagnosis {
   double reduced_chi_square_end = 1;             // whitened
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
+  // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the
+  // model alone, with all missing effects.
+  std::vector<Model> rivals;
 };
 
 // Refits the model, tries every effect of the catalogue on top of it, and goes on while one is
