@@ -14,6 +14,7 @@
 #include "fem/hooke_law.h"
 #include "fem/hyperelastic_law.h"
 #include "fem/nonlinear_body.h"
+#include "fem/ogden_law.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {
@@ -166,6 +167,13 @@ TEST_F(CalculiX, YeohReactionsAreTheSame) {
     compare(block(order, 3), yeoh_law(3000, 900, 400, 5e4),
             "*HYPERELASTIC, YEOH\n3000.,900.,400.,4.e-5,1.e20,1.e20", true, kFinite,
             "Yeoh C3D" + std::to_string(order == 1 ? 4 : 10));
+}
+
+TEST_F(CalculiX, OgdenReactionsAreTheSame) {
+  for (const int order : {1, 2})
+    compare(block(order, 3), ogden_law({{4000, 1.3}, {2000, -2.5}}, 5e4),
+            "*HYPERELASTIC, OGDEN, N=2\n4000.,1.3,2000.,-2.5,4.e-5,1.e20", true, kFinite,
+            "Ogden C3D" + std::to_string(order == 1 ? 4 : 10));
 }
 
 // Engineering constants E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; axis z: nu13 = nua Ep/Ea.
