@@ -7,6 +7,7 @@
 #include "io/csv.h"
 #include "model/edit.h"
 #include "model/forces.h"
+#include "model/full_simulation.h"
 #include "realtime/live_session.h"
 #include "realtime/real_time.h"
 
@@ -31,7 +32,12 @@ ToolSpec specification() {
       "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
       "which contacts are found. At the positions of --contacts the forces are those of the batch "
       "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
-      "live."};
+      "live.",
+      "With --full finite elements are solved at every step, tool and body as they are: a body of "
+      "hyperelastic (finite) at finite strain, a tip of the effect tip as a ball whose contact "
+      "grows, friction on the contact itself, relaxation in every element. It takes seconds a step "
+      "and is what the quick laws are judged by. Several tools press one body at once with a "
+      "column tool_id: rows of one press and time, one a tool, are one step."};
   spec.options = workspace_flags();
   spec.options.push_back({.flag = "--model",
                           .kind = OptionKind::kFile,
@@ -65,13 +71,28 @@ ToolSpec specification() {
                                   "locked and real-time scheduling where they are permitted.",
                           .minimum = 0.001,
                           .maximum = 100000});
+  spec.options.push_back({.flag = "--full",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Finite elements at every step; a step that does not converge "
+                                  "ends it (exit 4)."});
+  spec.options.push_back({.flag = "--own-mesh",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Full: on the body's own mesh; otherwise each press on one "
+                                  "graded to its tool's rim."});
+  spec.options.push_back({.flag = "--force-control",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Full: the motion's forces are given, its displacements are "
+                                  "found and written."});
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",
        "Where the model fails."},
       {"hs-simulate --live --rate 1000 motion.csv --contacts data.csv --body body.ply --model "
        "m0.csv",
-       "A recorded motion at 1 kHz."}};
+       "A recorded motion at 1 kHz."},
+      {"hs-simulate --full data.csv --body body.ply --model m2.csv | hs-compare data.csv "
+       "--simulated -",
+       "A model with finite strain and a round tip, without its quick laws."}};
   spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-diagnose(1)"};
   return spec;
 }
@@ -145,11 +166,55 @@ int run_live_mode(const Arguments& arguments) {
   return 0;
 }
 
+// Noise as asked for, metadata, and out.
+void write_simulated(const Arguments& arguments, const Model& model, Recording& out) {
+  out.metadata.remove("force_noise");
+  out.metadata.set("simulated", effects_label(model));
+  if (arguments.given("--add-noise")) {
+    const double noise = arguments.number("--add-noise");
+    Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
+    for (Vec3& force : out.f)
+      for (int k = 0; k < 3; ++k) force[k] += noise * random.normal();
+    out.metadata.set("force_noise", format_number(noise));
+    out.metadata.set("seed", arguments.text("--seed"));
+  }
+  Output output(arguments.output());
+  write_recording(output.stream(), out);
+  output.commit();
+}
+
+int run_full_mode(const Arguments& arguments) {
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  const TetMesh body = load_body(arguments);
+  FullOptions options;
+  options.own_mesh = arguments.given("--own-mesh");
+  options.force_control = arguments.given("--force-control");
+  if (arguments.given("--rim-edge")) options.rim_edge = arguments.number("--rim-edge");
+  Recording out = load_recording(arguments, arguments.input(), options.force_control);
+  Progress progress(arguments, "rows", out.rows());
+  options.step = [&progress](std::size_t rows) { progress.step(rows); };
+  FullResult result = simulate_full(body, model, out, options);
+  out.f = std::move(result.force);
+  out.u = std::move(result.motion);
+  write_simulated(arguments, model, out);
+  say(arguments, "hs-simulate",
+      fmt::format("{} rows by finite elements, up to {} unknowns, {} Newton steps, model {}",
+                  out.rows(), result.unknowns, result.newton_steps, effects_label(model)));
+  return 0;
+}
+
 int run(const Arguments& arguments) {
+  if (arguments.given("--live") && arguments.given("--full"))
+    fail_usage("--live and --full exclude each other", "leave one of them out");
   if (arguments.given("--live")) return run_live_mode(arguments);
   for (const char* flag : {"--rate", "--contacts"})
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
+  if (arguments.given("--full")) return run_full_mode(arguments);
+  for (const char* flag : {"--own-mesh", "--force-control"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of the full mode", "add --full, or leave it out");
   Input model_input(arguments.text("--model"));
   const Model model = read_model(model_input);
   const TetMesh body = load_body(arguments);
@@ -167,19 +232,7 @@ int run(const Arguments& arguments) {
   const std::vector<int> rows = stacked_rows(w.dataset, all);
   for (std::size_t i = 0; i < rows.size(); ++i)
     out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
-  out.metadata.remove("force_noise");
-  out.metadata.set("simulated", effects_label(model));
-  if (arguments.given("--add-noise")) {
-    const double noise = arguments.number("--add-noise");
-    Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
-    for (Vec3& force : out.f)
-      for (int k = 0; k < 3; ++k) force[k] += noise * random.normal();
-    out.metadata.set("force_noise", format_number(noise));
-    out.metadata.set("seed", arguments.text("--seed"));
-  }
-  Output output(arguments.output());
-  write_recording(output.stream(), out);
-  output.commit();
+  write_simulated(arguments, model, out);
   say(arguments, "hs-simulate",
       fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", out.rows(),
                   w.dataset.positions.size(), effects_label(model),

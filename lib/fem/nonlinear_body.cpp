@@ -227,7 +227,7 @@ struct NonlinearBody::Impl {
   // The surfaces touch, or are apart, as they should, in the mean over each hat.
   bool fits() const {
     for (const Tip& t : tips) {
-      const double allowed = 1e-9 * t.contact.give() + 1e-14 * t.contact.tip().radius;
+      const double allowed = 1e-9 * t.contact.give() + 1e-14 * t.contact.tip().reach;
       for (Index i = 0; i < t.traction.size() / 3; ++i) {
         const double gap = t.contact.apart()[3 * i] / t.contact.surface().area[i];
         if ((t.traction[3 * i] > 0 ? std::abs(gap) : -gap) > allowed) return false;

@@ -34,7 +34,8 @@ void TipContact::mark(const VectorXd& u, const Vec3& motion) {
 }
 
 void TipContact::evaluate(const VectorXd& u, const Vec3& motion) {
-  const Vec3 down = -tip_.normal, centre = tip_.point + tip_.radius * tip_.normal + motion;
+  const Vec3 down = -tip_.normal;
+  const Vec3 centre = tip_.point + (tip_.flat() ? 0 : tip_.radius) * tip_.normal + motion;
   const auto count = static_cast<std::size_t>(hats());
   give_ = 0;
   std::vector<Vec3> away(surface_.points.size());  // from the tip into the body, at each point
@@ -44,7 +45,10 @@ void TipContact::evaluate(const VectorXd& u, const Vec3& motion) {
     const TipSurface::Point& p = surface_.points[q];
     const Vec3 moved = displacement(p, u);
     give_ = std::max(give_, std::abs(moved.dot(tip_.normal)));
-    if (small_) {
+    if (tip_.flat()) {
+      away[q] = down;
+      gap[q] = (motion - moved).dot(tip_.normal);
+    } else if (small_) {
       const Vec3 x = p.position - tip_.point;
       const double z = x.dot(tip_.normal);
       away[q] = down;
@@ -114,6 +118,7 @@ double TipContact::contact_radius(const VectorXd& traction) const {
 }
 
 bool TipContact::at_rim(const VectorXd& traction) const {
+  if (tip_.flat()) return false;
   for (Index i = 0; i < surface_.area.size(); ++i)
     if (surface_.rim[static_cast<std::size_t>(i)] && traction[3 * i] > 0) return true;
   return false;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <cmath>
 #include <limits>
 
 #include "fem/tip_surface.h"
@@ -12,12 +13,14 @@ namespace hapsim {
 
 constexpr double kSticks = std::numeric_limits<double>::infinity();
 
+// A radius that is infinite makes a flat punch, which fits the undeformed surface within reach.
 struct SphericalTip {
   Vec3 point = Vec3::Zero();    // where its lowest point lies when it has not moved [m]
   Vec3 normal = Vec3::UnitZ();  // outward, of the surface there
   double radius = 0;            // [m]
   double reach = 0;             // faces within it may come into contact [m]
   double friction = 0;          // Coulomb's coefficient; kSticks: what touches sticks
+  bool flat() const { return !std::isfinite(radius); }
 };
 
 // In the mean over each hat (mortar; Wriggers, Computational Contact Mechanics, 2006, ch. 9):

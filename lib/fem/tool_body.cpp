@@ -192,7 +192,7 @@ struct ToolBody::Impl {
       if (!tip || targets[tool].value.norm() == 0) continue;
       Vec3& place = motion[tool];
       if (force(tool).norm() == 0) place -= place.dot(tip->normal) * tip->normal;
-      for (double deeper = 1e-3 * tip->radius; force(tool).norm() == 0 && deeper < tip->radius;
+      for (double deeper = 1e-3 * tip->reach; force(tool).norm() == 0 && deeper < tip->reach;
            deeper *= 2) {
         place -= deeper * tip->normal;
         if (!(report = move(motion)).ok()) return report;
