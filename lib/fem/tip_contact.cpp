@@ -35,7 +35,7 @@ void TipContact::mark(const VectorXd& u, const Vec3& motion) {
 
 void TipContact::evaluate(const VectorXd& u, const Vec3& motion) {
   const Vec3 down = -tip_.normal;
-  const Vec3 centre = tip_.point + (tip_.flat() ? 0 : tip_.radius) * tip_.normal + motion;
+  const Vec3 lowest = tip_.point + motion;
   const auto count = static_cast<std::size_t>(hats());
   give_ = 0;
   std::vector<Vec3> away(surface_.points.size());  // from the tip into the body, at each point
@@ -55,10 +55,11 @@ void TipContact::evaluate(const VectorXd& u, const Vec3& motion) {
       gap[q] = sphere_height(tip_.radius, (x - z * tip_.normal).norm()).height - z +
                (motion - moved).dot(tip_.normal);
     } else {
-      const Vec3 x = p.position + moved - centre;
+      // The distance from the centre less the radius, without their cancellation.
+      const Vec3 d = p.position + moved - lowest, x = d + tip_.radius * down;
       const double distance = x.norm();
       away[q] = distance > 0 ? Vec3(x / distance) : down;
-      gap[q] = distance - tip_.radius;
+      gap[q] = (d.squaredNorm() + 2 * tip_.radius * d.dot(down)) / (distance + tip_.radius);
     }
     for (std::size_t i = 0; i < 3; ++i) mean[p.hat[i]] += p.area * p.corner[i] * away[q];
   }
