@@ -10,114 +10,16 @@
 #include "model/edit.h"
 #include "model/field_rows.h"
 #include "model/forces.h"
+#include "model/full_simulation.h"
 #include "model/own_mesh.h"
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
 #include "realtime/real_time.h"
+#include "simulate_specification.h"
 
 namespace hapsim {
 namespace {
-
-ToolSpec specification() {
-  ToolSpec spec;
-  spec.name = "hs-simulate";
-  spec.summary = "contact forces of a model along a motion";
-  spec.input = "motion or recording CSV (press,t,x,y,z,ux,uy,uz; forces in it are ignored)";
-  spec.description = {
-      "Writes the recording with the forces replaced by the model's. Each contact position is "
-      "solved on second-order tetrahedra graded to the tool's rim; relaxation is integrated "
-      "exactly for motion that is straight between samples "
-      "and for any time steps.",
-      "Measured and simulated recordings have one format, so the output feeds hs-compare and "
-      "hs-identify alike.",
-      "With --live every motion line is answered by its force line at once, from a body prepared "
-      "beforehand: its surface condensed to stiffnesses, put right to those of --contacts and "
-      "interpolated in between. The header comes first, and comes back when the body is ready. "
-      "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
-      "which contacts are found. At the positions of --contacts the forces are those of the batch "
-      "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
-      "live; there, rows of the viscoelastic effect with a region above 0 give each region its own "
-      "Maxwell elements.",
-      "With --binary, motion and forces are records of fixed size, little-endian, without header "
-      "or "
-      "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
-      "units. In, tip (32 bytes): t x y z; press (64 bytes): i press, i contact (0: in the air), t "
-      "x "
-      "y z ux uy uz. Out (88 bytes): i press, i contact, t x y z ux uy uz fx fy fz. Give "
-      "--tool-radius.",
-      "With --own-mesh nothing is meshed: the body's own tetrahedra, of either order, are pressed "
-      "at the nodes under the tool, by a sparse factorisation or by conjugate gradients, whichever "
-      "is faster for the size (it says which). The force is as good as that mesh is fine there."};
-  spec.options = workspace_flags();
-  spec.options.push_back({.flag = "--model",
-                          .kind = OptionKind::kFile,
-                          .value = "FILE",
-                          .help = "Model from hs-identify.",
-                          .required = true});
-  spec.options.push_back({.flag = "--add-noise",
-                          .kind = OptionKind::kNumber,
-                          .value = "N",
-                          .help = "Adds Gaussian noise of this standard deviation [N] to every "
-                                  "force component and declares it as force_noise.",
-                          .minimum = 0});
-  spec.options.push_back({.flag = "--seed",
-                          .kind = OptionKind::kInteger,
-                          .value = "N",
-                          .help = "Seed of the added noise.",
-                          .default_text = "1",
-                          .minimum = 0});
-  spec.options.push_back(
-      {.flag = "--own-mesh",
-       .kind = OptionKind::kSwitch,
-       .help = "Presses the body's own mesh instead of meshes of its contacts."});
-  spec.options.push_back({.flag = "--solver",
-                          .kind = OptionKind::kChoice,
-                          .value = "NAME",
-                          .help = "Own mesh: how it is solved.",
-                          .default_text = "by-size",
-                          .choices = {"by-size", "direct", "iterative"}});
-  spec.options.push_back({.flag = "--vtu",
-                          .kind = OptionKind::kText,
-                          .value = "PREFIX",
-                          .help =
-                              "Own mesh: writes PREFIX-ROW.vtu with displacement, stress and "
-                              "energy density at the deepest row of each press, or at --rows."});
-  spec.options.push_back({.flag = "--rows",
-                          .kind = OptionKind::kText,
-                          .value = "LIST",
-                          .help = "Rows of the motion to write with --vtu, from 1: 20,40,60."});
-  spec.options.push_back({.flag = "--live",
-                          .kind = OptionKind::kSwitch,
-                          .help = "Answers each line as it comes; latencies on standard error."});
-  spec.options.push_back({.flag = "--contacts",
-                          .kind = OptionKind::kFile,
-                          .value = "FILE",
-                          .help = "Live: a recording whose contact positions are solved finely "
-                                  "before the first line."});
-  spec.options.push_back({.flag = "--rate",
-                          .kind = OptionKind::kNumber,
-                          .value = "HZ",
-                          .help = "Live: takes the lines at this rate by the clock, with memory "
-                                  "locked and real-time scheduling where they are permitted.",
-                          .minimum = 0.001,
-                          .maximum = 100000});
-  spec.options.push_back({.flag = "--binary",
-                          .kind = OptionKind::kChoice,
-                          .value = "KIND",
-                          .help = "Live: records instead of lines in and out; tip positions or "
-                                  "presses come in.",
-                          .choices = {"tip", "press"}});
-  spec.examples = {
-      {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
-      {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",
-       "Where the model fails."},
-      {"hs-simulate --live --rate 1000 motion.csv --contacts data.csv --body body.ply --model "
-       "m0.csv",
-       "A recorded motion at 1 kHz."}};
-  spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-diagnose(1)"};
-  return spec;
-}
 
 // The positions of --contacts, to be solved finely for any material.
 std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh& body,
@@ -211,13 +113,8 @@ SolverKind solver_kind(const Arguments& arguments) {
   return name == "iterative" ? SolverKind::kIterative : SolverKind::kBySize;
 }
 
-void write_forces(const Arguments& arguments, const Model& model, const Dataset& dataset,
-                  const Selection& all, const Eigen::VectorXd& f) {
-  Recording out = dataset.recording;
-  out.f.assign(out.rows(), Vec3::Zero());
-  const std::vector<int> rows = stacked_rows(dataset, all);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
+// Noise as asked for, metadata, and out.
+void write_simulated(const Arguments& arguments, const Model& model, Recording& out) {
   out.metadata.remove("force_noise");
   out.metadata.set("simulated", effects_label(model));
   if (arguments.given("--add-noise")) {
@@ -231,6 +128,37 @@ void write_forces(const Arguments& arguments, const Model& model, const Dataset&
   Output output(arguments.output());
   write_recording(output.stream(), out);
   output.commit();
+}
+
+void write_forces(const Arguments& arguments, const Model& model, const Dataset& dataset,
+                  const Selection& all, const Eigen::VectorXd& f) {
+  Recording out = dataset.recording;
+  out.f.assign(out.rows(), Vec3::Zero());
+  const std::vector<int> rows = stacked_rows(dataset, all);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
+  write_simulated(arguments, model, out);
+}
+
+int run_full_mode(const Arguments& arguments) {
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  const TetMesh body = load_body(arguments);
+  FullOptions options;
+  options.own_mesh = arguments.given("--own-mesh");
+  options.force_control = arguments.given("--force-control");
+  if (arguments.given("--rim-edge")) options.rim_edge = arguments.number("--rim-edge");
+  Recording out = load_recording(arguments, arguments.input(), options.force_control);
+  Progress progress(arguments, "rows", out.rows());
+  options.step = [&progress](std::size_t rows) { progress.step(rows); };
+  FullResult result = simulate_full(body, model, out, options);
+  out.f = std::move(result.force);
+  out.u = std::move(result.motion);
+  write_simulated(arguments, model, out);
+  say(arguments, "hs-simulate",
+      fmt::format("{} rows by finite elements, up to {} unknowns, {} Newton steps, model {}",
+                  out.rows(), result.unknowns, result.newton_steps, effects_label(model)));
+  return 0;
 }
 
 int run_own_mesh(const Arguments& arguments) {
@@ -263,16 +191,24 @@ int run_own_mesh(const Arguments& arguments) {
 int run(const Arguments& arguments) {
   if (arguments.given("--own-mesh") && arguments.given("--live"))
     fail_usage("--own-mesh is of the batch mode", "leave out --live or --own-mesh");
-  for (const char* flag : {"--vtu", "--rows", "--solver"})
+  if (arguments.given("--full") && arguments.given("--live"))
+    fail_usage("--live and --full exclude each other", "leave one of them out");
+  for (const char* flag : {"--vtu", "--rows", "--solver"}) {
     if (arguments.given(flag) && !arguments.given("--own-mesh"))
       fail_usage(std::string(flag) + " is of the body's own mesh",
                  "add --own-mesh, or leave it out");
+    if (arguments.given(flag) && arguments.given("--full"))
+      fail_usage(std::string(flag) + " is not of the full mode", "leave it out");
+  }
+  if (arguments.given("--force-control") && !arguments.given("--full"))
+    fail_usage("--force-control is of the full mode", "add --full, or leave it out");
   if (arguments.given("--rows") && !arguments.given("--vtu"))
     fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
   if (arguments.given("--live")) return run_live_mode(arguments);
   for (const char* flag : {"--rate", "--contacts", "--binary"})
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
+  if (arguments.given("--full")) return run_full_mode(arguments);
   if (arguments.given("--own-mesh")) return run_own_mesh(arguments);
   Input model_input(arguments.text("--model"));
   const Model model = read_model(model_input);
@@ -297,5 +233,5 @@ int run(const Arguments& arguments) {
 }  // namespace hapsim
 
 int main(int argc, char** argv) {
-  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+  return hapsim::run_tool(hapsim::simulate_specification(), argc, argv, hapsim::run);
 }

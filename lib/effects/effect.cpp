@@ -24,6 +24,10 @@ bool Effect::live(const Values&, double, std::vector<MaxwellTerm>&) const {
   return false;
 }
 
+bool Effect::full(const Values& values, double modulus, FullSpec& spec) const {
+  return card().solved || live(values, modulus, spec.terms);
+}
+
 std::vector<std::vector<double>> Effect::starts(const DataSummary&, int terms) const {
   std::vector<double> start;
   for (int k = 0; k < terms; ++k)

@@ -158,6 +158,15 @@ struct MaxwellTerm {
   double tau = 1;
 };
 
+// What the full finite-element simulation needs beyond the material.
+struct FullSpec {
+  bool finite = false;             // finite strain, of the energy of exponential_law()
+  double stiffening = 0;           // its exponent b
+  std::vector<MaxwellTerm> terms;  // of the whole body
+  double curvature = 0;            // of the tool's tip [1/m]; 0: flat
+  double friction = std::numeric_limits<double>::infinity();  // infinite: what touches sticks
+};
+
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -176,6 +185,9 @@ class Effect {
   // Why fitted values are not what the effect is meant for, given the points that were pressed;
   // "" when they are.
   virtual std::string implausible(const Values& values, const std::vector<Vec3>& pressed) const;
+  // The effect as the full simulation solves it, beyond the material. Default: what describes the
+  // body alone, or has a live() form. False: it has no such form.
+  virtual bool full(const Values& values, double modulus, FullSpec& spec) const;
   // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
   // card's.
   virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;

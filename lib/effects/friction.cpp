@@ -71,6 +71,12 @@ class Friction : public Effect {
     }
   }
 
+  bool full(const Values& values, double, FullSpec& spec) const override {
+    const double mu = find_value(values, "mu").value;
+    if (mu < kRough) spec.friction = mu;
+    return true;
+  }
+
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
     return {{0.15}, {0.3}, {0.6}};
   }

@@ -139,6 +139,14 @@ class Hyperelastic : public Effect {
     }
   }
 
+  // The energy that the law was fitted to. Without `finite` the elements have no such form.
+  bool full(const Values& values, double, FullSpec& spec) const override {
+    const double s = find_value(values, "s").value;
+    spec.finite = find_value(values, "finite").value > 0.5;
+    spec.stiffening = std::pow(s / 0.149, 1.6);
+    return spec.finite || s == 0;
+  }
+
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
     return {{0.2, 1}};
   }

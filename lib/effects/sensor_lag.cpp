@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "effects/effects.h"
-#include "effects/memory.h"
+#include "fem/memory.h"
 
 namespace hapsim {
 namespace {

@@ -171,6 +171,11 @@ class Tip : public Effect {
     }
   }
 
+  bool full(const Values& values, double, FullSpec& spec) const override {
+    spec.curvature = find_value(values, "kappa").value;
+    return true;
+  }
+
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
     return {{20}, {100}, {400}};
   }

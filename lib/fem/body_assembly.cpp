@@ -21,6 +21,7 @@ BodyAssembly::BodyAssembly(const BodyModel& model)
       springs_(model.springs),
       k_normal_(model.foundation.normal),
       k_tangential_(model.foundation.tangential),
+      face_springs_(model.face_springs),
       nodes_(model.mesh->order == 1 ? 4 : 10) {
   const std::size_t tets = mesh_->tets.size();
   assert(law_.size() == tets);
@@ -118,6 +119,7 @@ Cliques BodyAssembly::cliques() const {
     cliques.add({patch_nodes_.nodes(p), patch_nodes_.nodes(p) + patch_nodes_.count(p)});
   for (const FoundationFace& f : faces_) cliques.add(f.nodes);
   for (const NodeSpring& s : springs_) cliques.add({s.node});
+  for (const FaceSpring& s : face_springs_) cliques.add(s.nodes);
   return cliques;
 }
 

@@ -19,6 +19,13 @@ struct NodeSpring {
   Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
 };
 
+// Nodes that the ground holds together: symmetric positive semidefinite stiffness over all of them
+// (3 nodes squared, node by node) [N/m].
+struct FaceSpring {
+  std::vector<int> nodes;
+  Eigen::MatrixXd stiffness;
+};
+
 // What is deformed. The mesh and the laws must outlive its use.
 struct BodyModel {
   const TetMesh* mesh = nullptr;
@@ -28,11 +35,26 @@ struct BodyModel {
   Dilatation dilatation = Dilatation::kPointwise;
   Foundation foundation;
   std::vector<NodeSpring> springs;
+  std::vector<FaceSpring> face_springs;
+};
+
+// Stresses that act beside the laws', fixed in the material: second Piola-Kirchhoff stress at each
+// quadrature point and pressure of each dilatation group (BodyAssembly counts both) [Pa].
+struct PointStresses {
+  std::vector<Voigt> S;
+  std::vector<double> pressure;
+};
+
+// For pictures, one a tetrahedron, means over its undeformed volume.
+struct ElementFields {
+  std::vector<Voigt> stress;   // Cauchy's, added stresses included [Pa]
+  std::vector<double> energy;  // of the laws' elastic stresses, per undeformed volume [J/m^3]
 };
 
 // Total Lagrangian (Bonet and Wood, Nonlinear Continuum Mechanics for Finite Element Analysis,
 // 2008, ch. 8-9): for each quadrature point of weight w with F = 1 + sum of u_a (x) G_a,
-//   energy  = sum w s w(C) + sum over dilatation groups W U(theta) + foundation,
+//   energy  = sum w s w(C) + sum over dilatation groups W U(theta) + foundation + springs
+//             + sum w S0.E + sum over groups V p0 (theta - 1) of the added stresses,
 //   r_a     = sum w F S G_a,
 //   K_ab    = sum w (B_a' D B_b + (G_a.S G_b) 1) + W U''/V^2 b_a b_b',  b = V dtheta/du.
 // Quadrature as in element_gradients(). Displacements u: 3 nodes [m].
@@ -41,9 +63,18 @@ class BodyAssembly {
   // Error(kBadInput) when a tetrahedron has no law or a scale is not positive.
   explicit BodyAssembly(const BodyModel& model);
 
-  Cliques cliques() const;  // elements, then patches, foundation faces, springs
+  const TetMesh& mesh() const { return *mesh_; }
+  Cliques cliques() const;  // elements, then patches, foundation faces, springs of both kinds
   void set_laws(const std::vector<LawPointer>& laws);  // as many as before, same small_strain()
   void set_scale(const std::vector<double>& scale);
+  // Stresses beside the laws' (sizes as elastic_stresses(); empty: none); counts from the next
+  // set_state().
+  void set_added(PointStresses added) { added_ = std::move(added); }
+  // The laws' own stresses at the state, their factors included.
+  PointStresses elastic_stresses() const;
+  // The law of each quadrature point and of each group, in their order.
+  void laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const;
+  ElementFields element_fields() const;
 
   // The state of later calls. False when an element is inverted or the energy is not finite; the
   // state is then unusable.
@@ -78,6 +109,10 @@ class BodyAssembly {
   template <int N>
   Derivatives derivative_pass(const Eigen::MatrixXd& fields, bool by_scale) const;
   template <int N>
+  void stress_pass(PointStresses& stresses) const;
+  template <int N>
+  void field_pass(ElementFields& fields) const;
+  template <int N>
   Point point(std::size_t tet, int q, const Eigen::Matrix<double, 3, N>& u) const;
   template <int N>
   Eigen::Matrix<double, 3, N> gather(const Eigen::VectorXd& field, std::size_t tet) const;
@@ -92,6 +127,8 @@ class BodyAssembly {
   std::vector<FoundationFace> faces_;
   std::vector<NodeSpring> springs_;
   double k_normal_, k_tangential_;
+  std::vector<FaceSpring> face_springs_;
+  PointStresses added_;
   int points(std::size_t tet) const { return first_point_[tet + 1] - first_point_[tet]; }
   int nodes_;                        // a tetrahedron
   std::vector<int> first_point_{0};  // of each tetrahedron, and one past the last

@@ -26,6 +26,11 @@ bool BodyAssembly::state_pass() {
     const VolumeResponse v = laws_[g.law]->volume(g.theta);
     energy_ += g.weight * v.energy;
     g.pressure = g.weight / g.volume * v.first;
+    if (!added_.pressure.empty()) {
+      const double p = added_.pressure[static_cast<std::size_t>(&g - groups_.data())];
+      g.pressure += p;
+      energy_ += g.volume * p * (g.theta - 1);
+    }
     g.stiffness = g.weight / (g.volume * g.volume) * v.second;
   }
   force_.setZero(u_.size());
@@ -36,8 +41,15 @@ bool BodyAssembly::state_pass() {
       const Point p = point<N>(t, q, u);
       const PointResponse m = laws_[law_[t]]->respond(p.C, false);
       energy_ += p.weight * scale_[t] * m.energy;
-      const Matrix3d P =
-          p.F * (scale_[t] * to_matrix(m.S)) + groups_[group(t, q)].pressure * p.cofactor;
+      Voigt S = scale_[t] * m.S;
+      if (!added_.S.empty()) {
+        const Voigt& S0 = added_.S[first_point_[t] + q];
+        Voigt strain = to_voigt(0.5 * (p.C - Matrix3d::Identity()));
+        strain.tail<3>() *= 2;
+        energy_ += p.weight * S0.dot(strain);
+        S += S0;
+      }
+      const Matrix3d P = p.F * to_matrix(S) + groups_[group(t, q)].pressure * p.cofactor;
       r.noalias() += p.weight * P * Gradients<N>(gradient_.data() + (first_point_[t] + q) * 3 * N);
     }
     for (int a = 0; a < N; ++a) force_.segment<3>(3 * mesh_->tets[t][a]) += r.col(a);
@@ -55,6 +67,15 @@ bool BodyAssembly::state_pass() {
     const Vec3 u = u_.segment<3>(3 * s.node), r = s.stiffness * u;
     energy_ += 0.5 * u.dot(r);
     force_.segment<3>(3 * s.node) += r;
+  }
+  for (const FaceSpring& s : face_springs_) {
+    Eigen::VectorXd u(3 * static_cast<Index>(s.nodes.size()));
+    for (std::size_t a = 0; a < s.nodes.size(); ++a)
+      u.segment<3>(3 * static_cast<Index>(a)) = u_.segment<3>(3 * s.nodes[a]);
+    const Eigen::VectorXd r = s.stiffness * u;
+    energy_ += 0.5 * u.dot(r);
+    for (std::size_t a = 0; a < s.nodes.size(); ++a)
+      force_.segment<3>(3 * s.nodes[a]) += r.segment<3>(3 * static_cast<Index>(a));
   }
   return std::isfinite(energy_) && force_.allFinite();
 }
@@ -84,6 +105,7 @@ void BodyAssembly::tangent_pass(NodeSystem& system, const std::vector<char>& kep
       const Group& g = groups_[group(t, q)];
       m.S *= scale_[t];
       m.D *= scale_[t];
+      if (!added_.S.empty()) m.S += added_.S[first_point_[t] + q];
       if (!p.small) {
         // The pressure's part: S = p J C^-1 and its derivative by E.
         const Matrix3d inverse = p.C.inverse();
@@ -144,6 +166,74 @@ void BodyAssembly::tangent_pass(NodeSystem& system, const std::vector<char>& kep
     system.add(clique, springs_[s].stiffness);
     if (kept[springs_[s].node]) kept_matrices.emplace_back(clique, springs_[s].stiffness);
   }
+  for (std::size_t s = 0; s < face_springs_.size(); ++s) {
+    const std::size_t clique = tets + patch_slope.size() + faces_.size() + springs_.size() + s;
+    system.add(clique, face_springs_[s].stiffness);
+    if (is_kept(face_springs_[s].nodes.data(), static_cast<int>(face_springs_[s].nodes.size())))
+      kept_matrices.emplace_back(clique, face_springs_[s].stiffness);
+  }
+}
+
+template <int N>
+void BodyAssembly::stress_pass(PointStresses& stresses) const {
+  for (std::size_t t = 0; t < mesh_->tets.size(); ++t) {
+    const auto u = gather<N>(u_, t);
+    for (int q = 0; q < points(t); ++q)
+      stresses.S.push_back(scale_[t] * laws_[law_[t]]->respond(point<N>(t, q, u).C, false).S);
+  }
+}
+
+PointStresses BodyAssembly::elastic_stresses() const {
+  PointStresses stresses;
+  stresses.S.reserve(weight_.size());
+  if (nodes_ == 4)
+    stress_pass<4>(stresses);
+  else
+    stress_pass<10>(stresses);
+  for (const Group& g : groups_)
+    stresses.pressure.push_back(g.weight / g.volume * laws_[g.law]->volume(g.theta).first);
+  return stresses;
+}
+
+void BodyAssembly::laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const {
+  of_point.clear();
+  of_group.clear();
+  for (std::size_t t = 0; t < mesh_->tets.size(); ++t)
+    of_point.insert(of_point.end(), static_cast<std::size_t>(points(t)), law_[t]);
+  for (const Group& g : groups_) of_group.push_back(g.law);
+}
+
+template <int N>
+void BodyAssembly::field_pass(ElementFields& fields) const {
+  for (std::size_t t = 0; t < mesh_->tets.size(); ++t) {
+    const auto u = gather<N>(u_, t);
+    Voigt stress = Voigt::Zero();
+    double energy = 0, size = 0;
+    for (int q = 0; q < points(t); ++q) {
+      const Point p = point<N>(t, q, u);
+      const PointResponse m = laws_[law_[t]]->respond(p.C, false);
+      const Group& g = groups_[group(t, q)];
+      Voigt S = scale_[t] * m.S;
+      if (!added_.S.empty()) S += added_.S[first_point_[t] + q];
+      const double J = p.small ? 1 : p.theta;
+      const Matrix3d cauchy =
+          (p.F * to_matrix(S) * p.F.transpose() + g.pressure * p.cofactor * p.F.transpose()) / J;
+      stress += p.weight * to_voigt(cauchy);
+      energy += p.weight * scale_[t] * (m.energy + laws_[law_[t]]->volume(g.theta).energy);
+      size += p.weight;
+    }
+    fields.stress.push_back(stress / size);
+    fields.energy.push_back(energy / size);
+  }
+}
+
+ElementFields BodyAssembly::element_fields() const {
+  ElementFields fields;
+  if (nodes_ == 4)
+    field_pass<4>(fields);
+  else
+    field_pass<10>(fields);
+  return fields;
 }
 
 bool BodyAssembly::set_state(const Eigen::VectorXd& u) {

@@ -86,18 +86,6 @@ Stiffness invert(const VoigtMatrix& s, const std::vector<VoigtMatrix>& s_by, dou
   return result;
 }
 
-// Turns stresses as Voigt vectors from the frame with columns R to the body's.
-VoigtMatrix stress_rotation(const Eigen::Matrix3d& R) {
-  VoigtMatrix T;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c) {
-      const auto [i, j] = kVoigtPairs[r];
-      const auto [k, l] = kVoigtPairs[c];
-      T(r, c) = R(i, k) * R(j, l) + (k != l ? R(i, l) * R(j, k) : 0);
-    }
-  return T;
-}
-
 // Compliance with the axis along z.
 VoigtMatrix compliance(const TransverseConstants& c) {
   VoigtMatrix s = VoigtMatrix::Zero();

@@ -22,6 +22,17 @@ VoigtMatrix symmetric_product(const Eigen::Matrix3d& a) {
   return m;
 }
 
+VoigtMatrix stress_rotation(const Eigen::Matrix3d& R) {
+  VoigtMatrix T;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c) {
+      const auto [i, j] = kVoigtPairs[r];
+      const auto [k, l] = kVoigtPairs[c];
+      T(r, c) = R(i, k) * R(j, l) + (k != l ? R(i, l) * R(j, k) : 0);
+    }
+  return T;
+}
+
 Eigen::Matrix3d nominal_stress(const MaterialLaw& law, const Eigen::Matrix3d& F) {
   const bool small = law.small_strain();
   const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();

@@ -20,6 +20,9 @@ inline constexpr int kVoigtPairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}
 Voigt to_voigt(const Eigen::Matrix3d& symmetric);  // off-diagonals once
 // Of a symmetric A: (A o A)_ijkl = (A_ik A_jl + A_il A_jk) / 2, minus the derivative of an inverse.
 VoigtMatrix symmetric_product(const Eigen::Matrix3d& a);
+// Turns stresses as Voigt vectors from the frame with columns R to the body's; stiffnesses turn as
+// T D T'.
+VoigtMatrix stress_rotation(const Eigen::Matrix3d& R);
 
 // Energy w per reference volume [J/m^3], second Piola-Kirchhoff stress S = dw/dE [Pa] and tangent
 // D = dS/dE [Pa], E = (C - 1)/2 the Green-Lagrange strain.

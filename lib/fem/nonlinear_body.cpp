@@ -3,147 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <cassert>
-#include <cmath>
 
-#include "fem/elastic_body.h"
+#include "fem/nonlinear_body_impl.h"
 
 namespace hapsim {
-
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-struct NonlinearBody::Impl {
-  BodyAssembly assembly;
-  std::vector<int> handle;
-  int handles = 0;
-  std::vector<char> moved;  // 1: on a handle
-  NodeSystem system;
-  std::vector<BodyAssembly::CliqueMatrix> touched;
-  VectorXd u, prescribed;
-  VectorXd load, wanted_load;  // dead loads now and at the end of the next solve()
-
-  static std::vector<char> free_nodes(const std::vector<int>& handle) {
-    std::vector<char> free;
-    for (const int h : handle) free.push_back(h == kFreeNode);
-    return free;
-  }
-
-  Impl(const BodyModel& model, const std::vector<int>& node_handle)
-      : assembly(model), handle(node_handle), system(free_nodes(node_handle), assembly.cliques()) {
-    assert(handle.size() == model.mesh->nodes.size());
-    for (const int h : handle) {
-      handles = std::max(handles, h + 1);
-      moved.push_back(h >= 0);
-    }
-    u = VectorXd::Zero(3 * static_cast<Index>(handle.size()));
-    prescribed = VectorXd::Zero(3 * handles);
-    load = wanted_load = VectorXd::Zero(u.size());
-    assembly.set_state(u);
-  }
-
-  // The handles' displacements (3 handles x m) as a field that is zero elsewhere.
-  MatrixXd spread(const MatrixXd& by_handle) const {
-    MatrixXd field = MatrixXd::Zero(u.size(), by_handle.cols());
-    for (std::size_t n = 0; n < handle.size(); ++n)
-      if (handle[n] >= 0)
-        field.middleRows(3 * static_cast<Index>(n), 3) = by_handle.middleRows(3 * handle[n], 3);
-    return field;
-  }
-  MatrixXd gather(const MatrixXd& field) const {
-    MatrixXd sum = MatrixXd::Zero(3 * handles, field.cols());
-    for (std::size_t n = 0; n < handle.size(); ++n)
-      if (handle[n] >= 0)
-        sum.middleRows(3 * handle[n], 3) += field.middleRows(3 * static_cast<Index>(n), 3);
-    return sum;
-  }
-  // Tangent times field, of the cliques that touch a handle.
-  MatrixXd times_touched(const MatrixXd& field) const {
-    MatrixXd result = MatrixXd::Zero(field.rows(), field.cols());
-    for (const auto& [clique, K] : touched) {
-      const int count = system.cliques().count(clique);
-      const int* nodes = system.cliques().nodes(clique);
-      MatrixXd local(3 * count, field.cols());
-      for (int a = 0; a < count; ++a)
-        local.middleRows(3 * a, 3) = field.middleRows(3 * nodes[a], 3);
-      local = (K * local).eval();
-      for (int a = 0; a < count; ++a)
-        result.middleRows(3 * nodes[a], 3) += local.middleRows(3 * a, 3);
-    }
-    return result;
-  }
-  bool factorise() {
-    system.clear();
-    touched.clear();
-    assembly.tangent(system, moved, touched);
-    return system.factorise();
-  }
-
-  VectorXd residual() const { return assembly.forces() - load; }
-  double potential() const { return assembly.energy() - load.dot(u); }
-
-  // Norms of the forces on the free and on the other nodes.
-  struct Norms {
-    double free, constrained;
-  };
-  Norms norms() const {
-    Norms n{0, 0};
-    const VectorXd r = residual();
-    for (std::size_t i = 0; i < handle.size(); ++i) {
-      const double s = r.segment<3>(3 * static_cast<Index>(i)).squaredNorm();
-      (system.is_free(static_cast<int>(i)) ? n.free : n.constrained) += s;
-    }
-    return {std::sqrt(n.free), std::sqrt(n.constrained)};
-  }
-  // `before`: the constrained forces at the start of the load step, which a press that returns to
-  // the undeformed body is judged by.
-  bool balanced(const SolveOptions& options, double before) const {
-    const Norms n = norms();
-    const double rounding = 1e-15 * assembly.force_unit();
-    return n.free <= options.tolerance * std::max(n.constrained, before) + rounding;
-  }
-
-  SolveStatus line_search(const VectorXd& direction) {
-    const VectorXd start = u;
-    const double energy = potential(), before = norms().free;
-    const double slope = residual().dot(direction);
-    SolveStatus why = SolveStatus::kInverted;
-    for (double share = 1; share > 0.02; share /= 2) {
-      u = start + share * direction;
-      if (!assembly.set_state(u)) continue;
-      why = SolveStatus::kNoConvergence;
-      // Close to the solution the energy's decrease drowns in rounding; there the forces decide.
-      if (potential() <= energy + 1e-4 * share * slope || norms().free < 0.5 * before)
-        return SolveStatus::kConverged;
-    }
-    u = start;
-    assembly.set_state(u);
-    return why;
-  }
-
-  // One load step: predictor along the tangent, then Newton's method.
-  SolveStatus step(const VectorXd& change, const VectorXd& new_load, const SolveOptions& options,
-                   int& newton_steps) {
-    if (!factorise()) return SolveStatus::kUnstable;
-    const MatrixXd field = spread(change);
-    const double before = std::max(norms().constrained, new_load.norm());
-    load = new_load;
-    ++newton_steps;
-    u += field + system.solve(-residual() - times_touched(field));
-    if (!assembly.set_state(u)) return SolveStatus::kInverted;
-    for (int k = 0; k < options.newton_limit; ++k) {
-      if (balanced(options, before)) return SolveStatus::kConverged;
-      if (!factorise()) return SolveStatus::kUnstable;
-      ++newton_steps;
-      const SolveStatus found = line_search(system.solve(-residual()));
-      if (found != SolveStatus::kConverged) return found;
-    }
-    return balanced(options, before) ? SolveStatus::kConverged : SolveStatus::kNoConvergence;
-  }
-};
-
 namespace {
 
 std::string explain(SolveStatus status, double reached) {
@@ -152,7 +15,9 @@ std::string explain(SolveStatus status, double reached) {
           ? "the stiffness is not positive definite there (the body buckles, nothing "
             "holds it, or its material softens)"
       : status == SolveStatus::kInverted ? "an element turns inside out there"
-                                         : "Newton's method does not settle there";
+      : status == SolveStatus::kOffSurface
+          ? "the contact reaches the edge of the surface under the tip"
+          : "Newton's method does not settle there";
   return fmt::format(
       "the body was deformed to {:.3g} % of the displacement only: {}; press less deep, or use a "
       "finer or smoother mesh",
@@ -170,41 +35,102 @@ SolveReport NonlinearBody::solve(const VectorXd& prescribed, const SolveOptions&
   Impl& body = *impl_;
   assert(prescribed.size() == 3 * body.handles);
   SolveReport report;
-  const VectorXd from = body.prescribed, way = prescribed - from;
-  const VectorXd first_load = body.load;
+  const State first = state();
   double done = 0, step = 1;
   while (done < 1) {
-    const VectorXd u = body.u;
+    const State before = state();
     const double next = std::min(1.0, done + step);
-    const VectorXd load = first_load + next * (body.wanted_load - first_load), before = body.load;
-    const SolveStatus status = body.step((next - done) * way, load, options, report.newton_steps);
+    const auto there = [next](const auto& from, const auto& to) {
+      return (from + next * (to - from)).eval();
+    };
+    for (std::size_t t = 0; t < body.tips.size(); ++t) {
+      body.tips[t].contact.mark(body.u, body.tips[t].motion);
+      body.tips[t].motion = there(first.motion[t], body.tips[t].wanted);
+    }
+    body.prescribed = there(first.prescribed, prescribed);
+    const SolveStatus status =
+        body.step(body.prescribed - before.prescribed, there(first.load, body.wanted_load), options,
+                  report.newton_steps);
     if (status == SolveStatus::kConverged) {
       ++report.load_steps;
       done = next;
       step *= 2;
       continue;
     }
-    body.u = u;
-    body.load = before;
-    body.assembly.set_state(u);
+    restore(before);
     step = (next - done) / 2;
-    if (step >= options.least_step) continue;
+    if (step >= options.least_step && status != SolveStatus::kOffSurface) continue;
     report.status = status;
     report.reached = done;
     report.message = explain(status, done);
     break;
   }
-  body.prescribed = done < 1 ? VectorXd(from + done * way) : prescribed;
   return report;
+}
+
+NonlinearBody::State NonlinearBody::state() const {
+  State s{impl_->u, impl_->prescribed, impl_->load, {}, {}};
+  for (const Impl::Tip& t : impl_->tips) {
+    s.traction.push_back(t.traction);
+    s.motion.push_back(t.motion);
+  }
+  return s;
+}
+
+void NonlinearBody::restore(const State& s) {
+  Impl& body = *impl_;
+  body.u = s.u;
+  body.prescribed = s.prescribed;
+  body.load = s.load;
+  for (std::size_t t = 0; t < body.tips.size(); ++t) {
+    body.tips[t].traction = s.traction[t];
+    body.tips[t].motion = s.motion[t];
+  }
+  body.assembly.set_state(body.u);
+  body.evaluate_tips();
+}
+
+int NonlinearBody::add_tip(const SphericalTip& tip) {
+  Impl& body = *impl_;
+  body.tips.push_back({TipContact(body.assembly.mesh(), tip, body.linear)});
+  body.tips.back().traction = VectorXd::Zero(3 * body.tips.back().contact.hats());
+  return tips() - 1;
+}
+int NonlinearBody::tips() const {
+  return static_cast<int>(impl_->tips.size());
+}
+void NonlinearBody::move_tip(int tip, const Vec3& motion) {
+  impl_->tips[static_cast<std::size_t>(tip)].wanted = motion;
+}
+Vec3 NonlinearBody::tip_motion(int tip) const {
+  return impl_->tips[static_cast<std::size_t>(tip)].motion;
+}
+Vec3 NonlinearBody::tip_force(int tip) const {
+  const Impl::Tip& t = impl_->tips[static_cast<std::size_t>(tip)];
+  return t.contact.force(t.traction);
+}
+double NonlinearBody::contact_radius(int tip) const {
+  const Impl::Tip& t = impl_->tips[static_cast<std::size_t>(tip)];
+  return t.contact.contact_radius(t.traction);
+}
+
+void NonlinearBody::set_added(PointStresses added) {
+  impl_->assembly.set_added(std::move(added));
+  impl_->assembly.set_state(impl_->u);
+}
+PointStresses NonlinearBody::elastic_stresses() const {
+  return impl_->assembly.elastic_stresses();
 }
 
 void NonlinearBody::set_laws(const std::vector<LawPointer>& laws) {
   impl_->assembly.set_laws(laws);
+  impl_->factorised = false;
   impl_->assembly.set_state(impl_->u);
 }
 
 void NonlinearBody::set_scale(const std::vector<double>& scale) {
   impl_->assembly.set_scale(scale);
+  impl_->factorised = false;
   impl_->assembly.set_state(impl_->u);
 }
 
@@ -218,6 +144,11 @@ void NonlinearBody::reset() {
   impl_->u.setZero();
   impl_->prescribed.setZero();
   impl_->assembly.set_state(impl_->u);
+  for (Impl::Tip& t : impl_->tips) {
+    t.traction.setZero();
+    t.motion.setZero();
+  }
+  impl_->evaluate_tips();
 }
 
 int NonlinearBody::handles() const {
@@ -237,6 +168,13 @@ const VectorXd& NonlinearBody::nodal_forces() const {
 }
 VectorXd NonlinearBody::reaction() const {
   return impl_->gather(impl_->assembly.forces());
+}
+
+void NonlinearBody::laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const {
+  impl_->assembly.laws_of_stresses(of_point, of_group);
+}
+ElementFields NonlinearBody::element_fields() const {
+  return impl_->assembly.element_fields();
 }
 
 NonlinearBody::Linearisation NonlinearBody::linearise(bool by_scale) {

@@ -1,5 +1,5 @@
-// A body of any material law whose nodes are free, held, or moved by rigid handles: forces at
-// finite strain, their tangent and their derivatives by the material.
+// A body of any material law whose nodes are free, held, or moved by rigid handles, pressed by
+// spherical tips: forces at finite strain, their tangent and their derivatives by the material.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fem/body_assembly.h"
+#include "fem/tip_contact.h"
 
 namespace hapsim {
 
@@ -16,6 +17,7 @@ enum class SolveStatus {
   kUnstable,       // the tangent is not positive definite: the body buckles or its material fails
   kInverted,       // an element turns inside out or the energy overflows
   kNoConvergence,  // Newton's method does not settle
+  kOffSurface,     // a tip's contact reaches the rim of the surface prepared for it
 };
 
 struct SolveReport {
@@ -55,6 +57,30 @@ class NonlinearBody {
   void set_load(const Eigen::VectorXd& nodal);
   void reset();  // back to the undeformed body
 
+  // Spherical tips (tip_contact.h): unilateral, with or without friction; every load step counts
+  // the slip from the one before. With laws of small strain alone the contact is linear but for its
+  // area, and the stiffness is factorised once. Tips are added before the first solve().
+  int add_tip(const SphericalTip& tip);
+  int tips() const;
+  void move_tip(int tip, const Vec3& motion);  // where the next solve() brings it [m]
+  Vec3 tip_motion(int tip) const;
+  Vec3 tip_force(int tip) const;         // that presses it against the body [N]
+  double contact_radius(int tip) const;  // of the Hertzian pressure with the same second moment [m]
+
+  // Stresses beside the laws' (BodyAssembly::set_added), for the next solve().
+  void set_added(PointStresses added);
+  PointStresses elastic_stresses() const;
+  void laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const;
+  ElementFields element_fields() const;
+  // All that solve() starts from; of this body.
+  struct State {
+    Eigen::VectorXd u, prescribed, load;
+    std::vector<Eigen::VectorXd> traction;
+    std::vector<Vec3> motion;
+  };
+  State state() const;
+  void restore(const State& state);
+
   int handles() const;
   int unknowns() const;
   double energy() const;                        // stored in the body [J]
@@ -62,8 +88,8 @@ class NonlinearBody {
   const Eigen::VectorXd& nodal_forces() const;  // 3 nodes: that hold the nodes, loads included [N]
   Eigen::VectorXd reaction() const;             // 3 handles: force that moves the handles [N]
 
-  // At the present equilibrium, by the implicit function theorem from one field a handle direction:
-  // no differences, no further Newton steps.
+  // Without the tips. At the present equilibrium, by the implicit function theorem from one field a
+  // handle direction: no differences, no further Newton steps.
   struct Linearisation {
     bool stable = true;      // false: not positive definite, the rest is empty
     Eigen::MatrixXd K;       // 3 handles squared: d reaction / d prescribed [N/m]

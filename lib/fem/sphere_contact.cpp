@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "fem/face_quadrature.h"
+#include "fem/tip_surface.h"
 
 namespace hapsim {
 
@@ -19,22 +19,27 @@ struct SphereContact::Impl {
   NodeSystem system;
   Vec3 point, normal;
   const TetMesh* mesh;
-  std::vector<Triangle> faces;
-  struct SurfacePoint {
-    std::array<int, 3> hat;
-    std::array<double, 3> corner;  // values of the hats
-    double area, r, z;             // share of the area; from the axis; above `point`
-  };
-  std::vector<SurfacePoint> points;
-  std::vector<int> hat;   // one a node, -1: none
-  std::vector<char> rim;  // one a hat, 1: on the boundary of the prepared surface
-  VectorXd area, moment;  // integrals of each hat, and of it times r^2 about the axis
-  MatrixXd fields;        // displacements of unit pressure on each hat
+  TipSurface surface;
+  VectorXd moment;  // integral of each hat times r^2 about the axis
+  MatrixXd fields;  // displacements of unit pressure on each hat
   MatrixXd compliance;
   mutable VectorXd field;
 
-  Impl(const BodyModel& model, const std::vector<std::uint8_t>& held)
-      : assembly(model), system(free_nodes(held), assembly.cliques()), mesh(model.mesh) {}
+  Impl(const BodyModel& model, const std::vector<std::uint8_t>& held, const Vec3& at,
+       const Vec3& outward, double reach)
+      : assembly(model),
+        system(free_nodes(held), assembly.cliques()),
+        point(at),
+        normal(outward),
+        mesh(model.mesh),
+        surface(*model.mesh, at, outward, reach) {}
+
+  // Distance from the axis and height above the point.
+  std::pair<double, double> place(const TipSurface::Point& p) const {
+    const Vec3 x = p.position - point;
+    const double z = x.dot(normal);
+    return {(x - z * normal).norm(), z};
+  }
 
   static std::vector<char> free_nodes(const std::vector<std::uint8_t>& held) {
     std::vector<char> free;
@@ -42,49 +47,20 @@ struct SphereContact::Impl {
     return free;
   }
 
-  void choose_faces(double reach) {
-    std::vector<int> uses(mesh->nodes.size(), 0), all(mesh->nodes.size(), 0);
-    for (const Triangle& f : mesh->faces) {
-      for (const int n : f) ++all[n];
-      const Vec3 cross =
-          (mesh->nodes[f[1]] - mesh->nodes[f[0]]).cross(mesh->nodes[f[2]] - mesh->nodes[f[0]]);
-      const bool near = std::all_of(f.begin(), f.end(),
-                                    [&](int n) { return (mesh->nodes[n] - point).norm() < reach; });
-      if (!near || cross.dot(normal) < 0.5 * cross.norm()) continue;
-      faces.push_back(f);
-      for (const int n : f) ++uses[n];
-    }
-    if (faces.empty())
-      fail_input("", "the mesh has no face within reach of the contact",
-                 "refine the mesh there or raise the reach");
-    hat.assign(mesh->nodes.size(), -1);
-    int count = 0;
-    for (std::size_t n = 0; n < uses.size(); ++n) {
-      if (uses[n] == 0) continue;
-      hat[n] = count++;
-      rim.push_back(uses[n] != all[n]);
-    }
-  }
-
   void find_compliance() {
-    const Index hats = static_cast<Index>(rim.size());
+    const Index hats = surface.area.size();
     MatrixXd load = MatrixXd::Zero(3 * static_cast<Index>(mesh->nodes.size()), hats);
-    area = moment = VectorXd::Zero(hats);
-    for (const std::vector<int>& f : face_nodes(*mesh, faces))
-      for (const FacePoint& p : face_points(*mesh, f)) {
-        const Vec3 x = p.position - point;
-        SurfacePoint s{{}, p.corner, p.area.norm(), 0, x.dot(normal)};
-        s.r = (x - s.z * normal).norm();
-        for (std::size_t i = 0; i < 3; ++i) {
-          const int h = s.hat[i] = hat[f[i]];
-          const double share = s.area * s.corner[i];
-          area[h] += share;
-          moment[h] += share * s.r * s.r;
-          for (std::size_t b = 0; b < f.size(); ++b)
-            load.block<3, 1>(3 * f[b], h) -= share * p.shape[b] * normal;
-        }
-        points.push_back(s);
+    moment = VectorXd::Zero(hats);
+    for (const TipSurface::Point& p : surface.points) {
+      const std::vector<int>& f = surface.faces[p.face];
+      const double r = place(p).first;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double share = p.area * p.corner[i];
+        moment[p.hat[i]] += share * r * r;
+        for (std::size_t b = 0; b < f.size(); ++b)
+          load.block<3, 1>(3 * f[b], p.hat[i]) -= share * p.shape[b] * normal;
       }
+    }
     assembly.set_state(VectorXd::Zero(load.rows()));
     std::vector<BodyAssembly::CliqueMatrix> none;
     system.clear();
@@ -98,17 +74,15 @@ struct SphereContact::Impl {
   }
 
   // Integral over each hat of the undeformed gap to a tip that just touches `point`, and of its
-  // derivative by the tip's radius. Beyond the tip's equator the gap is that of its slope there.
+  // derivative by the tip's radius.
   void gaps(double R, VectorXd& gap, VectorXd& by_radius) const {
-    gap = by_radius = VectorXd::Zero(area.size());
-    const double edge = 0.99 * R;
-    for (const SurfacePoint& p : points) {
-      const double inside = std::min(p.r, edge), root = std::sqrt(R * R - inside * inside);
-      const double height = R - root + (p.r - inside) * inside / root;
-      const double slope = p.r < edge ? 1 - R / root : 0;
+    gap = by_radius = VectorXd::Zero(surface.area.size());
+    for (const TipSurface::Point& p : surface.points) {
+      const auto [r, z] = place(p);
+      const SphereHeight sphere = sphere_height(R, r);
       for (std::size_t i = 0; i < 3; ++i) {
-        gap[p.hat[i]] += p.area * p.corner[i] * (height - p.z);
-        by_radius[p.hat[i]] += p.area * p.corner[i] * slope;
+        gap[p.hat[i]] += p.area * p.corner[i] * (sphere.height - z);
+        by_radius[p.hat[i]] += p.area * p.corner[i] * sphere.by_radius;
       }
     }
   }
@@ -140,21 +114,18 @@ struct SphereContact::Impl {
 
 SphereContact::SphereContact(const BodyModel& model, const std::vector<std::uint8_t>& held,
                              const Vec3& point, const Vec3& normal, double reach)
-    : impl_(std::make_unique<Impl>(model, held)) {
+    : impl_(std::make_unique<Impl>(model, held, point, normal.normalized(), reach)) {
   for (const LawPointer& law : model.laws)
     if (law && !law->small_strain())
       fail_input("", "a sphere's contact needs laws of small strain",
                  "use isotropic or transverse");
-  impl_->point = point;
-  impl_->normal = normal.normalized();
-  impl_->choose_faces(reach);
   impl_->find_compliance();
 }
 
 SphereContact::~SphereContact() = default;
 
 int SphereContact::hats() const {
-  return static_cast<int>(impl_->area.size());
+  return static_cast<int>(impl_->surface.area.size());
 }
 
 VectorXd SphereContact::field() const {
@@ -165,17 +136,19 @@ SpherePress SphereContact::press(double radius, double depth) const {
   const Impl& c = *impl_;
   VectorXd gap, by_radius, pressure;
   c.gaps(radius, gap, by_radius);
-  const std::vector<Index> active = c.active_set(gap - depth * c.area, pressure);
+  const std::vector<Index> active = c.active_set(gap - depth * c.surface.area, pressure);
   SpherePress result;
   c.field = c.fields * pressure;
-  result.force = c.area.dot(pressure);
+  result.force = c.surface.area.dot(pressure);
   // Pressures by depth on the same active set; they carry every other derivative.
   VectorXd by_depth = VectorXd::Zero(pressure.size());
   if (!active.empty())
-    by_depth(active) = VectorXd(c.compliance(active, active).llt().solve(VectorXd(c.area(active))));
-  result.stiffness = c.area.dot(by_depth);
+    by_depth(active) =
+        VectorXd(c.compliance(active, active).llt().solve(VectorXd(c.surface.area(active))));
+  result.stiffness = c.surface.area.dot(by_depth);
   result.by_radius = -by_depth.dot(by_radius);
-  for (const Index i : active) result.fits = result.fits && !c.rim[static_cast<std::size_t>(i)];
+  for (const Index i : active)
+    result.fits = result.fits && !c.surface.rim[static_cast<std::size_t>(i)];
   if (result.force > 0)
     result.contact_radius = std::sqrt(2.5 * c.moment.dot(pressure) / result.force);
   // d force / dc = (d field / d depth)' dK/dc field.

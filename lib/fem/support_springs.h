@@ -9,7 +9,9 @@
 
 namespace hapsim {
 
-// Per unit modulus, and how the springs change with the feature's three values.
+// Per unit modulus, and how the springs change with the feature's three values. A face that the
+// edge cuts takes part of both sides by the area of each, so forces follow the edge without steps,
+// with continuous derivatives, as if the mesh did.
 struct SupportSprings {
   struct Face {
     std::vector<int> nodes;

@@ -43,7 +43,24 @@ VoigtMatrix stress_spin(const Vec3& w) {
   return W;
 }
 
+Vec3 axis_of(double tilt, double azimuth) {
+  return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
+}
+
+TransverseConstants constants_of(double nu, const std::vector<double>& transverse) {
+  const double root = std::sqrt(transverse[0]);
+  return {1, transverse[0], nu, nu * root, transverse[1] * root / (2 * (1 + nu))};
+}
+
 }  // namespace
+
+LawPointer transverse_body_law(double E, double nu, const std::vector<double>& transverse) {
+  TransverseConstants c = constants_of(nu, transverse);
+  c.plane_modulus *= E;
+  c.axial_modulus *= E;
+  c.axial_shear *= E;
+  return transverse_law(c, axis_of(transverse[2], transverse[3]));
+}
 
 UnitLaw unit_law(double nu, const std::vector<double>& transverse) {
   if (transverse.empty()) {
@@ -55,10 +72,9 @@ UnitLaw unit_law(double nu, const std::vector<double>& transverse) {
   const double ratio = transverse[0], shear = transverse[1], tilt = transverse[2],
                azimuth = transverse[3];
   const double root = std::sqrt(ratio);
-  const TransverseConstants constants{1, ratio, nu, nu * root, shear * root / (2 * (1 + nu))};
-  const Vec3 axis(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
-                  std::cos(tilt));
-  const UnitLaw all = matrices(*transverse_law(constants, axis));  // by Ep, Ea, nup, nua, Ga
+  const TransverseConstants constants = constants_of(nu, transverse);
+  const UnitLaw all =
+      matrices(*transverse_law(constants, axis_of(tilt, azimuth)));  // by Ep, Ea, nup, nua, Ga
   UnitLaw unit{all.D, all.kappa, {}, {}};
   const auto add = [&](double ea, double nup, double nua, double ga) {
     unit.D_by.push_back(ea * all.D_by[1] + nup * all.D_by[2] + nua * all.D_by[3] +

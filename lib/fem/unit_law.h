@@ -21,4 +21,8 @@ struct UnitLaw {
 // `transverse`: the values of that feature, empty for an isotropic body.
 UnitLaw unit_law(double poisson_ratio, const std::vector<double>& transverse);
 
+// The same transversely isotropic law for modulus E (small strain).
+LawPointer transverse_body_law(double youngs_modulus, double poisson_ratio,
+                               const std::vector<double>& transverse);
+
 }  // namespace hapsim

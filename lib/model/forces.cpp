@@ -9,31 +9,6 @@
 namespace hapsim {
 namespace {
 
-struct Instance {
-  const Effect* effect;
-  Values values;
-};
-
-// The model's effects in the order of the catalogue, with the columns of their free parameters when
-// derivatives are wanted.
-std::vector<Instance> instances(const Model& model, bool derivatives) {
-  const std::vector<int> free = model.free_parameters();
-  std::vector<int> column(model.parameters.size(), -1);
-  for (std::size_t c = 0; derivatives && c < free.size(); ++c)
-    column[free[c]] = static_cast<int>(c);
-  std::vector<Instance> result;
-  for (const Effect* effect : catalogue()) {
-    Instance instance{effect, {}};
-    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-      const Parameter& p = model.parameters[i];
-      if (p.effect == effect->card().name)
-        instance.values.push_back({p.region, p.name, p.value, column[i]});
-    }
-    if (!instance.values.empty()) result.push_back(std::move(instance));
-  }
-  return result;
-}
-
 // What contact laws need to know of the body at one position.
 ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& material,
                             const Vec3& position, bool derivatives) {
@@ -60,14 +35,33 @@ void release_in_air(const PressView& view, Signal& signal) {
 
 }  // namespace
 
+std::vector<EffectInstance> effect_instances(const Model& model, bool derivatives) {
+  const std::vector<int> free = model.free_parameters();
+  std::vector<int> column(model.parameters.size(), -1);
+  for (std::size_t c = 0; derivatives && c < free.size(); ++c)
+    column[free[c]] = static_cast<int>(c);
+  std::vector<EffectInstance> result;
+  for (const Effect* effect : catalogue()) {
+    EffectInstance instance{effect, {}};
+    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
+      const Parameter& p = model.parameters[i];
+      if (p.effect == effect->card().name)
+        instance.values.push_back({p.region, p.name, p.value, column[i]});
+    }
+    if (!instance.values.empty()) result.push_back(std::move(instance));
+  }
+  return result;
+}
+
 MaterialSpec material_of(const Model& model) {
   MaterialSpec material;
-  for (const Instance& i : instances(model, true)) i.effect->describe(i.values, material);
+  for (const EffectInstance& i : effect_instances(model, true))
+    i.effect->describe(i.values, material);
   return material;
 }
 
 std::string implausible(const Model& model, const Effect& effect, const Dataset& dataset) {
-  for (const Instance& i : instances(model, false))
+  for (const EffectInstance& i : effect_instances(model, false))
     if (i.effect == &effect) return effect.implausible(i.values, dataset.positions);
   return "";
 }
@@ -95,7 +89,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
                     const StiffnessAt& stiffness_at, bool derivatives) {
   refuse_regional_relaxation(model);
-  const std::vector<Instance> effects = instances(model, derivatives);
+  const std::vector<EffectInstance> effects = effect_instances(model, derivatives);
   const MaterialSpec material = material_of(model);
   const Eigen::Index columns =
       derivatives ? static_cast<Eigen::Index>(model.free_parameters().size()) : 0;
@@ -118,7 +112,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
     view.modulus_column = derivatives ? material.modulus_column[0] : -1;
     view.contact = contact_of(s, material, dataset.positions[episode.position], derivatives);
     Motion motion{view.u, {}, columns};
-    for (const Instance& i : effects) i.effect->move(view, i.values, motion);
+    for (const EffectInstance& i : effects) i.effect->move(view, i.values, motion);
     view.u = std::move(motion.u);
     view.du = std::move(motion.du);
     const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
@@ -135,7 +129,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
     }
     // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
     bool at_sensor = false;
-    for (const Instance& i : effects) {
+    for (const EffectInstance& i : effects) {
       if (!at_sensor && i.effect->card().stage == Stage::kSensor) {
         at_sensor = true;
         release_in_air(view, signal);

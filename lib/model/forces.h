@@ -17,6 +17,14 @@ MaterialSpec material_of(const Model& model);
 // Why the fitted values of an effect are not what it is meant for; "" when they are.
 std::string implausible(const Model& model, const Effect& effect, const Dataset& dataset);
 
+// The model's effects in the order of the catalogue; with `derivatives`, the columns of their free
+// parameters.
+struct EffectInstance {
+  const Effect* effect;
+  Values values;
+};
+std::vector<EffectInstance> effect_instances(const Model& model, bool derivatives);
+
 // Episodes to evaluate, in this order; their rows follow one another in all stacked vectors.
 using Selection = std::vector<int>;
 Selection all_episodes(const Dataset& dataset);

@@ -1,6 +1,6 @@
 #include "realtime/force_loop.h"
 
-#include "effects/memory.h"
+#include "fem/memory.h"
 
 namespace hapsim {
 

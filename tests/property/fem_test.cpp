@@ -12,6 +12,7 @@
 #include "fem/hooke_law.h"
 #include "fem/hyperelastic_law.h"
 #include "fem/nonlinear_body.h"
+#include "fem/ogden_law.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {
@@ -44,12 +45,15 @@ Drawn draw(Random& random) {
     if ((p - size).norm() < 0.3 * size.x()) d.handle[i] = 1;
   }
   const double mu = 1e3 * std::exp(2 * random.normal()), bulk = mu * (2 + 30 * random.uniform());
-  switch (random.integer(3)) {
+  switch (random.integer(4)) {
     case 0:
       d.law = neo_hookean_law(mu, bulk);
       break;
     case 1:
       d.law = yeoh_law(mu / 2, mu * random.uniform(), mu * random.uniform(), bulk);
+      break;
+    case 2:
+      d.law = ogden_law({{0.6 * mu, 1 + 3 * random.uniform()}, {0.4 * mu, -2}}, bulk);
       break;
     default:
       d.law = exponential_law(mu, 5 * random.uniform(), bulk);

@@ -8,12 +8,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
+#include "effects/catalogue.h"
 #include "fem/elastic_body.h"
 #include "fem/hooke_law.h"
 #include "fem/hyperelastic_law.h"
 #include "fem/nonlinear_body.h"
+#include "fem/ogden_law.h"
+#include "model/full_simulation.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {
@@ -47,7 +51,9 @@ class CalculiX : public ::testing::Test {
   }
 
   static VectorXd reactions(const TetMesh& mesh, const std::string& material, bool finite,
-                            const std::string& name) {
+                            const std::string& name,
+                            const std::function<bool(const Vec3&)>& moved = in_patch,
+                            const std::function<Vec3(const Vec3&)>& way = press) {
     const std::string folder = ::testing::TempDir() + "hapsim_ccx_" + name + "/";
     std::filesystem::create_directories(folder);
     std::ofstream out(folder + "run.inp");
@@ -71,8 +77,8 @@ class CalculiX : public ::testing::Test {
     if (finite) out << "*CONTROLS, PARAMETERS=FIELD\n1.e-9,1.e-8,,,1.e-9,1.e-5,1.e-3,1.e-8\n";
     out << "*BOUNDARY\n";
     for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-      if (!mesh.fixed[n] && !in_patch(mesh.nodes[n])) continue;
-      const Vec3 u = mesh.fixed[n] ? Vec3(Vec3::Zero()) : press(mesh.nodes[n]);
+      if (!mesh.fixed[n] && !moved(mesh.nodes[n])) continue;
+      const Vec3 u = mesh.fixed[n] ? Vec3(Vec3::Zero()) : way(mesh.nodes[n]);
       for (int c = 0; c < 3; ++c) {
         std::snprintf(line, sizeof line, "%zu,%d,%d,%.12e\n", n + 1, c + 1, c + 1, u[c]);
         out << line;
@@ -166,6 +172,49 @@ TEST_F(CalculiX, YeohReactionsAreTheSame) {
     compare(block(order, 3), yeoh_law(3000, 900, 400, 5e4),
             "*HYPERELASTIC, YEOH\n3000.,900.,400.,4.e-5,1.e20,1.e20", true, kFinite,
             "Yeoh C3D" + std::to_string(order == 1 ? 4 : 10));
+}
+
+TEST_F(CalculiX, OgdenReactionsAreTheSame) {
+  for (const int order : {1, 2})
+    compare(block(order, 3), ogden_law({{4000, 1.3}, {2000, -2.5}}, 5e4),
+            "*HYPERELASTIC, OGDEN, N=2\n4000.,1.3,2000.,-2.5,4.e-5,1.e20", true, kFinite,
+            "Ogden C3D" + std::to_string(order == 1 ? 4 : 10));
+}
+
+// The whole way of hs-simulate --full: a bonded flat tool on the body's own mesh, pressed and
+// sheared to finite strain.
+TEST_F(CalculiX, FullSimulationsForceIsTheSame) {
+  for (const int order : {1, 2}) {
+    const TetMesh mesh = block(order, 4);
+    Model model;
+    for (const auto& [effect, values] : std::vector<std::pair<std::string, std::vector<double>>>{
+             {"elastic", {16800, 0.4}}, {"hyperelastic", {0, 1}}})
+      for (const Parameter& p : effect_rows(*find_effect(effect), 1, values))
+        model.parameters.push_back(p);
+    Recording r;
+    r.metadata.set("tool_radius", "0.0125");
+    const Vec3 at(0.02, 0.025, 0.03), u(0.001, -0.0005, -0.004);
+    for (const double share : {0.5, 1.0}) {
+      r.line.push_back(1);
+      r.press.push_back(1);
+      r.position.push_back(at);
+      r.u.push_back(share * u);
+    }
+    const FullOptions options{.own_mesh = true, .averaged = false};
+    const Vec3 mine = simulate_full(mesh, model, r, options).force.back();
+    const auto under = [&](const Vec3& p) {
+      return p.z() > kSize.z() - 1e-9 && (p - at).norm() <= 0.0125 * (1 + 1e-6);
+    };
+    // mu = 6000, K = 28000.
+    const VectorXd theirs = reactions(mesh, "*HYPERELASTIC, NEO HOOKE\n3000.,7.142857142857e-5",
+                                      true, "full", under, [&](const Vec3&) { return u; });
+    Vec3 force = Vec3::Zero();
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      if (under(mesh.nodes[n])) force -= theirs.segment<3>(3 * static_cast<Eigen::Index>(n));
+    std::printf("full simulation C3D%d: force differs by %.1e\n", order == 1 ? 4 : 10,
+                (mine - force).norm() / force.norm());
+    EXPECT_LT((mine - force).norm(), kFinite * force.norm());
+  }
 }
 
 // Engineering constants E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; axis z: nu13 = nua Ep/Ea.

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "fem/elastic_body.h"
 #include "fem/hyperelastic_law.h"
 #include "fem/nonlinear_body.h"
+#include "fem/ogden_law.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {
@@ -113,24 +116,33 @@ TEST(FiniteStrain, ColumnOfElementsIsUniaxial) {
     }
 }
 
-// Simple extension of vulcanised rubber at 20 degC: stretch and nominal stress [MPa, two digits] of
-// Treloar, Trans. Faraday Soc. 40, 1944, in the values in which Steinmann, Hossain and Possart,
-// Arch. Appl. Mech. 82, 2012, tabulate his curve; their first row (below 2 % strain) has one digit
-// only and is left out.
-constexpr double kTreloar[][2] = {
-    {1.12, 0.14}, {1.24, 0.23}, {1.39, 0.32}, {1.61, 0.41}, {1.89, 0.50}, {2.17, 0.58},
-    {2.42, 0.67}, {3.01, 0.85}, {3.58, 1.04}, {4.03, 1.21}, {4.76, 1.58}, {5.36, 1.94},
-    {5.76, 2.29}, {6.16, 2.67}, {6.40, 3.02}, {6.62, 3.39}, {6.87, 3.75}, {7.05, 4.12},
-    {7.16, 4.47}, {7.27, 4.85}, {7.43, 5.21}, {7.50, 5.57}, {7.61, 6.30}};
+// Vulcanised rubber at 20 degC: nominal stress [MPa] and stretch of Treloar, Trans. Faraday Soc.
+// 40, 1944, as digitised by C. Zhao (github.com/Chongran-Zhao/Hyperelastic-fitting, Treloar_1944;
+// his stresses are Treloar's in kg/cm^2, two decimals, times 0.0980665). The first rows (below 3 %
+// strain) have one digit only and are left out.
+using Rows = std::vector<std::array<double, 2>>;
+const Rows kTension{{0.1344, 1.125}, {0.2256, 1.24}, {0.3169, 1.39}, {0.4081, 1.585},
+                    {0.5003, 1.90},  {0.5886, 2.18}, {0.6769, 2.42}, {0.8633, 3.02},
+                    {1.0497, 3.57},  {1.2263, 4.03}, {1.5892, 4.76}, {1.9522, 5.36},
+                    {2.3152, 5.75},  {2.6879, 6.15}, {3.0411, 6.40}, {3.4139, 6.60},
+                    {3.7769, 6.85},  {4.1300, 7.05}, {4.4930, 7.15}, {4.8658, 7.25},
+                    {5.2287, 7.40},  {5.5917, 7.50}, {6.3176, 7.60}};
+const Rows kEquibiaxial{{0.1570, 1.065}, {0.2387, 1.115}, {0.2570, 1.14}, {0.3282, 1.20},
+                        {0.4364, 1.31},  {0.5146, 1.42},  {0.6557, 1.68}, {0.7652, 1.94},
+                        {0.9617, 2.49},  {1.2386, 3.03},  {1.4401, 3.43}, {1.7096, 3.75},
+                        {1.9845, 4.07},  {2.2065, 4.26},  {2.4426, 4.45}};
+const Rows kPureShear{{0.1589, 1.12}, {0.2452, 1.19}, {0.3326, 1.31}, {0.4189, 1.46},
+                      {0.5925, 1.84}, {0.7652, 2.38}, {0.9418, 2.97}, {1.1183, 3.47},
+                      {1.2851, 3.95}, {1.4617, 4.37}, {1.6285, 4.69}, {1.8050, 4.97}};
 
 // Yeoh's law, linear in its constants, fitted to relative stresses by least squares; neo-Hooke
 // cannot follow the upturn.
 TEST(FiniteStrain, YeohFollowsTreloarsRubber) {
-  constexpr int kRows = sizeof kTreloar / sizeof *kTreloar;
-  Eigen::MatrixXd A(kRows, 3);
-  Eigen::VectorXd b = Eigen::VectorXd::Ones(kRows);
-  for (int i = 0; i < kRows; ++i) {
-    const auto [l, stress] = kTreloar[i];
+  const int rows = static_cast<int>(kTension.size());
+  Eigen::MatrixXd A(rows, 3);
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(rows);
+  for (int i = 0; i < rows; ++i) {
+    const auto [stress, l] = kTension[static_cast<std::size_t>(i)];
     const double x = l * l + 2 / l - 3, unit = 2 * (l - 1 / (l * l)) / stress;
     A.row(i) << unit, 2 * x * unit, 3 * x * x * unit;
   }
@@ -139,19 +151,66 @@ TEST(FiniteStrain, YeohFollowsTreloarsRubber) {
   const LawPointer yeoh = yeoh_law(c[0], c[1], c[2], 2000);
   const LawPointer neo = neo_hookean_law(2 * c[0], 2000);
   double squares = 0, worst_neo = 0;
-  for (const auto& [l, stress] : kTreloar) {
+  for (const auto& [stress, l] : kTension) {
     const double fitted = nominal_stress(*yeoh, with_free_sides(*yeoh, l, false))(2, 2);
     squares += std::pow(fitted / stress - 1, 2);
     worst_neo = std::max(
         worst_neo,
         std::abs(nominal_stress(*neo, with_free_sides(*neo, l, false))(2, 2) / stress - 1));
   }
-  const double rms = std::sqrt(squares / kRows);
+  const double rms = std::sqrt(squares / rows);
   std::printf("Treloar: Yeoh rms %.1f %%, neo-Hooke worst %.0f %%\n", 100 * rms, 100 * worst_neo);
   EXPECT_LT(rms, 0.1);  // Yeoh (1993) himself leaves as much at small stretch
   EXPECT_GT(worst_neo, 0.4);
   EXPECT_GT(c[0], 0.1);  // Treloar's own modulus: G = 0.39 MPa, C10 = G/2
   EXPECT_LT(c[0], 0.25);
+}
+
+// Ogden's law of three terms fitted to tension, equibiaxial tension and pure shear of the same
+// rubber at once, in relative stresses. With the exponents 1.3, 5 and -2 of Ogden (1972) it is
+// linear in its moduli.
+TEST(FiniteStrain, OgdenFollowsTreloarsRubberInThreeTests) {
+  constexpr double kAlpha[3] = {1.3, 5, -2};
+  // Incompressible nominal stress of a unit term: 2/alpha (l^(alpha-1) - l3^alpha / l), l3 the
+  // thickness.
+  const auto unit = [&](double l, double thickness, double alpha) {
+    return 2 / alpha * (std::pow(l, alpha) - std::pow(thickness, alpha)) / l;
+  };
+  struct Loading {
+    const char* name;
+    const Rows* rows;
+    double power;  // thickness = l^power
+  };
+  const Loading loadings[] = {{"tension", &kTension, -0.5},
+                              {"equibiaxial", &kEquibiaxial, -2},
+                              {"pure shear", &kPureShear, -1}};
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const Loading& t : loadings)
+    for (const auto& [stress, l] : *t.rows) {
+      Eigen::Vector3d row;
+      for (int k = 0; k < 3; ++k) row[k] = unit(l, std::pow(l, t.power), kAlpha[k]) / stress;
+      normal += row * row.transpose();
+      right += row;
+    }
+  const Eigen::Vector3d mu = normal.ldlt().solve(right);
+  std::printf("Treloar: Ogden mu %.4f, %.3g, %.3g MPa\n", mu[0], mu[1], mu[2]);
+  const LawPointer law =
+      ogden_law({{mu[0], kAlpha[0]}, {mu[1], kAlpha[1]}, {mu[2], kAlpha[2]}}, 2e5);
+  for (const Loading& t : loadings) {
+    double squares = 0;
+    for (const auto& [stress, l] : *t.rows) {
+      const double thickness = std::pow(l, t.power);
+      const Vec3 stretch(thickness, 1 / (thickness * l), l);
+      // The pressure of the incompressible body makes the thin direction free.
+      const Eigen::Matrix3d P = nominal_stress(*law, stretch.asDiagonal());
+      const double found = P(2, 2) - P(0, 0) * thickness / l;
+      squares += std::pow(found / stress - 1, 2);
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(t.rows->size()));
+    std::printf("Treloar: Ogden, %s, rms %.1f %%\n", t.name, 100 * rms);
+    EXPECT_LT(rms, 0.08) << t.name;
+  }
 }
 
 }  // namespace

@@ -6,28 +6,15 @@
 
 #include "fem/hooke_law.h"
 #include "fem/sphere_contact.h"
-#include "support/block_mesh.h"
+#include "support/graded_block.h"
 
 namespace hapsim {
 namespace {
 
-// A block of second-order elements, 2 L wide and `depth` deep on a bonded base, whose edges grow
-// from `edge` under the contact at the origin of its top (coordinates graded by sinh).
 struct Prepared {
   TetMesh mesh;
-  Prepared(double L, double depth, double edge, int n, int layers) {
-    mesh = test::block_mesh({2, 2, 1}, n, n, layers, 1);
-    // c sinh(k s): first step `edge`, reach L at s = 1.
-    const auto graded = [&](double s, double reach, double step) {
-      double k = 1e-3;
-      while (reach * std::sinh(k * step) / std::sinh(k) > edge) k += 1e-3;
-      return reach * std::sinh(k * s) / std::sinh(k);
-    };
-    for (Vec3& p : mesh.nodes)
-      p = {graded(p.x() - 1, L, 2.0 / n), graded(p.y() - 1, L, 2.0 / n),
-           -graded(1 - p.z(), depth, 1.0 / layers)};
-    mesh = to_second_order(mesh);
-  }
+  Prepared(double L, double depth, double edge, int n, int layers)
+      : mesh(test::graded_block(L, depth, edge, n, layers)) {}
   SphereContact on(double nu, double a) const {
     BodyModel model{&mesh, {isotropic_law(1, nu)}};
     model.dilatation = Dilatation::kElement;

@@ -126,6 +126,45 @@ TEST_F(Featured, DerivativesAreTheDifferences) {
                      1e-6);
 }
 
+// Where the support ends within faces, against meshes whose bonded part ends there and that have no
+// springs at all: the forces' change with the edge is that of the bodies, and so is the edge that
+// would be found from them.
+TEST(Support, AnEdgeWithinFacesIsTheMeshThatFollowsIt) {
+  const Vec3 size(0.06, 0.05, 0.02), at(0.033, 0.024, 0.02);
+  const auto body_of = [&](int cells, double bonded_to) {
+    TetMesh mesh = test::block_mesh(size, cells, 6, 4, 1);
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      if (mesh.nodes[n].x() > bonded_to + 1e-9) mesh.fixed[n] = 0;
+    return make_contact_base(mesh);
+  };
+  const auto stiffness = [&](const ContactBase& base, const std::vector<BodyFeature>& features) {
+    const ContactMesh contact = make_contact_mesh(base, at, kRadius, kRadius / 3, 0.8);
+    FeaturedBody body(contact, free_surface(base));
+    return body.solve({kNu, {1e4}, nullptr, features}).K;
+  };
+  // Edges that fall between the nodes of the first body; each second body has nodes there.
+  const ContactBase whole = body_of(6, 1);
+  double worst = 0, sum = 0;
+  int count = 0;
+  for (const double edge : {0.024, 0.028, 0.032, 0.036, 0.040, 0.044}) {
+    const Eigen::Matrix3d known = stiffness(body_of(15, edge), {});
+    const auto found = [&](double e) {
+      return stiffness(whole, {{Feature::kSupport, {10, 0, e - size.x() / 2}}});
+    };
+    const Eigen::Matrix3d here = found(edge),
+                          slope = (found(edge + 2e-3) - found(edge - 2e-3)) / 4e-3;
+    // Edge that explains the known stiffness best, to first order.
+    const double shift = (known - here).cwiseProduct(slope).sum() / slope.squaredNorm();
+    std::printf("edge at %.0f mm: stiffness errs by %.2f %%, edge by %.2f mm\n", 1e3 * edge,
+                100 * (here - known).norm() / known.norm(), 1e3 * shift);
+    worst = std::max(worst, std::abs(shift));
+    sum += shift;
+    ++count;
+  }
+  EXPECT_LT(worst, 2.5e-3);
+  EXPECT_LT(std::abs(sum / count), 1e-3);
+}
+
 // A support that gives everywhere is in series with the body: more give, less stiffness, down to
 // nothing.
 TEST_F(Featured, AGivingSupportSoftens) {

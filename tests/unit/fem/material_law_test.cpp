@@ -11,6 +11,7 @@
 #include "expect_error.h"
 #include "fem/hooke_law.h"
 #include "fem/hyperelastic_law.h"
+#include "fem/ogden_law.h"
 
 namespace hapsim {
 namespace {
@@ -41,6 +42,11 @@ std::vector<Named> all_laws() {
       {"exponential",
        [](const std::vector<double>& c) { return exponential_law(c[0], c[1], c[2]); },
        {4e3, 2.5, 5e4}},
+      {"Ogden",
+       [](const std::vector<double>& c) {
+         return ogden_law({{c[0], c[1]}, {c[2], c[3]}}, c[4]);
+       },
+       {3e3, 1.3, 900, -2.5, 5e4}},
       {"isotropic, small strain",
        [](const std::vector<double>& c) { return isotropic_law(c[0], c[1]); },
        {1e4, 0.45}},
@@ -129,12 +135,29 @@ TEST(MaterialLaw, SmallStrainLimitIsHookes) {
   EXPECT_NEAR(hooke(3, 3), m.mu, 1e-9 * E);
   for (const LawPointer& law :
        {neo_hookean_law(m.mu, m.bulk), yeoh_law(m.mu / 2, 700, -20, m.bulk),
-        exponential_law(m.mu, 3, m.bulk), isotropic_law(E, nu, StrainMeasure::kGreenLagrange),
+        exponential_law(m.mu, 3, m.bulk), ogden_law({{0.7 * m.mu, 4}, {0.3 * m.mu, -2}}, m.bulk),
+        isotropic_law(E, nu, StrainMeasure::kGreenLagrange),
         transverse_law({E, E, nu, nu, m.mu}, {0, 1, 1})})
     EXPECT_LT((tangent(law) - hooke).norm(), 1e-11 * hooke.norm());
   const Moduli up = moduli(E, nu + 1e-6), down = moduli(E, nu - 1e-6);
   EXPECT_NEAR((up.mu - down.mu) / 2e-6, moduli_by_poisson(E, nu).mu, 1e-6 * E);
   EXPECT_NEAR((up.bulk - down.bulk) / 2e-6, moduli_by_poisson(E, nu).bulk, 1e-4 * E);
+}
+
+// One term of alpha = 2 is neo-Hookean; stretches that are equal, and nearly so, take the tangent's
+// limit.
+TEST(MaterialLaw, OgdenIsNeoHookeanAndSmoothWhereStretchesMeet) {
+  const LawPointer ogden = ogden_law({{4e3, 2}}, 5e4), neo = neo_hookean_law(4e3, 5e4);
+  for (const double apart : {0.0, 1e-9, 1e-6, 3e-6, 1e-5, 1e-4, 0.1}) {
+    Matrix3d R(Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()));
+    const Matrix3d C = R * Vec3(1.3, 1.3 + apart, 0.8).asDiagonal() * R.transpose();
+    const PointResponse a = ogden->respond(C, true), b = neo->respond(C, true);
+    EXPECT_NEAR(a.energy, b.energy, 1e-9 * b.energy);
+    EXPECT_LT((a.S - b.S).norm(), 1e-9 * b.D.norm()) << apart;
+    EXPECT_LT((a.D - b.D).norm(), 1e-8 * b.D.norm()) << apart;
+  }
+  EXPECT_THROW(ogden_law({}, 1e4), Error);
+  EXPECT_THROW(ogden_law({{1e3, 0}}, 1e4), Error);
 }
 
 // The compliance seen along and across the axis is what the constants say.

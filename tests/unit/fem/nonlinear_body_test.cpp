@@ -10,6 +10,7 @@
 #include "fem/elastic_body.h"
 #include "fem/hooke_law.h"
 #include "fem/hyperelastic_law.h"
+#include "fem/ogden_law.h"
 #include "linalg/conjugate_gradients.h"
 #include "support/block_mesh.h"
 
@@ -25,6 +26,7 @@ const std::vector<std::pair<std::string, LawPointer>>& laws() {
       {"neo-Hookean", neo_hookean_law(4e3, 4e4)},
       {"Yeoh", yeoh_law(2e3, 500, 100, 4e4)},
       {"exponential", exponential_law(4e3, 2, 4e4)},
+      {"Ogden", ogden_law({{3e3, 1.3}, {1e3, 6}}, 4e4)},
       {"isotropic", isotropic_law(1e4, 0.45)},
       {"Saint Venant-Kirchhoff", isotropic_law(1e4, 0.3, StrainMeasure::kGreenLagrange)},
       {"transverse", transverse_law({1e4, 4e4, 0.4, 0.3, 6e3}, {1, 1, 2})},

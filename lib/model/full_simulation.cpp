@@ -1,0 +1,336 @@
+#include "model/full_simulation.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "effects/effect.h"
+#include "fem/feature_zone.h"
+#include "fem/hooke_law.h"
+#include "fem/hyperelastic_law.h"
+#include "fem/inhomogeneity.h"
+#include "fem/support_springs.h"
+#include "fem/tool_body.h"
+#include "fem/unit_law.h"
+#include "model/forces.h"
+#include "model/nearest_region.h"
+
+namespace hapsim {
+namespace {
+
+// Rows of a press, step by step: one a tool in each.
+struct Steps {
+  std::vector<std::vector<std::size_t>> rows;
+  std::size_t tools() const { return rows.front().size(); }
+};
+
+std::string line(const Recording& r, std::size_t row) {
+  return fmt::format("{}:{}", r.name, r.line[row]);
+}
+
+Steps steps_of(const Recording& r, const Press& press) {
+  const auto found = std::find(r.extra_header.begin(), r.extra_header.end(), "tool_id");
+  const std::vector<std::string>* tool =
+      found == r.extra_header.end()
+          ? nullptr
+          : &r.extra[static_cast<std::size_t>(found - r.extra_header.begin())];
+  Steps steps;
+  for (const int i : press.rows) {
+    const auto row = static_cast<std::size_t>(i);
+    bool joins = tool != nullptr && !steps.rows.empty();
+    if (joins) {
+      for (const std::size_t other : steps.rows.back())
+        joins = joins && (*tool)[other] != (*tool)[row] && (r.t.empty() || r.t[other] == r.t[row]);
+    }
+    if (!joins) steps.rows.emplace_back();
+    steps.rows.back().push_back(row);
+    const std::vector<std::size_t>& first = steps.rows.front();
+    const std::size_t place = steps.rows.back().size() - 1;
+    const bool known = steps.rows.size() == 1 || place < first.size();
+    if (!known || (tool != nullptr && (*tool)[first[place]] != (*tool)[row]) ||
+        (r.position[first[place]] - r.position[row]).norm() > 1e-4)
+      fail_input(line(r, row), "the tools or their contact points change within a press",
+                 "give every step the same tools in the same order, and each contact its press");
+  }
+  if (steps.rows.back().size() != steps.tools())
+    fail_input(line(r, steps.rows.back().front()), "a tool is missing in the last step of a press",
+               "give every step the same tools");
+  return steps;
+}
+
+struct Contact {
+  Vec3 point, normal;
+  std::vector<int> nodes;  // under the flat tool
+};
+
+// Where a tool meets the body's own mesh: the boundary nodes within its radius about the nearest
+// boundary node, on faces that look the same way.
+Contact own_contact(const TetMesh& mesh, const Vec3& at, double radius) {
+  Contact c{at, Vec3::Zero(), {}};
+  double nearest = 1e300;
+  for (const Triangle& f : mesh.faces)
+    for (const int n : f) nearest = std::min(nearest, (mesh.nodes[n] - at).norm());
+  const auto area = [&](const Triangle& f) -> Vec3 {
+    return (mesh.nodes[f[1]] - mesh.nodes[f[0]]).cross(mesh.nodes[f[2]] - mesh.nodes[f[0]]);
+  };
+  for (const Triangle& f : mesh.faces)
+    for (const int n : f)
+      if ((mesh.nodes[n] - at).norm() <= nearest + 1e-9 && !mesh.fixed[n]) c.normal += area(f);
+  if (c.normal.norm() == 0) return c;
+  c.normal.normalize();
+  std::vector<char> up(mesh.nodes.size(), 0);
+  for (const Triangle& f : mesh.faces)
+    if (area(f).dot(c.normal) > 0.5 * area(f).norm())
+      for (const int n : f) up[n] = 1;
+  if (mesh.order == 2)
+    for (const auto& t : mesh.tets)
+      for (int e = 0; e < 6; ++e) up[t[4 + e]] |= up[t[kTetEdges[e][0]]] && up[t[kTetEdges[e][1]]];
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (up[n] && !mesh.fixed[n] && (mesh.nodes[n] - at).norm() <= radius * (1 + 1e-6))
+      c.nodes.push_back(static_cast<int>(n));
+  return c;
+}
+
+// One press: its mesh and its body.
+struct Session {
+  ContactMesh own;  // unless the body's mesh serves
+  const TetMesh* mesh = nullptr;
+  std::vector<Contact> contacts;
+  std::unique_ptr<ToolBody> body;
+  double last_time = 0;
+};
+
+class Simulation {
+ public:
+  Simulation(const TetMesh& body, const Model& model, const Recording& recording,
+             const FullOptions& options)
+      : body_(body),
+        recording_(recording),
+        options_(options),
+        material_(material_of(model)),
+        radius_(recording.tool_radius()) {
+    for (EffectInstance& i : effect_instances(model, false)) {
+      if (i.effect->full(i.values, material_.modulus[0], spec_)) continue;
+      const Stage stage = i.effect->card().stage;
+      if (stage != Stage::kSensor && stage != Stage::kMotion)
+        fail_usage("the full simulation has no form of the effect " + i.effect->card().name,
+                   "take it out of the model, or simulate without --full");
+      if (options.force_control)
+        fail_usage("forces are given to the body itself, without " + i.effect->card().name,
+                   "take it out of the model, or simulate displacements");
+      around_.push_back(std::move(i));
+    }
+    if (material_.shift != Vec3::Zero() || material_.rotation != Vec3::Zero())
+      fail_usage("the full simulation does not move the body", "move the contact points instead");
+    if (material_.local)
+      fail_usage("the full simulation has no contacts that feel their own region alone",
+                 "set local of regions to 0");
+    if (recording.t.empty()) spec_.terms.clear();
+    for (const FeatureSpec& f : material_.features)
+      if (f.feature.kind == Feature::kTransverse && spec_.finite)
+        fail_usage("finite strain of a transversely isotropic body is not in the model",
+                   "take hyperelastic or anisotropic out");
+    base_ = make_contact_base(body);
+    surface_ = free_surface(base_);
+  }
+
+  FullResult run() {
+    result_.force.assign(recording_.rows(), Vec3::Zero());
+    result_.motion = recording_.u;
+    const bool goes_on = recording_.metadata.find("recovery").value_or("") == "none";
+    std::vector<Vec3> before;
+    int number = 0;
+    for (const Press& press : recording_.presses()) {
+      const Steps steps = steps_of(recording_, press);
+      std::vector<Vec3> points;
+      for (const std::size_t row : steps.rows.front()) points.push_back(recording_.position[row]);
+      const bool continues = goes_on && session_ && points == before && !recording_.t.empty() &&
+                             recording_.t[steps.rows.front().front()] >= session_->last_time;
+      before = points;
+      if (!continues) prepare(steps);
+      solve(steps, continues, ++number);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void prepare(const Steps& steps) {
+    session_ = std::make_unique<Session>();
+    Session& s = *session_;
+    const std::vector<std::size_t>& rows = steps.rows.front();
+    if (rows.size() == 1 && !options_.own_mesh) {
+      s.own =
+          make_contact_mesh(base_, recording_.position[rows[0]], radius_,
+                            radius_ * options_.rim_edge, kGrowth * options_.rim_edge / kRimEdge);
+      s.mesh = &s.own.mesh;
+      s.contacts = {{s.own.point, s.own.normal, s.own.patch_nodes}};
+    } else {
+      s.mesh = &body_;
+      for (const std::size_t row : rows) {
+        s.contacts.push_back(own_contact(body_, recording_.position[row], radius_));
+        if (s.contacts.back().normal.norm() > 0 && !s.contacts.back().nodes.empty()) continue;
+        fail_input(line(recording_, row), "no free node of the body lies under the tool",
+                   "mesh it with hs-tetmesh --contacts, or check the contact point");
+      }
+    }
+    std::vector<BodyTool> tools;
+    for (const Contact& c : s.contacts) {
+      const bool bonded = spec_.curvature == 0 && !std::isfinite(spec_.friction);
+      BodyTool tool;
+      if (bonded)
+        tool.nodes = c.nodes;
+      else if (spec_.curvature == 0)
+        tool.tip = SphericalTip{c.point, c.normal, kSticks, radius_ * (1 + 1e-6), spec_.friction};
+      else
+        tool.tip =
+            SphericalTip{c.point, c.normal, 1 / spec_.curvature, 1.6 * radius_, spec_.friction};
+      tools.push_back(std::move(tool));
+    }
+    bool free_base = false;
+    const BodyModel model = body_model(*s.mesh, free_base);
+    const std::vector<Relaxation> terms = [&] {
+      std::vector<Relaxation> r;
+      for (const MaxwellTerm& t : spec_.terms) r.push_back({t.share, t.tau});
+      return r;
+    }();
+    std::vector<std::vector<Relaxation>> relaxation;
+    if (!terms.empty()) relaxation.assign(model.laws.size(), terms);
+    s.body = std::make_unique<ToolBody>(model, tools, relaxation, free_base);
+    result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
+  }
+
+  BodyModel body_model(const TetMesh& mesh, bool& free_base) const {
+    BodyModel model;
+    model.mesh = &mesh;
+    const BodyFeature* transverse = nullptr;
+    for (const FeatureSpec& f : material_.features)
+      if (f.feature.kind == Feature::kTransverse) transverse = &f.feature;
+    for (const double E : material_.modulus) {
+      const Moduli m = moduli(E, material_.nu);
+      model.laws.push_back(spec_.finite ? exponential_law(m.mu, spec_.stiffening, m.bulk)
+                           : transverse != nullptr
+                               ? transverse_body_law(E, material_.nu, transverse->value)
+                               : isotropic_law(E, material_.nu));
+    }
+    for (const auto& n : mesh.tets)
+      model.law_of_tet.push_back(region_at(
+          material_,
+          (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4));
+    if (options_.averaged)
+      model.dilatation = mesh.order == 2 ? Dilatation::kElement : Dilatation::kPatch;
+    for (const FeatureSpec& f : material_.features) {
+      if (is_zone(f.feature.kind)) {
+        const std::vector<double> factors = stiffness_factors(
+            inside_shares(mesh, zone_level(f.feature, surface_)).share, f.feature.value.back());
+        if (model.scale.empty()) model.scale.assign(factors.size(), 1.0);
+        for (std::size_t t = 0; t < factors.size(); ++t) model.scale[t] *= factors[t];
+      }
+      if (f.feature.kind != Feature::kSupport) continue;
+      free_base = true;
+      for (const SupportSprings::Face& face : SupportSprings(mesh, f.feature.value).faces)
+        model.face_springs.push_back(
+            {face.nodes, material_.modulus[0] * face.spring * face.matrix});
+    }
+    return model;
+  }
+
+  // The press of one tool as effects see it.
+  PressView view_of(const Steps& steps, std::size_t tool, int number) const {
+    PressView view;
+    const Recording& r = recording_;
+    for (const std::vector<std::size_t>& rows : steps.rows) {
+      const std::size_t row = rows[tool];
+      view.u.push_back(r.u[row]);
+      view.in_air.push_back(r.in_air(row) ? 1 : 0);
+      if (!r.temp.empty()) view.temperature.push_back(r.temp[row]);
+      if (r.t.empty()) continue;
+      view.t.push_back(r.t[row] - r.t[steps.rows.front()[tool]]);
+      view.session.push_back(r.t[row] - *std::min_element(r.t.begin(), r.t.end()));
+    }
+    view.normal = session_->contacts[tool].normal;
+    view.direction = -view.normal;
+    view.number = number;
+    view.radius = radius_;
+    view.modulus = material_.modulus[0];
+    return view;
+  }
+
+  void solve(const Steps& steps, bool continues, int number) {
+    Session& s = *session_;
+    const std::size_t tools = steps.tools();
+    std::vector<PressView> views;
+    for (std::size_t k = 0; k < tools; ++k) {
+      views.push_back(view_of(steps, k, number));
+      Motion motion{views[k].u, {}, 0};
+      for (const EffectInstance& i : around_) i.effect->move(views[k], i.values, motion);
+      views[k].u = std::move(motion.u);
+    }
+    for (std::size_t i = 0; i < steps.rows.size(); ++i) {
+      const std::size_t row = steps.rows[i].front();
+      const double time = recording_.t.empty() ? 0 : recording_.t[row];
+      const double dt = i > 0 || continues ? time - s.last_time : 0;
+      std::vector<ToolTarget> targets;
+      for (std::size_t k = 0; k < tools; ++k) {
+        const bool tip = spec_.curvature > 0 || std::isfinite(spec_.friction);
+        if (views[k].in_air[i])  // a bonded tool lets go: it exerts nothing; a tip is away
+          targets.push_back(tip ? ToolTarget{radius_ * s.contacts[k].normal, false}
+                                : ToolTarget{Vec3::Zero(), true});
+        else if (options_.force_control)
+          targets.push_back({recording_.f[steps.rows[i][k]], true});
+        else
+          targets.push_back({views[k].u[i], false});
+      }
+      const SolveReport report = s.body->step(targets, dt);
+      result_.newton_steps += report.newton_steps;
+      if (!report.ok()) {
+        const std::size_t split = report.message.find("; ");
+        fail_numerics(line(recording_, row), report.message.substr(0, split),
+                      report.message.substr(split + 2));
+      }
+      s.last_time = time;
+      for (std::size_t k = 0; k < tools; ++k) {
+        const int tool = static_cast<int>(k);
+        result_.force[steps.rows[i][k]] = s.body->force(tool);
+        if (options_.force_control) result_.motion[steps.rows[i][k]] = s.body->motion(tool);
+      }
+      if (options_.observe)
+        options_.observe({row, s.mesh, &s.body->body().field(), s.body->body().element_fields()});
+      if (options_.step) options_.step(tools);
+    }
+    for (std::size_t k = 0; k < tools; ++k) {
+      Signal signal{Eigen::VectorXd(3 * static_cast<Eigen::Index>(steps.rows.size())), {}};
+      signal.df.resize(signal.f.size(), 0);
+      for (std::size_t i = 0; i < steps.rows.size(); ++i)
+        signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = result_.force[steps.rows[i][k]];
+      for (const EffectInstance& i : around_)
+        if (i.effect->card().stage == Stage::kSensor) i.effect->apply(views[k], i.values, signal);
+      for (std::size_t i = 0; i < steps.rows.size(); ++i)
+        result_.force[steps.rows[i][k]] = signal.f.segment<3>(3 * static_cast<Eigen::Index>(i));
+    }
+  }
+
+  const TetMesh& body_;
+  const Recording& recording_;
+  const FullOptions& options_;
+  MaterialSpec material_;
+  double radius_;
+  FullSpec spec_;
+  std::vector<EffectInstance> around_;  // effects on the motion and of the sensor
+  ContactBase base_;
+  std::shared_ptr<const SurfaceTree> surface_;
+  std::unique_ptr<Session> session_;
+  FullResult result_;
+};
+
+}  // namespace
+
+FullResult simulate_full(const TetMesh& body, const Model& model, const Recording& recording,
+                         const FullOptions& options) {
+  return Simulation(body, model, recording, options).run();
+}
+
+}  // namespace hapsim

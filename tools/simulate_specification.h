@@ -1,0 +1,122 @@
+// The command line of hs-simulate.
+#pragma once
+
+#include "common_options.h"
+
+namespace hapsim {
+
+inline ToolSpec simulate_specification() {
+  ToolSpec spec;
+  spec.name = "hs-simulate";
+  spec.summary = "contact forces of a model along a motion";
+  spec.input = "motion or recording CSV (press,t,x,y,z,ux,uy,uz; forces in it are ignored)";
+  spec.description = {
+      "Writes the recording with the forces replaced by the model's. Each contact position is "
+      "solved on second-order tetrahedra graded to the tool's rim; relaxation is integrated "
+      "exactly for motion that is straight between samples "
+      "and for any time steps.",
+      "Measured and simulated recordings have one format, so the output feeds hs-compare and "
+      "hs-identify alike.",
+      "With --live every motion line is answered by its force line at once, from a body prepared "
+      "beforehand: its surface condensed to stiffnesses, put right to those of --contacts and "
+      "interpolated in between. The header comes first, and comes back when the body is ready. "
+      "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
+      "which contacts are found. At the positions of --contacts the forces are those of the batch "
+      "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
+      "live; there, rows of the viscoelastic effect with a region above 0 give each region its own "
+      "Maxwell elements.",
+      "With --binary, motion and forces are records of fixed size, little-endian, without header "
+      "or "
+      "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
+      "units. In, tip (32 bytes): t x y z; press (64 bytes): i press, i contact (0: in the air), t "
+      "x "
+      "y z ux uy uz. Out (88 bytes): i press, i contact, t x y z ux uy uz fx fy fz. Give "
+      "--tool-radius.",
+      "With --own-mesh nothing is meshed: the body's own tetrahedra, of either order, are pressed "
+      "at the nodes under the tool, by a sparse factorisation or by conjugate gradients, whichever "
+      "is faster for the size (it says which). The force is as good as that mesh is fine there.",
+      "With --full finite elements are solved at every step, tool and body as they are: a body of "
+      "hyperelastic (finite) at finite strain, a tip of the effect tip as a ball whose contact "
+      "grows, friction on the contact itself, relaxation in every element; each press on a mesh "
+      "graded to its tool's rim, or with --own-mesh on the body's. It takes seconds a step and is "
+      "what the quick laws are judged by. Several tools press one body at once with a column "
+      "tool_id: rows of one press and time, one a tool, are one step."};
+  spec.options = workspace_flags();
+  spec.options.push_back({.flag = "--model",
+                          .kind = OptionKind::kFile,
+                          .value = "FILE",
+                          .help = "Model from hs-identify.",
+                          .required = true});
+  spec.options.push_back({.flag = "--add-noise",
+                          .kind = OptionKind::kNumber,
+                          .value = "N",
+                          .help = "Adds Gaussian noise of this standard deviation [N] to every "
+                                  "force component and declares it as force_noise.",
+                          .minimum = 0});
+  spec.options.push_back({.flag = "--seed",
+                          .kind = OptionKind::kInteger,
+                          .value = "N",
+                          .help = "Seed of the added noise.",
+                          .default_text = "1",
+                          .minimum = 0});
+  spec.options.push_back(
+      {.flag = "--own-mesh",
+       .kind = OptionKind::kSwitch,
+       .help = "Presses the body's own mesh instead of meshes of its contacts."});
+  spec.options.push_back({.flag = "--full",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Finite elements at every step; a step that does not converge "
+                                  "ends it (exit 4)."});
+  spec.options.push_back({.flag = "--force-control",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Full: the motion's forces are given, its displacements are "
+                                  "found and written."});
+  spec.options.push_back({.flag = "--solver",
+                          .kind = OptionKind::kChoice,
+                          .value = "NAME",
+                          .help = "Own mesh: how it is solved.",
+                          .default_text = "by-size",
+                          .choices = {"by-size", "direct", "iterative"}});
+  spec.options.push_back({.flag = "--vtu",
+                          .kind = OptionKind::kText,
+                          .value = "PREFIX",
+                          .help =
+                              "Own mesh: writes PREFIX-ROW.vtu with displacement, stress and "
+                              "energy density at the deepest row of each press, or at --rows."});
+  spec.options.push_back({.flag = "--rows",
+                          .kind = OptionKind::kText,
+                          .value = "LIST",
+                          .help = "Rows of the motion to write with --vtu, from 1: 20,40,60."});
+  spec.options.push_back({.flag = "--live",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Answers each line as it comes; latencies on standard error."});
+  spec.options.push_back({.flag = "--contacts",
+                          .kind = OptionKind::kFile,
+                          .value = "FILE",
+                          .help = "Live: a recording whose contact positions are solved finely "
+                                  "before the first line."});
+  spec.options.push_back({.flag = "--rate",
+                          .kind = OptionKind::kNumber,
+                          .value = "HZ",
+                          .help = "Live: takes the lines at this rate by the clock, with memory "
+                                  "locked and real-time scheduling where they are permitted.",
+                          .minimum = 0.001,
+                          .maximum = 100000});
+  spec.options.push_back({.flag = "--binary",
+                          .kind = OptionKind::kChoice,
+                          .value = "KIND",
+                          .help = "Live: records instead of lines in and out; tip positions or "
+                                  "presses come in.",
+                          .choices = {"tip", "press"}});
+  spec.examples = {
+      {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
+      {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",
+       "Where the model fails."},
+      {"hs-simulate --live --rate 1000 motion.csv --contacts data.csv --body body.ply --model "
+       "m0.csv",
+       "A recorded motion at 1 kHz."}};
+  spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-diagnose(1)"};
+  return spec;
+}
+
+}  // namespace hapsim
