@@ -101,6 +101,8 @@ ToolSpec specification() {
                    {"command", "the command that adds it"}}}};
   spec.examples = {
       {"hs-diagnose data.csv --body body.ply --model m0.csv -o effects.csv", "What is missing."},
+      {"hs-diagnose data.csv --body body.ply --model m0.csv --plan next.csv -o effects.csv",
+       "And what to measure next."},
       {"hs-diagnose data.csv --body body.ply --model m0.csv --check -q", "A check in CI."}};
   spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-effects(7)"};
   return spec;

@@ -233,8 +233,8 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
           ? static_cast<double>(w.dataset.positions.size()) - 1
           : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
   m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
-  const double independent =
-      static_cast<double>(residual.size()) / autocorrelation_time(residual, w);
+  m.memory = autocorrelation_time(residual, w);
+  const double independent = static_cast<double>(residual.size()) / m.memory;
   const double fall = y.residual.squaredNorm() / m.sum_of_squares - 1;
   const double freedom = std::max(1.0, extra);
   if (independent > 2 * freedom)

@@ -36,6 +36,7 @@ struct Yardstick {
 struct Measured {
   double sum_of_squares = 0;  // of the candidate's whitened residuals
   double penalty = 0;         // extra parameters times log n
+  double memory = 1;          // samples per independent one in the candidate's residuals
   // Fall of the mean squared residual [N^2]; NaN: that of the fit.
   double explained = std::numeric_limits<double>::quiet_NaN();
   CandidateScores scores;  // empty when the effect has a test of its own

@@ -152,6 +152,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     }
     f.p_value = p[k];
     f.criterion_gain = before - m.sum_of_squares - m.penalty;
+    f.memory = m.memory;
     const double fall = base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse;
     if (beyond_noise > 0.01 * noise)
       f.share = std::clamp((std::isnan(m.explained) ? fall : m.explained) / beyond_noise, 0.0, 1.0);
@@ -191,16 +192,26 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
 
 constexpr double kAlike = 1.25;  // errors that differ by less
 
+// Where the winner leaves white noise and nothing else, the likelihood can be believed: a rival
+// that is so much less likely (of the criterion, by independent sample) is none, however alike the
+// errors.
+constexpr double kDecisive = 50, kLikeNoise = 1.1, kLikeWhite = 1.5;
+
+bool decided(const Finding& winner, const Finding& rival, double noise) {
+  return winner.rmse_after < kLikeNoise * noise && winner.memory < kLikeWhite &&
+         winner.criterion_gain - rival.criterion_gain > kDecisive * winner.memory;
+}
+
 // Rivals that do as well as the best: another effect that passes the gates too and reaches nearly
 // the same fall, unless one of the two includes the other.
 std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const Gates& gates,
-                                   bool can_hold_out) {
+                                   bool can_hold_out, double noise) {
   std::vector<std::size_t> rivals;
   const Finding& winner = round.findings[best];
   for (std::size_t k = 0; k < round.findings.size(); ++k) {
     const Finding& f = round.findings[k];
     if (k == best || !passes(f, gates, can_hold_out)) continue;
-    if (round.candidates[k].effect->card().by_press) continue;
+    if (round.candidates[k].effect->card().by_press || decided(winner, f, noise)) continue;
     if (contains(*round.candidates[best].effect, f.effect) ||
         contains(*round.candidates[k].effect, winner.effect))
       continue;
@@ -285,7 +296,8 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
     const std::size_t best = best_of(round, options.gates, can_hold_out);
     last = std::move(round);
     if (best == last.findings.size()) break;
-    std::vector<std::size_t> rivals = rivals_of(best, last, options.gates, can_hold_out);
+    std::vector<std::size_t> rivals =
+        rivals_of(best, last, options.gates, can_hold_out, w.noise.value);
     if (!rivals.empty()) {
       ambiguous = true;
       rivals.insert(rivals.begin(), best);

@@ -42,7 +42,8 @@ struct Finding {
   double held_out_now = 0, held_out_after = 0;  // [N]
   double p_value = 1;
   double criterion_gain = 0;
-  double share = 0;  // of the misfit beyond noise
+  double memory = 1;  // samples per independent one in what it leaves
+  double share = 0;   // of the misfit beyond noise
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   bool one_more_term = false;

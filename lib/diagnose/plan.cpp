@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "effects/catalogue.h"
+#include "io/number.h"
+#include "model/weights.h"
 
 namespace hapsim {
 namespace {
@@ -17,6 +19,7 @@ constexpr double kAir = 0.2;                          // [s] before and after a 
 constexpr double kPause = 5;                          // [s] between presses
 constexpr double kLift = 5e-4;                        // [m] of the tool over the body, in the air
 constexpr double kSlow = 3, kFast = 0.15, kHold = 5;  // [s]
+constexpr int kLeastSteps = 15;                       // of a movement, however slow the recording
 
 // A path of the tool: displacements in the frame of the contact (two tangents, depth), reached one
 // after the other.
@@ -88,7 +91,7 @@ void append_press(Recording& r, int press, double start, double step, const Vec3
   air();
   Vec3 at = Vec3::Zero();
   for (const Leg& leg : path.legs) {
-    const int steps = std::max(3, static_cast<int>(std::lround(leg.seconds / step)));
+    const int steps = std::max(kLeastSteps, static_cast<int>(std::lround(leg.seconds / step)));
     for (int i = 0; i < steps; ++i, t += leg.seconds / steps)
       append_row(r, press, t, position, world(at + (leg.to - at) * i / steps), false);
     at = leg.to;

@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 
 #include "base/error.h"
-#include "effects/memory.h"
+#include "fem/memory.h"
 #include "geometry/field_vtu.h"
 #include "model/forces.h"
 #include "model/nearest_region.h"

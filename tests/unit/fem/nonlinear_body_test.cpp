@@ -316,8 +316,8 @@ TEST(NonlinearBody, StiffnessBySteps) {
     ConjugateGradients cg;
     ASSERT_TRUE(cg.prepare(system.matrix()));
     const VectorXd b = VectorXd::Ones(system.unknowns());
-    VectorXd x = VectorXd::Zero(b.size());
-    const IterationReport report = cg.solve(system.matrix(), b, x, 1e-9);
+    Eigen::MatrixXd x = VectorXd::Zero(b.size());
+    const IterationReport report = cg.solve(b, x, 1e-9);
     EXPECT_TRUE(report.converged);
     std::printf("nu %.2f: %d steps for %d unknowns, shift %.3g\n", nu, report.iterations,
                 system.unknowns(), cg.shift());
