@@ -118,12 +118,14 @@ class Hyperelastic : public Effect {
       dk_n = contact.normal_by_columns(columns);
       dk_t = contact.tangential_by_columns(columns);
     }
+    Vec3 way = Vec3::Zero();  // of the last sample, from which the next is not far
     for (std::size_t i = 0; i < press.size(); ++i) {
       if (press.in_air[i]) continue;
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
       const Vec3& u = press.u[i];
-      Vec3 x = u;
+      Vec3 x = u + way;
       const LocalForce force = contact.solve([&law](const Vec3& at) { return law.at(at); }, u, x);
+      way = x - u;
       signal.f.segment<3>(row) += K * u - force.F;
       if (columns == 0) continue;
       const Law::Measures m = law.measures(x);

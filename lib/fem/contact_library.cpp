@@ -1,11 +1,9 @@
 #include "fem/contact_library.h"
 
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <mutex>
-#include <thread>
 
+#include "base/parallel.h"
 #include "linalg/blas.h"
 
 namespace hapsim {
@@ -106,37 +104,12 @@ ContentHash ContactLibrary::key_of(const Material& material, const std::string& 
   return hash;
 }
 
-void ContactLibrary::in_parallel(std::size_t count,
-                                 const std::function<void(std::size_t)>& task) const {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto work = [&] {
-    for (std::size_t p = next++; p < count; p = next++) {
-      try {
-        task(p);
-      } catch (...) {
-        const std::lock_guard lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  const unsigned wanted =
-      options_.threads > 0 ? options_.threads : std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> pool;
-  for (unsigned i = 1; i < std::min<std::size_t>(wanted, count); ++i) pool.emplace_back(work);
-  work();
-  for (std::thread& thread : pool) thread.join();
-  if (failure) std::rethrow_exception(failure);
-}
-
 std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>& positions,
                                                          const std::vector<Task>& tasks,
                                                          bool keep) const {
   const std::size_t m = tasks.size();
   std::vector<StiffnessSolution> results(positions.size() * m);
-  in_parallel(positions.size(), [&](std::size_t p) {
+  in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
     std::shared_ptr<ContactBodies> bodies;
     for (std::size_t k = 0; k < m; ++k) {
       ContentHash hash = tasks[k].key;
@@ -157,7 +130,7 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
 std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
     const std::vector<Vec3>& positions) const {
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());
-  in_parallel(positions.size(), [&](std::size_t p) {
+  in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
     // The estimate reads the mesh of these bodies and keeps them.
     const std::shared_ptr<ContactBodies> bodies = bodies_at(positions[p], true);
     const std::shared_ptr<const FeatureEstimate> estimate = bodies->estimate(kTypicalPoisson);

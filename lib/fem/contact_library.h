@@ -68,6 +68,7 @@ class ContactLibrary {
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
       const std::vector<Vec3>& positions) const;
 
+  int threads() const { return options_.threads; }  // 0: as many as the machine has
   const PlanGrid& grid() const { return grid_; }
   const Surface& surface() const { return base_.fine; }  // the body's, as it was given
 
@@ -81,7 +82,6 @@ class ContactLibrary {
   // later materials.
   std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
                                            const std::vector<Task>& tasks, bool keep) const;
-  void in_parallel(std::size_t count, const std::function<void(std::size_t)>& task) const;
   ContentHash key_of(const Material& material, const std::string& description) const;
   std::shared_ptr<ContactBodies> bodies_at(const Vec3& position, bool keep) const;
 

@@ -35,6 +35,7 @@ class BodyStiffness {
   bool is_solved(const MaterialSpec& material) const;
   void forget(const MaterialSpec& material) const;  // the solutions of its layout
 
+  int threads() const { return library_.threads(); }
   const std::vector<PreparedContact>& contacts() const { return contacts_; }
   std::vector<Vec3> normals() const;
   double mesh_uncertainty() const;  // median over the positions, relative

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "base/parallel.h"
 #include "effects/catalogue.h"
 #include "model/nearest_region.h"
 #include "model/relaxation.h"
@@ -31,6 +32,43 @@ void release_in_air(const PressView& view, Signal& signal) {
     signal.f.segment<3>(row).setZero();
     if (signal.df.cols() > 0) signal.df.middleRows(row, 3).setZero();
   }
+}
+
+// One episode through all effects: from the tool's motion to the sensor's reading.
+Signal episode_forces(const std::vector<EffectInstance>& effects, const MaterialSpec& material,
+                      const PositionStiffness& s, const Episode& episode, const Vec3& position,
+                      Eigen::Index columns, bool derivatives) {
+  PressView view = episode.view;
+  view.modulus = material.modulus[0];
+  view.modulus_column = derivatives ? material.modulus_column[0] : -1;
+  view.contact = contact_of(s, material, position, derivatives);
+  Motion motion{view.u, {}, columns};
+  for (const EffectInstance& i : effects) i.effect->move(view, i.values, motion);
+  view.u = std::move(motion.u);
+  view.du = std::move(motion.du);
+  const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
+  Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (view.in_air[i]) continue;
+    const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
+    signal.f.segment<3>(row) = -s.K * view.u[i];
+    if (columns == 0) continue;
+    if (view.du.cols() > 0)
+      signal.df.middleRows(row, 3).noalias() = -s.K * view.du.middleRows(row, 3);
+    for (const auto& [column, dK] : s.by_column)
+      signal.df.block<3, 1>(row, column) -= dK * view.u[i];
+  }
+  // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
+  bool at_sensor = false;
+  for (const EffectInstance& i : effects) {
+    if (!at_sensor && i.effect->card().stage == Stage::kSensor) {
+      at_sensor = true;
+      release_in_air(view, signal);
+    }
+    i.effect->apply(view, i.values, signal);
+  }
+  if (!at_sensor) release_in_air(view, signal);
+  return signal;
 }
 
 }  // namespace
@@ -83,64 +121,40 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
                     const BodyStiffness& body, bool derivatives) {
   const MaterialSpec material = material_of(model);
   return model_forces(
-      model, dataset, selection, [&](std::size_t p) { return body.at(p, material); }, derivatives);
+      model, dataset, selection, [&](std::size_t p) { return body.at(p, material); }, derivatives,
+      body.threads());
 }
 
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const StiffnessAt& stiffness_at, bool derivatives) {
+                    const StiffnessAt& stiffness_at, bool derivatives, int threads) {
   refuse_regional_relaxation(model);
   const std::vector<EffectInstance> effects = effect_instances(model, derivatives);
   const MaterialSpec material = material_of(model);
   const Eigen::Index columns =
       derivatives ? static_cast<Eigen::Index>(model.free_parameters().size()) : 0;
   Eigen::Index total = 0;
-  for (const int e : selection)
-    total += 3 * static_cast<Eigen::Index>(dataset.episodes[e].rows.size());
-  Signal all{Eigen::VectorXd(total), Eigen::MatrixXd(total, columns)};
+  std::vector<Eigen::Index> begin;  // of each episode in the stacked vectors
   std::vector<PositionStiffness> stiffness(dataset.positions.size());
   std::vector<char> known(dataset.positions.size(), 0);
-  Eigen::Index at = 0;
   for (const int e : selection) {
     const Episode& episode = dataset.episodes[e];
-    if (!known[episode.position]) {
-      stiffness[episode.position] = stiffness_at(episode.position);
-      known[episode.position] = 1;
-    }
-    const PositionStiffness& s = stiffness[episode.position];
-    PressView view = episode.view;
-    view.modulus = material.modulus[0];
-    view.modulus_column = derivatives ? material.modulus_column[0] : -1;
-    view.contact = contact_of(s, material, dataset.positions[episode.position], derivatives);
-    Motion motion{view.u, {}, columns};
-    for (const EffectInstance& i : effects) i.effect->move(view, i.values, motion);
-    view.u = std::move(motion.u);
-    view.du = std::move(motion.du);
-    const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
-    Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
-    for (std::size_t i = 0; i < view.size(); ++i) {
-      if (view.in_air[i]) continue;
-      const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
-      signal.f.segment<3>(row) = -s.K * view.u[i];
-      if (columns == 0) continue;
-      if (view.du.cols() > 0)
-        signal.df.middleRows(row, 3).noalias() = -s.K * view.du.middleRows(row, 3);
-      for (const auto& [column, dK] : s.by_column)
-        signal.df.block<3, 1>(row, column) -= dK * view.u[i];
-    }
-    // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
-    bool at_sensor = false;
-    for (const EffectInstance& i : effects) {
-      if (!at_sensor && i.effect->card().stage == Stage::kSensor) {
-        at_sensor = true;
-        release_in_air(view, signal);
-      }
-      i.effect->apply(view, i.values, signal);
-    }
-    if (!at_sensor) release_in_air(view, signal);
-    all.f.segment(at, n) = signal.f;
-    if (columns > 0) all.df.middleRows(at, n) = signal.df;
-    at += n;
+    begin.push_back(total);
+    total += 3 * static_cast<Eigen::Index>(episode.rows.size());
+    if (known[episode.position]) continue;
+    stiffness[episode.position] = stiffness_at(episode.position);
+    known[episode.position] = 1;
   }
+  Signal all{Eigen::VectorXd(total), Eigen::MatrixXd(total, columns)};
+  const auto one = [&](std::size_t k) {
+    const Episode& episode = dataset.episodes[selection[k]];
+    const Signal signal = episode_forces(effects, material, stiffness[episode.position], episode,
+                                         dataset.positions[episode.position], columns, derivatives);
+    all.f.segment(begin[k], signal.f.size()) = signal.f;
+    if (columns > 0) all.df.middleRows(begin[k], signal.f.size()) = signal.df;
+  };
+  // Threads cost more than they save where there is little to do.
+  constexpr Eigen::Index kWorthThreads = 3 * 2000;
+  in_parallel(selection.size(), total < kWorthThreads ? 1 : threads, one);
   return all;
 }
 

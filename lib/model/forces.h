@@ -35,10 +35,11 @@ std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
                     const BodyStiffness& body, bool derivatives);
 
-// The same with stiffnesses by position from elsewhere.
+// The same with stiffnesses by position from elsewhere, on so many threads (0: as many as there
+// are); the threads change nothing in the result.
 using StiffnessAt = std::function<PositionStiffness(std::size_t position)>;
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const StiffnessAt& stiffness_at, bool derivatives);
+                    const StiffnessAt& stiffness_at, bool derivatives, int threads = 1);
 
 // The measured forces in the same order.
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);

@@ -4,14 +4,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
 #include <numbers>
-#include <thread>
 
+#include "base/parallel.h"
 #include "effects/catalogue.h"
 #include "geometry/signed_distance.h"
 
@@ -68,41 +65,25 @@ Eigen::MatrixXd sensitivities(const Scene& w, double nu, const std::vector<Image
                               const FieldGrid& grid, const ImageOptions& options) {
   Eigen::MatrixXd J(static_cast<Eigen::Index>(views.size()),
                     static_cast<Eigen::Index>(grid.size()));
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex mutex;
   const Eigen::VectorXd homogeneous = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
-  const auto work = [&] {
-    for (std::size_t p = next++; p < w.positions().size(); p = next++) try {
-        FieldBody field(w.base, w.positions()[p], w.tool, kRim * w.tool, kGrowth, grid);
-        const FieldBody::Solution s = field.solve(nu, homogeneous, true);
-        const Eigen::MatrixXd by_node = field.by_node(s);
-        // The coarser mesh's K is brought to the model's: K = S K_c S'.
-        Eigen::Matrix3d fine, by_nu;
-        w.stiffness.contacts()[p].stiffness.evaluate(nu, fine, by_nu);
-        const Eigen::Matrix3d S =
-            fine.llt().matrixL().toDenseMatrix() * s.K.llt().matrixL().toDenseMatrix().inverse();
-        for (std::size_t v = 0; v < views.size(); ++v) {
-          if (views[v].position != static_cast<int>(p)) continue;
-          const Eigen::Matrix3d C = S.transpose() * views[v].B * S;
-          Eigen::Matrix<double, 1, 6> row;
-          row << C(0, 0), C(1, 1), C(2, 2), C(0, 1) + C(1, 0), C(1, 2) + C(2, 1), C(0, 2) + C(2, 0);
-          J.row(static_cast<Eigen::Index>(v)) = row * by_node / (C * s.K).trace();
-        }
-        if (options.progress) options.progress();
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failure) failure = std::current_exception();
-        next = w.positions().size();
-      }
-  };
-  const unsigned wanted = options.threads > 0 ? static_cast<unsigned>(options.threads)
-                                              : std::max(1u, std::thread::hardware_concurrency());
-  std::vector<std::thread> pool;
-  for (unsigned i = 1; i < wanted; ++i) pool.emplace_back(work);
-  work();
-  for (std::thread& thread : pool) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  in_parallel(w.positions().size(), options.threads, [&](std::size_t p) {
+    FieldBody field(w.base, w.positions()[p], w.tool, kRim * w.tool, kGrowth, grid);
+    const FieldBody::Solution s = field.solve(nu, homogeneous, true);
+    const Eigen::MatrixXd by_node = field.by_node(s);
+    // The coarser mesh's K is brought to the model's: K = S K_c S'.
+    Eigen::Matrix3d fine, by_nu;
+    w.stiffness.contacts()[p].stiffness.evaluate(nu, fine, by_nu);
+    const Eigen::Matrix3d S =
+        fine.llt().matrixL().toDenseMatrix() * s.K.llt().matrixL().toDenseMatrix().inverse();
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      if (views[v].position != static_cast<int>(p)) continue;
+      const Eigen::Matrix3d C = S.transpose() * views[v].B * S;
+      Eigen::Matrix<double, 1, 6> row;
+      row << C(0, 0), C(1, 1), C(2, 2), C(0, 1) + C(1, 0), C(1, 2) + C(2, 1), C(0, 2) + C(2, 0);
+      J.row(static_cast<Eigen::Index>(v)) = row * by_node / (C * s.K).trace();
+    }
+    if (options.progress) options.progress();
+  });
   return J;
 }
 

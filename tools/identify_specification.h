@@ -1,0 +1,147 @@
+// The command line of hs-identify.
+#pragma once
+
+#include "common_options.h"
+#include "effects/catalogue.h"
+
+namespace hapsim {
+
+inline std::string effect_names() {
+  std::string names;
+  for (const Effect* e : catalogue()) names += (names.empty() ? "" : ", ") + e->card().name;
+  return names;
+}
+
+inline ToolSpec identify_specification() {
+  ToolSpec spec;
+  spec.name = "hs-identify";
+  spec.summary = "identify a model from a recording of presses";
+  spec.input = "recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
+  spec.description = {
+      "Fits the free parameters of a model to a recording by bounded Gauss-Newton least squares "
+      "with exact derivatives, and writes model.csv with standard errors. Starts from nothing "
+      "(--effects) or from a model (--model), to which effects are added or from which they are "
+      "removed. The error on data that the fit has not seen comes from refitting with whole "
+      "contact positions left out in turn (whole presses, when there is only one position).",
+      "Effects: " + effect_names() + "."};
+  spec.options = workspace_flags();
+  const std::vector<Option> own{
+      {.flag = "--effects",
+       .value = "LIST",
+       .help =
+           "Effects of a new model, separated by commas. auto: elastic, or --model, is diagnosed "
+           "and what is missing added, as long as that helps on unseen presses.",
+       .default_text = "elastic",
+       .repeatable = true},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Model to start from, instead of --effects."},
+      {.flag = "--add",
+       .value = "LIST",
+       .help = "Effects to add; viscoelastic already there gets one more term.",
+       .repeatable = true},
+      {.flag = "--diagnosis",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Diagnosis from hs-diagnose: adds the effects that it calls missing, in its order."},
+      {.flag = "--remove", .value = "LIST", .help = "Effects to remove.", .repeatable = true},
+      {.flag = "--fix",
+       .value = "LIST",
+       .help = "Parameters to hold, with a value or without: nu=0.45, elastic.E, viscoelastic.",
+       .repeatable = true},
+      {.flag = "--free", .value = "LIST", .help = "Parameters to free again.", .repeatable = true},
+      {.flag = "--terms",
+       .value = "N",
+       .help = "Maxwell terms of viscoelastic when it is added, 1 to 5; or auto: one more as long "
+               "as both the information criterion and the error on data that the fit has not seen "
+               "fall; auto:3 offers at most three.",
+       .default_text = "1"},
+      {.flag = "--windows",
+       .value = "LIST",
+       .help = "Windows of the relaxation times [s], disjoint, from short to long, one a term: "
+               "0.05:1,2:30.",
+       .repeatable = true},
+      {.flag = "--regions",
+       .value = "N",
+       .help = "Number of regions when regions is added: a number, auto (what the positions' own "
+               "moduli ask for) or sites (each position its own stiffness).",
+       .default_text = "auto"},
+      {.flag = "--folds",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Parts in which positions are held out; 0: no held-out error.",
+       .default_text = "6",
+       .minimum = 0,
+       .maximum = 1000},
+      {.flag = "--history",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "CSV of model versions and their errors to which this one is added."},
+      {.flag = "--locations",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help =
+           "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
+           "position by itself, the model's other parameters held; input of hs-cluster."},
+      {.flag = "--image",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Stiffness imaging: writes the modulus at each tetrahedron's centre (CSV) that all "
+               "presses together ask for about the fitted model, and says what is seen inside the "
+               "body, where, and how deep these presses see."},
+      {.flag = "--starts",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help =
+           "Starts of each fit: the usual one and N - 1 spread evenly over the bounds; the least "
+           "error wins.",
+       .default_text = "1",
+       .minimum = 1,
+       .maximum = 1000},
+      {.flag = "--robust",
+       .kind = OptionKind::kChoice,
+       .value = "LOSS",
+       .help = "Discounts readings that lie far off: huber little by little, tukey in the end "
+               "altogether.",
+       .default_text = "none",
+       .choices = {"none", "huber", "tukey"}},
+      {.flag = "--profile",
+       .kind = OptionKind::kSwitch,
+       .help =
+           "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
+           "need not be symmetric."},
+      {.flag = "--seed",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Seed of --starts.",
+       .default_text = "1",
+       .minimum = 0}};
+  spec.options.insert(spec.options.end(), own.begin(), own.end());
+  spec.tables = {{"Model (output)",
+                  {{"effect", "name in the catalogue, see hs-effects(7)"},
+                   {"region", "region that the parameter belongs to, from 0"},
+                   {"parameter", "name of the parameter"},
+                   {"value", "in SI units"},
+                   {"unit", "SI unit"},
+                   {"std_error", "standard error, empty when not estimated"},
+                   {"lower, upper", "bounds"},
+                   {"state", "free, fixed or derived"}}},
+                 {"--image",
+                  {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
+                   {"E", "Young's modulus there [Pa]"}}}};
+  spec.examples = {
+      {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
+      {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",
+       "Adds relaxation to it."},
+      {"hs-identify data.csv --body body.ply --effects auto --history steps.csv -o m.csv",
+       "Finds what is missing and adds it, until nothing is."},
+      {"hs-identify data.csv --body body.ply --model m0.csv --diagnosis effects.csv -o m1.csv",
+       "Adds what hs-diagnose found missing."},
+      {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
+       "Gives each pressed position its own stiffness."}};
+  spec.see_also = {"hs-simulate(1)", "hs-compare(1)", "hs-diagnose(1)", "hs-effects(7)"};
+  return spec;
+}
+
+}  // namespace hapsim
