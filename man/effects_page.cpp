@@ -1,4 +1,5 @@
 // Prints the manual page hs-effects(7) from the catalogue.
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -65,6 +66,10 @@ int main() {
                   card.terms ? ", one for every term" : "");
     item("Needs", joined(needs(card)));
     item("When it is missing", card.signature);
+    if (card.form_error > 0)
+      item("Its law may err by",
+           std::to_string(std::lround(100 * card.form_error)) +
+               " % of the force that it changes; a diagnosis infers nothing from less");
     item("Taken for", joined(card.confounders));
     item("To tell them apart", card.separated_by);
     item("Includes", joined(card.contains));

@@ -55,7 +55,7 @@ constexpr std::size_t kLeastPresses = 6;
 
 // Without positions or presses to hold out, the other gates decide.
 bool passes(const Finding& f, const Gates& gates, bool can_hold_out) {
-  return f.criterion_gain > gates.criterion_gain && f.p_value < gates.p_value &&
+  return !f.within_form && f.criterion_gain > gates.criterion_gain && f.p_value < gates.p_value &&
          f.share >= gates.share && (!can_hold_out || held_out_fall(f) >= gates.held_out_fall);
 }
 
@@ -73,6 +73,26 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
                     ? flipped[next++]
                     : std::min(1.0, m.p_value * static_cast<double>(measured.size())));
   return p;
+}
+
+double force_change(const Model& a, const Model& b, const Workspace& w) {
+  const Selection all = all_episodes(w.dataset);
+  const Eigen::VectorXd d = model_forces(a, w.dataset, all, *w.body, false).f -
+                            model_forces(b, w.dataset, all, *w.body, false).f;
+  return std::sqrt(d.squaredNorm() / static_cast<double>(d.size()));
+}
+
+// What the model's approximate laws may leave [N]: from less, no other effect can be inferred.
+double left_by_laws(const Model& model, const Workspace& w) {
+  double most = 0;
+  for (const std::string& name : model.effects()) {
+    const double share = require_effect(name).card().form_error;
+    if (share <= 0) continue;
+    Model without = model;
+    std::erase_if(without.parameters, [&](const Parameter& p) { return p.effect == name; });
+    most = std::max(most, share * force_change(model, without, w));
+  }
+  return most;
 }
 
 // Worth refining: candidates whose first fit errs by less than this factor over the best one's, and
@@ -134,6 +154,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
   const std::vector<double> p = p_values(measured, options.flips, random);
   const double before = yardstick.residual.squaredNorm();
   const double noise = w.noise.value * w.noise.value;
+  const double by_laws = left_by_laws(base.fitted.model, w);
   const double beyond_noise = base.fitted.rmse * base.fitted.rmse - noise;
   for (std::size_t k = 0; k < round.candidates.size(); ++k) {
     Candidate& c = round.candidates[k];
@@ -166,8 +187,14 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     if (f.share >= kMostOfIt && held_out_fall(f) >= kPlainFall)
       f.p_value = std::min(f.p_value, by_size);
     f.plain = f.share >= kMostOfIt && by_size < options.gates.p_value;
+    f.within_form = by_laws > 0 && force_change(c.fitted.model, base.fitted.model, w) < by_laws;
     f.where = describe_where(c, w);
     f.evidence = describe_evidence(c, m, f);
+    if (f.within_form)
+      f.evidence += fmt::format(
+          "; changes the forces by less than the {:.2g} N that an approximate law in the model may "
+          "leave",
+          by_laws);
     f.next_measurement = c.effect->card().separated_by;
     round.findings.push_back(f);
   }

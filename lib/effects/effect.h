@@ -48,6 +48,7 @@ struct EffectCard {
   bool needs_repeats = false;      // not testable unless a place is pressed again
   bool by_press = false;  // three offsets of the force a press (numbered), after all other effects
   bool solved = false;    // finite elements are solved for its parameters (add_feature())
+  double form_error = 0;  // share of the force that it changes by which its law may err
   bool from_locations = false;  // built from each position's own modulus (from_locations())
   std::string signature;        // what its absence looks like in the residuals
   std::vector<std::string> confounders;

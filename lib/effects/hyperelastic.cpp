@@ -97,6 +97,9 @@ class Hyperelastic : public Effect {
                         1.2, 0.1, false},
                        {"finite", "1", "1: the change of shape counts, as at finite strain", 0, 1,
                         0, 1, 1, false, std::numeric_limits<double>::quiet_NaN(), true}},
+        // Against another solver's finite strain (tests/verify/independent_test.cpp) the law leaves
+        // 4.5 % of what it changes.
+        .form_error = 0.08,
         .signature = "too soft deep down and too stiff at small depth, most of all sideways",
         .confounders = {"tip", "sensor-curve"},
         .separated_by = "deeper presses with a flat tool, and a calibration weight on the sensor"};

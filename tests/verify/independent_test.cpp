@@ -78,6 +78,11 @@ TEST_F(Independent, StiffeningIsNamed) {
   Case c = load("hyperelastic", "blob");
   const Diagnosis d = diagnosed(c);
   EXPECT_EQ(d.findings.front().effect, "hyperelastic");
+  // Nothing else is hidden in these data.
+  for (const Finding& f : d.findings)
+    if (f.effect != "hyperelastic") {
+      EXPECT_NE(f.verdict, Verdict::kMissing) << f.effect;
+    }
   EXPECT_LT(d.findings.front().rmse_after, 1.2 * d.noise);
   EXPECT_LT(d.findings.front().held_out_after, 1.2 * d.noise);
 }
