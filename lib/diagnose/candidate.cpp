@@ -19,6 +19,7 @@ FitOptions fit_options(const Workspace& w, int rounds = 6) {
   FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
   options.settled = 1e-3;
+  options.keep_apart = false;  // a term that coincides with another explains nothing
   return options;
 }
 

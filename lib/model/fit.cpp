@@ -137,6 +137,7 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
       solution = minimise(open, residuals);
       set_values(result.model, solution.x);
     }
+    if (!options.keep_apart) return;
     keep_terms_apart(result.model, open, residuals, solution);
     set_values(result.model, solution.x);
   };

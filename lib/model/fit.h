@@ -26,6 +26,7 @@ struct FitOptions {
   // estimated where there is none).
   int rounds = kFullRounds;
   double settled = 1e-6;
+  bool keep_apart = true;  // relaxation times that coincide are moved apart (keep_terms_apart())
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
 };
 
