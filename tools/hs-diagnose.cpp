@@ -27,7 +27,11 @@ ToolSpec specification() {
       "below 5 %, and it takes away at least 15 % of the squared misfit beyond noise. Where few "
       "presses carry an effect that takes away half of the misfit and a tenth of the error on "
       "unseen positions, its size may speak for it instead of the presses' signs. Effects that do "
-      "equally well are called indistinguishable. The search goes on, on top of what was found.",
+      "equally well are called indistinguishable, unless the winner leaves white noise and the "
+      "rival is far less likely (by more than 50 of the criterion). What changes the forces by "
+      "less "
+      "than an approximate law in the model may leave (hs-effects(7)) is possible at most. The "
+      "search goes on, on top of what was found.",
       "Layers, inclusions, anisotropy, supports and regions are solved by finite elements on the "
       "coarser of a position's two meshes, and only where some position asks for "
       "another stiffness than the model's; hs-identify takes the finer one.",

@@ -127,9 +127,8 @@ Candidates make_candidates(const Workspace& w) {
       if (!e.view.in_air[i]) past[e.position] = std::max(past[e.position], e.view.u[i].norm());
   for (Episode& e : candidates.dataset.episodes) {
     e.view.past_depth = past[e.position];
-    for (double& session : e.view.session) session = summary.session + kPause + e.view.t.front();
     for (std::size_t i = 0; i < e.view.session.size(); ++i)
-      e.view.session[i] += e.view.t[i] - e.view.t.front();
+      e.view.session[i] = summary.session + kPause + e.view.t[i];
   }
   return candidates;
 }

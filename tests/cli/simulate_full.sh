@@ -1,18 +1,7 @@
 #!/usr/bin/env bash
 # simulate_full.sh BIN: hs-simulate --full agrees with the quick laws where they hold, presses with
 # several tools and with given forces, and says where it fails.
-set -uo pipefail
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export XDG_CACHE_HOME=$work/cache
-failures=0
-complain() { # TEXT
-  printf 'FAILED: %s\n' "$1"
-  [[ -s err ]] && sed 's/^/    /' err
-  failures=$((failures + 1))
-}
+. "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
 # The largest difference of the columns named, as a share of the largest value.
 apart() { # FILE FILE COLUMN...
   local a=$1 b=$2
@@ -33,12 +22,6 @@ apart() { # FILE FILE COLUMN...
 }
 below() { awk -v a="$1" -v b="$2" 'BEGIN { exit !(a < b) }'; }
 
-awk 'BEGIN {
-  print "OFF"; print 8, 12, 0
-  for (i = 0; i < 8; ++i) print (i % 2) * 0.06, (int(i / 2) % 2) * 0.05, (i >= 4) * 0.04
-  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
-  for (i = 1; i <= 12; ++i) print 3, f[i]
-}' >box.off
 awk 'BEGIN {
   print "# tool_radius: 0.004"; print "press,x,y,z,ux,uy,uz,fx,fy,fz"
   print "1,0.02,0.025,0.04,0,0,-0.001,0,0,1"; print "2,0.045,0.025,0.04,0,0,-0.001,0,0,1"

@@ -1,24 +1,7 @@
 #!/usr/bin/env bash
 # simulate_live.sh BIN: hs-simulate --live answers line by line, like the batch mode, and ends well.
-set -uo pipefail
-bin=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export XDG_CACHE_HOME=$work/cache
-failures=0
-complain() { # TEXT
-  printf 'FAILED: %s\n' "$1"
-  [[ -s err ]] && sed 's/^/    /' err
-  failures=$((failures + 1))
-}
+. "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
 
-awk 'BEGIN {
-  print "OFF"; print 8, 12, 0
-  for (i = 0; i < 8; ++i) print (i % 2) * 0.06, (int(i / 2) % 2) * 0.05, (i >= 4) * 0.04
-  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
-  for (i = 1; i <= 12; ++i) print 3, f[i]
-}' >box.off
 "$bin/hs-tetmesh" box.off --edge 0.012 -q -o body.ply || complain 'no body'
 cat >model.csv <<'END'
 effect,region,parameter,value,unit,std_error,lower,upper,state
