@@ -1,0 +1,28 @@
+// One round of a diagnosis: every effect that a model lacks, tried on top of it.
+#pragma once
+
+#include <vector>
+
+#include "base/random.h"
+#include "diagnose/candidate.h"
+
+namespace hapsim {
+
+struct Round {
+  std::vector<Candidate> candidates;
+  std::vector<Finding> findings;   // one a candidate, same order
+  std::vector<Finding> ruled_out;  // without a fit
+  std::vector<Finding> untestable;
+};
+
+// Relative fall of the error on unseen positions.
+double held_out_fall(const Finding& finding);
+// Whether `effect` includes the effect `other` as a special case.
+bool contains(const Effect& effect, const std::string& other);
+
+// Estimates every effect, solves for the promising ones, and measures them all alike. Findings have
+// no verdict yet.
+Round try_all(const Baseline& base, Workspace& workspace, const Folds& folds,
+              const DiagnoseOptions& options, Random& random);
+
+}  // namespace hapsim
