@@ -12,6 +12,7 @@
 #include "model/forces.h"
 #include "model/full_simulation.h"
 #include "model/own_mesh.h"
+#include "model/regional_relaxation.h"
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
@@ -21,11 +22,10 @@
 namespace hapsim {
 namespace {
 
-// The positions of --contacts, to be solved finely for any material.
+// The positions of --contacts, to be solved finely for any material. `progress` must outlive it.
 std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh& body,
-                                       const Model& model) {
+                                       const Model& model, std::shared_ptr<Progress>& progress) {
   if (!arguments.given("--contacts")) return std::nullopt;
-  std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
   set_poisson_range(model, options);
   return make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false),
@@ -61,7 +61,9 @@ int run_live_mode(const Arguments& arguments) {
   }
   PreparedBodyOptions options;
   options.tool_radius = live_radius(arguments, metadata);
-  const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model);
+  std::shared_ptr<Progress> progress;
+  const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model, progress);
+  progress.reset();
   if (fine)
     options.contacts = [&](const MaterialSpec& material) {
       fine->body->solve(material);
@@ -131,8 +133,11 @@ void write_simulated(const Arguments& arguments, const Model& model, Recording& 
 }
 
 void write_forces(const Arguments& arguments, const Model& model, const Dataset& dataset,
-                  const Selection& all, const Eigen::VectorXd& f) {
+                  const Selection& all, const Eigen::VectorXd& f, double mesh_uncertainty = 0) {
   Recording out = dataset.recording;
+  out.metadata.remove("mesh_uncertainty");
+  if (mesh_uncertainty > 0)
+    out.metadata.set("mesh_uncertainty", fmt::format("{:.2g}", mesh_uncertainty));
   out.f.assign(out.rows(), Vec3::Zero());
   const std::vector<int> rows = stacked_rows(dataset, all);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -171,6 +176,9 @@ int run_own_mesh(const Arguments& arguments) {
     fields = field_rows(dataset, arguments.given("--rows") ? arguments.text("--rows") : "");
   const OwnMesh body(mesh, model, dataset.positions, dataset.recording.tool_radius(),
                      solver_kind(arguments));
+  if (arguments.given("--vtu") && body.is_regional())
+    fail_usage("the field of regions that relax each in its own way is not written",
+               "leave out --vtu, or give all of them the terms of region 0");
   set_normals(dataset, body.normals());
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
@@ -186,6 +194,33 @@ int run_own_mesh(const Arguments& arguments) {
                   dataset.rows(), dataset.positions.size(), mesh.tets.size(), body.patch_size(0),
                   body.solver().why));
   return 0;
+}
+
+// Each position on its own graded mesh.
+Eigen::VectorXd contact_mesh_forces(const Arguments& arguments, const Model& model,
+                                    const Workspace& w, const Selection& all) {
+  const MaterialSpec material = material_of(model);
+  const std::vector<RegionRelaxation> regions = regional_relaxation_of(model, material);
+  if (regions.empty()) {
+    w.body->solve(material);
+    return model_forces(model, w.dataset, all, *w.body, false).f;
+  }
+  const auto solve = [&](const MaterialSpec& sample) {
+    w.body->solve(sample);
+    std::vector<Eigen::Matrix3d> K;
+    for (std::size_t p = 0; p < w.dataset.positions.size(); ++p)
+      K.push_back(w.body->at(p, sample).K);
+    return K;
+  };
+  double misfit = 0;
+  const std::vector<PositionStiffness> stiffness =
+      regional_stiffness(regions, material, solve, misfit);
+  say(arguments, "hs-simulate",
+      fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
+                  "stiffness",
+                  stiffness.front().relaxing.size(), misfit));
+  const auto at = [&](std::size_t p) { return stiffness[p]; };
+  return model_forces(model, w.dataset, all, at, false).f;
 }
 
 int run(const Arguments& arguments) {
@@ -218,10 +253,9 @@ int run(const Arguments& arguments) {
   set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
   Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), false), options);
   progress.reset();
-  w.body->solve(material_of(model));
   const Selection all = all_episodes(w.dataset);
-  write_forces(arguments, model, w.dataset, all,
-               model_forces(model, w.dataset, all, *w.body, false).f);
+  write_forces(arguments, model, w.dataset, all, contact_mesh_forces(arguments, model, w, all),
+               w.body->mesh_uncertainty());
   say(arguments, "hs-simulate",
       fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", w.dataset.rows(),
                   w.dataset.positions.size(), effects_label(model),

@@ -16,15 +16,19 @@ inline ToolSpec simulate_specification() {
       "exactly for motion that is straight between samples "
       "and for any time steps.",
       "Measured and simulated recordings have one format, so the output feeds hs-compare and "
-      "hs-identify alike.",
+      "hs-identify alike. Its metadata mesh_uncertainty is the share of the force that the contact "
+      "meshes leave open, the median over the positions.",
       "With --live every motion line is answered by its force line at once, from a body prepared "
       "beforehand: its surface condensed to stiffnesses, put right to those of --contacts and "
       "interpolated in between. The header comes first, and comes back when the body is ready. "
       "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
       "which contacts are found. At the positions of --contacts the forces are those of the batch "
       "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
-      "live; there, rows of the viscoelastic effect with a region above 0 give each region its own "
-      "Maxwell elements.",
+      "live.",
+      "Rows of the viscoelastic effect with a region above 0 give each region Maxwell elements of "
+      "its own (none where it has no rows), in every mode; without such rows all regions have "
+      "those "
+      "of region 0. Some thirty bodies are solved for it, and the forces are exact in time.",
       "With --binary, motion and forces are records of fixed size, little-endian, without header "
       "or "
       "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "

@@ -9,11 +9,20 @@
 
 namespace hapsim {
 
-// K [N/m]; the body's force on the tool is -K u. The derivative by each free parameter of the
-// material, by its column.
+// A Maxwell element with a matrix for its modulus.
+struct MaxwellStiffness {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // [N/m]
+  double tau = 1;                               // [s]
+};
+
+// K [N/m]; the body's force on the tool is -K u, less K_j h_j for each Maxwell element beside it,
+// h_j its memory of u (fem/memory.h). The derivative by each free parameter of the material, by its
+// column.
 struct PositionStiffness {
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
   std::vector<std::pair<int, Eigen::Matrix3d>> by_column;
+  std::vector<MaxwellStiffness> relaxing;  // of regions that relax each in its own way; no
+                                           // derivatives
   void add(int column, const Eigen::Matrix3d& dK) {  // nothing where the parameter is not free
     if (column >= 0) by_column.emplace_back(column, dK);
   }

@@ -1,9 +1,11 @@
 #include "model/forces.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/parallel.h"
 #include "effects/catalogue.h"
+#include "fem/memory.h"
 #include "model/nearest_region.h"
 #include "model/relaxation.h"
 
@@ -25,12 +27,32 @@ ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& mate
   return contact;
 }
 
+bool relaxes(const EffectInstance& instance) {
+  std::vector<MaxwellTerm> terms;
+  return instance.effect->live(instance.values, 1, terms) && !terms.empty();
+}
+
 void release_in_air(const PressView& view, Signal& signal) {
   for (std::size_t i = 0; i < view.size(); ++i) {
     if (!view.in_air[i]) continue;
     const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
     signal.f.segment<3>(row).setZero();
     if (signal.df.cols() > 0) signal.df.middleRows(row, 3).setZero();
+  }
+}
+
+// What Maxwell elements beside the relaxed stiffness add, exact for straight motion.
+void add_memory(const PressView& view, const std::vector<MaxwellStiffness>& relaxing,
+                Signal& signal) {
+  const auto u = [&](std::size_t i) { return view.in_air[i] ? Vec3(Vec3::Zero()) : view.u[i]; };
+  for (const MaxwellStiffness& element : relaxing) {
+    Vec3 h = Vec3::Zero();
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      const double dt = i == 0 || view.t.empty() ? 0 : view.t[i] - view.t[i - 1];
+      const MemoryStep s = memory_step(dt, element.tau);
+      h = s.a * h + s.c * (u(i) - (i == 0 ? Vec3(Vec3::Zero()) : u(i - 1)));
+      signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) -= element.K * h;
+    }
   }
 }
 
@@ -58,6 +80,7 @@ Signal episode_forces(const std::vector<EffectInstance>& effects, const Material
     for (const auto& [column, dK] : s.by_column)
       signal.df.block<3, 1>(row, column) -= dK * view.u[i];
   }
+  add_memory(view, s.relaxing, signal);
   // In the air the body exerts nothing, whatever it remembers; the sensor still has its errors.
   bool at_sensor = false;
   for (const EffectInstance& i : effects) {
@@ -127,8 +150,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
 
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
                     const StiffnessAt& stiffness_at, bool derivatives, int threads) {
-  refuse_regional_relaxation(model);
-  const std::vector<EffectInstance> effects = effect_instances(model, derivatives);
+  std::vector<EffectInstance> effects = effect_instances(model, derivatives);
   const MaterialSpec material = material_of(model);
   const Eigen::Index columns =
       derivatives ? static_cast<Eigen::Index>(model.free_parameters().size()) : 0;
@@ -144,6 +166,13 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
     stiffness[episode.position] = stiffness_at(episode.position);
     known[episode.position] = 1;
   }
+  const bool apart = std::any_of(stiffness.begin(), stiffness.end(),
+                                 [](const auto& s) { return !s.relaxing.empty(); });
+  // The elements stand for all that relaxes.
+  if (apart)
+    std::erase_if(effects, relaxes);
+  else
+    refuse_regional_relaxation(model);
   Signal all{Eigen::VectorXd(total), Eigen::MatrixXd(total, columns)};
   const auto one = [&](std::size_t k) {
     const Episode& episode = dataset.episodes[selection[k]];

@@ -18,6 +18,7 @@
 #include "fem/unit_law.h"
 #include "model/forces.h"
 #include "model/nearest_region.h"
+#include "model/relaxation.h"
 
 namespace hapsim {
 namespace {
@@ -112,6 +113,7 @@ class Simulation {
         recording_(recording),
         options_(options),
         material_(material_of(model)),
+        regions_(regional_relaxation_of(model, material_)),
         radius_(recording.tool_radius()) {
     for (EffectInstance& i : effect_instances(model, false)) {
       if (i.effect->full(i.values, material_.modulus[0], spec_)) continue;
@@ -129,7 +131,6 @@ class Simulation {
     if (material_.local)
       fail_usage("the full simulation has no contacts that feel their own region alone",
                  "set local of regions to 0");
-    if (recording.t.empty()) spec_.terms.clear();
     for (const FeatureSpec& f : material_.features)
       if (f.feature.kind == Feature::kTransverse && spec_.finite)
         fail_usage("finite strain of a transversely isotropic body is not in the model",
@@ -192,15 +193,24 @@ class Simulation {
     }
     bool free_base = false;
     const BodyModel model = body_model(*s.mesh, free_base);
-    const std::vector<Relaxation> terms = [&] {
-      std::vector<Relaxation> r;
-      for (const MaxwellTerm& t : spec_.terms) r.push_back({t.share, t.tau});
-      return r;
-    }();
-    std::vector<std::vector<Relaxation>> relaxation;
-    if (!terms.empty()) relaxation.assign(model.laws.size(), terms);
-    s.body = std::make_unique<ToolBody>(model, tools, relaxation, free_base);
+    s.body = std::make_unique<ToolBody>(model, tools, relaxation_by_law(), free_base);
     result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
+  }
+
+  // One list a region, as the laws are.
+  std::vector<std::vector<Relaxation>> relaxation_by_law() const {
+    std::vector<std::vector<Relaxation>> result;
+    if (recording_.t.empty()) return result;
+    for (const RegionRelaxation& region : regions_) {
+      result.emplace_back();
+      for (const MaxwellModulus& t : region.terms)
+        result.back().push_back({t.modulus / region.modulus, t.tau});
+    }
+    if (!regions_.empty() || spec_.terms.empty()) return result;
+    result.resize(material_.modulus.size());
+    for (std::vector<Relaxation>& law : result)
+      for (const MaxwellTerm& t : spec_.terms) law.push_back({t.share, t.tau});
+    return result;
   }
 
   BodyModel body_model(const TetMesh& mesh, bool& free_base) const {
@@ -317,6 +327,7 @@ class Simulation {
   const Recording& recording_;
   const FullOptions& options_;
   MaterialSpec material_;
+  std::vector<RegionRelaxation> regions_;  // where they relax each in its own way
   double radius_;
   FullSpec spec_;
   std::vector<EffectInstance> around_;  // effects on the motion and of the sensor

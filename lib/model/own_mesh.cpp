@@ -9,6 +9,7 @@
 #include "geometry/field_vtu.h"
 #include "model/forces.h"
 #include "model/nearest_region.h"
+#include "model/regional_relaxation.h"
 
 namespace hapsim {
 namespace {
@@ -39,6 +40,14 @@ std::vector<MeshPatch> patches(const TetMesh& mesh, const std::vector<Vec3>& pos
                                double radius) {
   std::vector<MeshPatch> result;
   for (const Vec3& p : positions) result.push_back(patch_under_tool(mesh, p, radius));
+  return result;
+}
+
+std::vector<double> gains(const MaterialSpec& material, const std::vector<Vec3>& positions) {
+  std::vector<double> result;
+  for (const Vec3& p : positions)
+    result.push_back(
+        material.local ? material.modulus[static_cast<std::size_t>(region_at(material, p))] : 1);
   return result;
 }
 
@@ -73,13 +82,22 @@ OwnMesh::OwnMesh(const TetMesh& mesh, const Model& model, const std::vector<Vec3
       lame_(constants(mesh, material_)),
       press_(mesh, patches(mesh, positions, tool_radius), solver),
       solutions_(press_.solve(lame_)) {
-  for (const Vec3& p : positions)
-    gain_.push_back(
-        material_.local ? material_.modulus[static_cast<std::size_t>(region_at(material_, p))] : 1);
-}
-
-PositionStiffness OwnMesh::at(std::size_t position) const {
-  return {gain_[position] * solutions_[position].K, {}};
+  gain_ = gains(material_, positions);
+  const std::vector<RegionRelaxation> regions = regional_relaxation_of(model, material_);
+  if (regions.empty()) {
+    for (std::size_t p = 0; p < positions.size(); ++p)
+      stiffness_.push_back({gain_[p] * solutions_[p].K, {}, {}});
+    return;
+  }
+  const auto solve = [&](const MaterialSpec& material) {
+    const std::vector<double> gain = gains(material, positions);
+    std::vector<Eigen::Matrix3d> K;
+    for (const MeshPress::Solution& s : press_.solve(constants(mesh, material)))
+      K.push_back(gain[K.size()] * s.K);
+    return K;
+  };
+  double misfit = 0;
+  stiffness_ = regional_stiffness(regions, material_, solve, misfit);
 }
 
 std::vector<Vec3> OwnMesh::normals() const {
@@ -108,6 +126,9 @@ Eigen::Matrix3d OwnMesh::unit_stress(std::size_t tet, const Eigen::Matrix<double
 }
 
 void OwnMesh::write_field(std::ostream& out, const Episode& episode, std::size_t at) const {
+  if (is_regional())
+    fail_usage("the field of regions that relax each in its own way is not written",
+               "leave out --vtu, or give all of them the terms of region 0");
   const std::vector<MaxwellTerm> terms =
       relaxation_of(model_, material_, "the field of the body").common;
   const Memory memory = memory_at(episode.view, terms, at);

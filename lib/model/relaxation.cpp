@@ -38,43 +38,47 @@ int last_region(const Model& model) {
 
 }  // namespace
 
-Relaxation relaxation_of(const Model& model, const MaterialSpec& material,
-                         const std::string& asked) {
-  Relaxation relaxation;
+std::vector<RegionRelaxation> regional_relaxation_of(const Model& model,
+                                                     const MaterialSpec& material) {
   const int last = last_region(model);
-  const bool regional = last > 0;
-  if (regional)
-    for (const double modulus : material.modulus) relaxation.regional.push_back({modulus, {}});
+  if (last == 0) return {};
   if (last >= static_cast<int>(material.modulus.size()))
     fail_usage("region " + std::to_string(last) + " relaxes but has no modulus E",
                "give the effect elastic a row E of that region");
+  std::vector<RegionRelaxation> regions;
+  for (const double modulus : material.modulus) regions.push_back({modulus, {}});
+  for (const Effect* effect : catalogue())
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      std::vector<MaxwellTerm> terms;
+      terms_of(model, *effect, static_cast<int>(r), 1, terms);
+      for (const MaxwellTerm& t : terms)
+        if (t.share > 0) regions[r].terms.push_back({t.share, t.tau});
+    }
+  const bool relaxed = std::all_of(regions.begin(), regions.end(),
+                                   [](const RegionRelaxation& r) { return r.terms.empty(); });
+  return relaxed ? std::vector<RegionRelaxation>{} : regions;
+}
+
+ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
+                              const std::string& asked) {
+  ModelRelaxation relaxation;
+  relaxation.regional = regional_relaxation_of(model, material);
   for (const Effect* effect : catalogue()) {
     if (values_of(model, *effect, -1).empty()) continue;
     std::vector<MaxwellTerm> terms;
     if (!terms_of(model, *effect, -1, material.modulus[0], terms))
       fail_usage("the model has " + effect->card().name + ", which " + asked + " cannot do",
                  "leave it out, or fit a model without that effect");
-    if (!regional) {
+    if (last_region(model) == 0)
       relaxation.common.insert(relaxation.common.end(), terms.begin(), terms.end());
-      continue;
-    }
-    for (std::size_t r = 0; r < material.modulus.size(); ++r) {
-      terms.clear();
-      terms_of(model, *effect, static_cast<int>(r), 1, terms);
-      for (const MaxwellTerm& t : terms)
-        if (t.share > 0) relaxation.regional[r].terms.push_back({t.share, t.tau});
-    }
   }
-  if (std::all_of(relaxation.regional.begin(), relaxation.regional.end(),
-                  [](const RegionRelaxation& r) { return r.terms.empty(); }))
-    relaxation.regional.clear();
   return relaxation;
 }
 
 void refuse_regional_relaxation(const Model& model) {
   if (last_region(model) > 0)
     fail_usage("the model's regions relax each in its own way",
-               "simulate it with hs-simulate --live, or give all of them the terms of region 0");
+               "simulate it with hs-simulate, or give all of them the terms of region 0");
 }
 
 }  // namespace hapsim

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "model/forces.h"
 #include "model/nearest_region.h"
+#include "model/regional_relaxation.h"
 
 namespace hapsim {
 namespace {
@@ -65,7 +66,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
                            const PreparedBodyOptions& options) {
   const TetMesh mesh = corners_only(body);
   const MaterialSpec material = material_of(model);
-  const Relaxation relaxation = relaxation_of(model, material, "the real-time loop");
+  const ModelRelaxation relaxation = relaxation_of(model, material, "the real-time loop");
   FieldMaker maker(mesh, options);
   field_ = maker.field(material);
   surface_unknowns_ = maker.unknowns();
@@ -83,31 +84,19 @@ void PreparedBody::prepare_regional(
     const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
     const std::function<std::unique_ptr<StiffnessField>(const MaterialSpec&)>& field_for) {
   assert(terms_.empty());  // an effect's terms are common or regional
-  const RelaxationSpectrum spectrum(regions, kMostTerms);
-  const std::size_t vertices = field_->surface().vertices.size(), terms = spectrum.times().size();
-  const std::size_t samples = spectrum.moduli().size();
-  Eigen::MatrixXd values(static_cast<Eigen::Index>(samples),
-                         static_cast<Eigen::Index>(9 * vertices));
-  for (std::size_t k = 0; k < samples; ++k) {
-    MaterialSpec material = relaxed;
-    material.modulus = spectrum.moduli()[k];
+  const std::size_t vertices = field_->surface().vertices.size();
+  const auto solve = [&](const MaterialSpec& material) {
     const std::unique_ptr<StiffnessField> field = field_for(material);
-    for (std::size_t v = 0; v < vertices; ++v)
-      values.block<1, 9>(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(9 * v)) =
-          field->at_vertex(static_cast<int>(v)).reshaped().transpose();
-  }
-  const Eigen::MatrixXd parts = spectrum.parts(values);
-  maxwell_.resize(vertices * terms);
-  for (std::size_t v = 0; v < vertices; ++v) {
-    const auto column = static_cast<Eigen::Index>(9 * v);
-    for (std::size_t j = 0; j < terms; ++j)
-      maxwell_[v * terms + j] =
-          parts.block<1, 9>(static_cast<Eigen::Index>(j), column).reshaped(3, 3);
-    for (const Eigen::Index diagonal : {0, 4, 8})
-      misfit_ = std::max(
-          misfit_, spectrum.misfit(values.col(column + diagonal), parts.col(column + diagonal)));
-  }
-  for (const double tau : spectrum.times()) terms_.push_back({1, tau});
+    std::vector<Eigen::Matrix3d> K;
+    for (std::size_t v = 0; v < vertices; ++v) K.push_back(field->at_vertex(static_cast<int>(v)));
+    return K;
+  };
+  const std::vector<PositionStiffness> stiffness =
+      regional_stiffness(regions, relaxed, solve, misfit_);
+  for (const PositionStiffness& s : stiffness)
+    for (const MaxwellStiffness& element : s.relaxing) maxwell_.push_back(element.K);
+  for (const MaxwellStiffness& element : stiffness.front().relaxing)
+    terms_.push_back({1, element.tau});
 }
 
 void PreparedBody::maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) const noexcept {

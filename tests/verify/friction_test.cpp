@@ -11,13 +11,14 @@
 #include "fem/sphere_contact.h"
 #include "geometry/contact_mesh.h"
 #include "support/graded_block.h"
+#include "support/half_space.h"
 
 namespace hapsim {
 namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kFar = 80, kRadius = 20;  // half width and depth; tip; contact radius 1
+constexpr double kRadius = 20;  // of the tip; contact radius 1
 
 class Pressed {
  public:
@@ -48,22 +49,12 @@ class Pressed {
   }
   NonlinearBody body_;
 };
-
-// A block of 160 x 160 x 80 contact radii, its mesh graded to the contact's border, which faces
-// follow, with edges of `rim` there.
-TetMesh half_space(double rim) {
-  const ContactBase base =
-      make_contact_base(test::block_mesh({2 * kFar, 2 * kFar, kFar}, 8, 8, 4, 1));
-  TetMesh mesh = make_contact_mesh(base, {kFar, kFar, kFar}, 1, rim, 2.4 * rim).mesh;
-  for (Vec3& p : mesh.nodes) p -= Vec3(kFar, kFar, kFar);
-  return mesh;
-}
 const TetMesh& coarse() {
-  static const TetMesh mesh = half_space(1.0 / 4);
+  static const TetMesh mesh = test::half_space(1.0 / 4).mesh;
   return mesh;
 }
 const TetMesh& fine() {
-  static const TetMesh mesh = half_space(1.0 / 6);
+  static const TetMesh mesh = test::half_space(1.0 / 6).mesh;
   return mesh;
 }
 

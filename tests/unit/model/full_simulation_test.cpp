@@ -8,6 +8,7 @@
 #include "effects/catalogue.h"
 #include "expect_error.h"
 #include "model/forces.h"
+#include "model/own_mesh.h"
 #include "model/workspace.h"
 #include "support/block_mesh.h"
 
@@ -92,6 +93,59 @@ TEST(FullSimulation, LinearModelsAreTheCondensedOnes) {
     std::printf("full and condensed, %s: %.1e apart\n", rows.back().first.c_str(), off);
     EXPECT_LT(off, 1e-6) << rows.back().first;
   }
+}
+
+// Two halves with Maxwell elements of their own, condensed: exact for any step, where the whole body
+// integrated in time converges to it with the square of the step.
+TEST(FullSimulation, RegionsThatRelaxApartAreTheLimitOfItsSteps) {
+  Model model = model_of({{"elastic", {2e4, 0.4}}, {"viscoelastic", {1e4, 0.1}}});
+  const auto add = [&](const char* effect, const char* name, int region, double value) {
+    Parameter p = *model.find(effect, 0, name);
+    p.region = region;
+    p.value = value;
+    model.parameters.push_back(p);
+  };
+  add("elastic", "E", 1, 1e4);
+  add("viscoelastic", "E1", 1, 2e4);
+  add("viscoelastic", "tau1", 1, 0.5);
+  for (const int region : {0, 1})
+    for (Parameter p :
+         effect_rows(*find_effect("regions"), 1, {region == 0 ? 0.018 : 0.042, 0.025, 0})) {
+      if (p.name == "local" && region > 0) continue;
+      if (p.name != "local") {
+        p.name = p.name.substr(0, 1) + "1";
+        p.region = region;
+      }
+      p.state = ParameterState::kFixed;
+      model.parameters.push_back(p);
+    }
+  double error[2];
+  for (const int finer : {0, 1}) {
+    const int steps = finer == 1 ? 40 : 20;  // a ramp of 0.1 s and a hold of as long
+    std::vector<Vec3> way;
+    for (int i = 0; i <= 2 * steps; ++i)
+      way.push_back(std::min(1.0, static_cast<double>(i) / steps) * Vec3(2e-4, 0, -1e-3));
+    Recording r = motion(way, 0.1 / steps, {0.03, 0.025, 0.03});
+    r.metadata.set("tool_radius", "0.009");
+    const Dataset dataset = make_dataset(r);
+    const OwnMesh body(block(), model, dataset.positions, 0.009, SolverKind::kDirect);
+    EXPECT_TRUE(body.is_regional());
+    const Eigen::VectorXd f =
+        model_forces(
+            model, dataset, all_episodes(dataset), [&](std::size_t p) { return body.at(p); }, false)
+            .f;
+    FullOptions options;
+    options.own_mesh = true;
+    options.averaged = false;
+    const std::vector<Vec3> full = simulate_full(block(), model, r, options).force;
+    std::vector<Vec3> condensed;
+    for (Eigen::Index i = 0; i < f.size(); i += 3) condensed.push_back(f.segment<3>(i));
+    error[finer] = difference(full, condensed);
+    std::printf("regions that relax apart, %d steps: %.1e from the condensed forces\n", 2 * steps,
+                error[finer]);
+  }
+  EXPECT_LT(error[1], 1e-6);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 2, 0.3);
 }
 
 // Finite strain starts as the linear body, with what the elements of both laws differ by.

@@ -233,7 +233,7 @@ TEST(Batch, RefusesRegionsThatRelaxEachInItsOwnWay) {
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kUsage);
-    EXPECT_NE(std::string(error.what()).find("--live"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("hs-simulate"), std::string::npos) << error.what();
   }
 }
 
