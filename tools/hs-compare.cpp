@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "compare_report.h"
@@ -23,7 +24,9 @@ ToolSpec specification() {
       "Subtracts simulated from measured forces, row by row, and tells how large the difference "
       "is, "
       "how it compares with the sensor's noise, where it is largest, and what it depends on: "
-      "position, depth, speed, time since contact, session time, direction, loading or unloading.",
+      "position, depth, speed, time since contact, session time, temperature, direction, loading "
+      "or "
+      "unloading, the first or a later press of a place.",
       "The typical error (rmse) is the root of the mean of all squared component residuals: all "
       "rows, the three components pooled. So it compares with the noise of one component. Per cent "
       "are of the same mean of the measured force, and of its peak.",
@@ -81,6 +84,11 @@ ToolSpec specification() {
        .help = "effects.csv from hs-diagnose, shown in the report; NAME=FILE names the model "
                "version it belongs to, and may be repeated. The last one gives the verdict.",
        .repeatable = true},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "model.csv of the compared version: the report shows its parameters with their "
+               "intervals, and its regions on the body."},
       {.flag = "--title",
        .kind = OptionKind::kText,
        .value = "TEXT",
@@ -220,7 +228,7 @@ void add_provenance(const Arguments& arguments, const Recording& measured,
   add("measured", measured.name);
   for (const Version& v : versions)
     add("simulated", v.name + (v.name == v.recording.name ? "" : " = " + v.recording.name));
-  for (const char* flag : {"--body", "--history"})
+  for (const char* flag : {"--body", "--model", "--history"})
     if (arguments.given(flag)) add(flag + 2, arguments.text(flag));
   for (const std::string& diagnosis : arguments.list("--diagnosis")) add("diagnosis", diagnosis);
   const auto metadata = [&](const Recording& r, const std::string& of) {
@@ -254,8 +262,14 @@ Report make_report(const Arguments& arguments, const Recording& measured,
   report.good = diagnosed.empty() ? c.observations.empty() && c.size.rmse <= 1.15 * c.noise.value
                                   : diagnosed.rfind("complete", 0) == 0;
   for (const Observation& o : c.observations) report.sentences.push_back(o.sentence);
-  add_numbers(c, report);
-  add_body(c, map, report);
+  add_numbers(c, versions.back().recording.metadata, report);
+  std::optional<Model> model;
+  if (arguments.given("--model")) {
+    Input input(arguments.text("--model"));
+    model = read_model(input);
+    add_parameters(*model, report);
+  }
+  add_body(c, map, model ? &*model : nullptr, report);
   add_presses(measured, versions, c, report);
   add_residual_plots(measured, versions.back().recording, c, report);
   add_tables(c, report);

@@ -26,8 +26,9 @@ struct Grouping {
 };
 
 // All groupings the recording allows: position, depth, rate, contact-time, session-time, direction
-// (components), press-direction, phase (loading, hold, unloading, not pressed). Depth bins hold
-// about equally many rows, bounds rounded; bins of rate and time have bounds 1, 2, 5, 10, ...
+// (components), press-direction, cycle (first or later press of a place), temperature, phase
+// (loading, hold, unloading, not pressed). Depth bins hold about equally many rows, bounds rounded;
+// bins of rate and time have bounds 1, 2, 5, 10, ...
 std::vector<Grouping> make_groupings(const RowFacts& facts);
 
 // How measured and simulated force agree within one bin.

@@ -10,8 +10,9 @@ namespace hapsim {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kDepthBins = 6;
-constexpr double kSmallestShare = 0.03;  // of the rows, that a bin must hold
+constexpr int kDepthBins = 6, kTemperatureBins = 4;
+constexpr double kSameTemperature = 0.5;  // [K]
+constexpr double kSmallestShare = 0.03;   // of the rows, that a bin must hold
 
 double rounded(double value, int digits) {
   if (!(value > 0)) return 0;
@@ -118,6 +119,31 @@ Grouping by_press_direction(const RowFacts& facts) {
   return g;
 }
 
+// First presses of a place against later ones.
+Grouping by_cycle(const RowFacts& facts) {
+  Grouping g{"cycle", "By earlier presses of the place", Grouping::Kind::kRows, {}, {}};
+  g.bins = {{"in the first press of a place", kNone, kNone},
+            {"where it was pressed before", kNone, kNone}};
+  for (std::size_t i = 0; i < facts.press.size(); ++i)
+    g.bin.push_back(facts.phase[i] == Phase::kAir ? -1 : facts.repeated[facts.press[i]]);
+  return g;
+}
+
+// Degrees are no size: bounds are quantiles to a tenth of a degree, whatever the sign.
+Grouping by_temperature(const RowFacts& facts) {
+  std::vector<double> bounds;
+  const std::vector<double> sorted = pressed(facts, facts.temperature);
+  for (int b = 1; b < kTemperatureBins; ++b) {
+    const double bound =
+        0.1 *
+        std::round(10 * sorted[sorted.size() * static_cast<std::size_t>(b) / kTemperatureBins]);
+    if (bound > sorted.front() && (bounds.empty() || bound > bounds.back()))
+      bounds.push_back(bound);
+  }
+  return ranged("temperature", "By temperature", facts, facts.temperature, bounds,
+                {"degC", 1, "below", "above"});
+}
+
 Grouping by_phase(const RowFacts& facts) {
   Grouping g{"phase", "By phase", Grouping::Kind::kRows, {}, {}};
   for (const char* label : {"while loading", "while held", "while unloading", "not pressed"})
@@ -162,6 +188,11 @@ std::vector<Grouping> make_groupings(const RowFacts& facts) {
   result.push_back(direction);
   if (std::find(facts.sideways.begin(), facts.sideways.end(), 1) != facts.sideways.end())
     result.push_back(by_press_direction(facts));
+  if (std::find(facts.repeated.begin(), facts.repeated.end(), 1) != facts.repeated.end())
+    result.push_back(by_cycle(facts));
+  const std::vector<double> temperatures = pressed(facts, facts.temperature);
+  if (!temperatures.empty() && temperatures.back() - temperatures.front() > kSameTemperature)
+    result.push_back(by_temperature(facts));
   result.push_back(by_phase(facts));
   return result;
 }

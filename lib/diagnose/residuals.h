@@ -49,7 +49,9 @@ struct RowFacts {
   std::vector<Vec3> positions;  // distinct contact points (closer than 1e-4 m are one) [m]
   std::vector<Vec3> normal;     // one a position: unit, out of the body
   std::vector<char> sideways;   // one a press: deepest displacement over 20 degrees off the normal
+  std::vector<char> repeated;   // one a press: its position was pressed before
   std::vector<double> depth;    // |u| [m]
+  std::vector<double> temperature;  // [degC]; empty when not measured
   std::vector<Phase> phase;
   // The following are empty without a time column.
   std::vector<double> rate;         // |du/dt| over at least 20 ms [m/s]

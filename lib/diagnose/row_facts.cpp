@@ -133,6 +133,7 @@ RowFacts row_facts(const Recording& measured) {
   facts.position.resize(n);
   facts.depth.resize(n);
   facts.phase.resize(n);
+  facts.temperature = measured.temp;
   for (auto* timed : {&facts.rate, &facts.contact_age, &facts.session})
     timed->resize(measured.t.empty() ? 0 : n);
 
@@ -151,6 +152,7 @@ RowFacts row_facts(const Recording& measured) {
     set_ages(measured, press.rows, clock, last_time, facts);
     deepest.emplace_back(facts.position[press.rows.front()],
                          deepest_direction(measured, press.rows));
+    facts.repeated.push_back(!directions[deepest.back().first].empty());
     directions[deepest.back().first].push_back(deepest.back().second);
   }
   for (const auto& at_position : directions) facts.normal.push_back(outward(at_position));

@@ -24,6 +24,8 @@ std::string opening(const std::string& name) {
   if (name == "session-time") return "The error changes in the course of the session";
   if (name == "direction") return "The error depends on the force's direction";
   if (name == "press-direction") return "The error depends on which way the tool moves";
+  if (name == "cycle") return "The error differs between first and later presses of a place";
+  if (name == "temperature") return "The error changes with the temperature";
   return "The error differs between loading, hold and unloading";
 }
 
@@ -33,7 +35,10 @@ std::string where(const Grouping& grouping, int bin) {
   if (grouping.name == "contact-time" && label.rfind("in the first", 0) == 0)
     return label + " of each press";
   if (std::isdigit(static_cast<unsigned char>(label[0])))
-    return (grouping.name == "depth" || grouping.name == "rate" ? "at " : "from ") + label;
+    return (grouping.name == "depth" || grouping.name == "rate" || grouping.name == "temperature"
+                ? "at "
+                : "from ") +
+           label;
   return label;
 }
 

@@ -67,9 +67,10 @@ void write_report(std::ostream& out, const Report& report) {
          "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">"
       << "<title>" << escape_html(report.title) << "</title>\n<style>\n"
       << assets::kStyle << "</style></head><body>\n"
-      << page_header(report) << page_versions(report) << page_diagnosis(report) << page_body(report)
-      << page_presses(report) << page_residuals(report) << page_tables(report)
-      << page_reading(report) << page_provenance(report);
+      << page_header(report) << page_versions(report) << page_diagnosis(report)
+      << page_parameters(report) << page_body(report) << page_presses(report)
+      << page_residuals(report) << page_tables(report) << page_reading(report)
+      << page_provenance(report);
   if (!report.presses.empty()) out << "<script>\n" << assets::kPresses << "</script>\n";
   if (!report.body.faces.empty()) out << "<script>\n" << assets::kBody << "</script>\n";
   out << "</body></html>\n";

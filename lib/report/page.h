@@ -9,6 +9,7 @@ namespace hapsim {
 
 std::string page_header(const Report& report);
 std::string page_versions(const Report& report);
+std::string page_parameters(const Report& report);
 std::string page_diagnosis(const Report& report);
 std::string page_body(const Report& report);
 std::string page_presses(const Report& report);

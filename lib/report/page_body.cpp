@@ -38,38 +38,76 @@ std::string base64(const std::vector<T>& values) {
   return base64(values.data(), values.size() * sizeof(T));
 }
 
-double top_of_scale(const ReportBody& body) {
-  double top = 2 * body.noise;  // an error as small as the noise must not look alarming
-  for (const double e : body.position_error) top = std::max(top, e);
-  return nice_ticks(0, top > 0 ? top : 1, 5, true).upper;
+// Of a value on the layer's scale; kKinds: of its number.
+Rgb colour_of(const BodyLayer& layer, double value) {
+  if (std::isnan(value)) return kUnknownColour;
+  if (layer.scale == BodyLayer::Scale::kKinds)
+    return kind_colour(static_cast<std::size_t>(std::max(0.0, value)));
+  return layer.scale == BodyLayer::Scale::kSigned ? signed_colour(value / layer.top)
+                                                  : error_colour(value / layer.top);
 }
 
-std::string colour_bar(const ReportBody& body, double top, int height) {
-  const Ticks ticks = nice_ticks(0, top, 5, true);
-  const double bottom = height - 48, begin = 26, span = bottom - begin;
-  std::string out = fmt::format(
-      "<svg class='plot' viewBox='0 0 96 {0}' width='96' height='{0}'>"
-      "<text x='0' y='12' class='title'>error [N]</text>",
-      height);
-  out += "<defs><linearGradient id='errors' x1='0' y1='1' x2='0' y2='0'>";
-  for (int i = 0; i < 6; ++i)
-    out += fmt::format("<stop offset='{}' stop-color='{}'/>", i / 5.0, css(error_colour(i / 5.0)));
-  out += fmt::format("</linearGradient></defs><path d='M0 {}h20V{}h-20z' fill='url(#errors)'/>",
-                     begin, bottom);
+double bottom_of(const BodyLayer& layer) {
+  return layer.scale == BodyLayer::Scale::kSigned ? -layer.top : 0;
+}
+
+// The six colours between which the viewer mixes.
+std::array<Rgb, 6> stops_of(const BodyLayer& layer) {
+  std::array<Rgb, 6> stops;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const double share = static_cast<double>(i) / 5;
+    stops[i] = layer.scale == BodyLayer::Scale::kKinds
+                   ? kind_colour(i)
+                   : colour_of(layer, bottom_of(layer) + share * (layer.top - bottom_of(layer)));
+  }
+  return stops;
+}
+
+std::string kinds_bar(const BodyLayer& layer) {
+  std::string out;
+  for (int k = 0; k <= static_cast<int>(layer.top); ++k)
+    out += fmt::format("<path d='M0 {0}h20v14h-20z' fill='{1}'/><text x='28' y='{2}'>{3}</text>",
+                       26 + 22 * k, css(kind_colour(static_cast<std::size_t>(k))), 37 + 22 * k, k);
+  return out;
+}
+
+std::string scale_bar(const BodyLayer& layer, std::size_t number, int height) {
+  const double low = bottom_of(layer), bottom = height - 48, begin = 26, span = bottom - begin;
+  const Ticks ticks = nice_ticks(low, layer.top, 5, true);
+  const auto y_of = [&](double v) { return bottom - span * (v - low) / (layer.top - low); };
+  std::string out =
+      fmt::format("<defs><linearGradient id='scale{}' x1='0' y1='1' x2='0' y2='0'>", number);
+  const std::array<Rgb, 6> stops = stops_of(layer);
+  for (std::size_t i = 0; i < stops.size(); ++i)
+    out += fmt::format("<stop offset='{}' stop-color='{}'/>", static_cast<double>(i) / 5,
+                       css(stops[i]));
+  out += fmt::format("</linearGradient></defs><path d='M0 {}h20V{}h-20z' fill='url(#scale{})'/>",
+                     begin, bottom, number);
   for (const double v : ticks.at)
-    out += fmt::format("<text x='28' y='{:.1f}'>{}</text>", bottom - span * v / top + 4,
-                       ticks.label(v));
-  if (body.noise > 0) {
-    const double y = bottom - span * body.noise / top;
+    if (v >= low - 1e-9 * span && v <= layer.top * (1 + 1e-9))
+      out += fmt::format("<text x='28' y='{:.1f}'>{}</text>", y_of(v) + 4, ticks.label(v));
+  if (layer.mark > 0) {
+    const double y = y_of(layer.mark);
     out += fmt::format(
         "<path d='M-3 {0:.1f}h26' stroke='#1b2733' stroke-width='2'/>"
-        "<text x='60' y='{1:.1f}'>noise</text><path d='M57 {0:.1f}h-4' "
+        "<text x='60' y='{1:.1f}'>{2}</text><path d='M57 {0:.1f}h-4' "
         "class='zero' stroke-dasharray='2 2'/>",
-        y, y + 4);
+        y, y + 4, escape_html(layer.mark_name));
   }
+  return out;
+}
+
+std::string colour_bar(const BodyLayer& layer, std::size_t number, int height) {
+  std::string out = fmt::format(
+      "<svg class='plot bar{0}'{1} viewBox='0 0 110 {2}' width='110' height='{2}'>"
+      "<text x='0' y='12' class='title'>{3}</text>",
+      number, number == 0 ? "" : " hidden", height, escape_html(layer.title));
   out +=
-      fmt::format("<path d='M0 {}h20v14h-20z' fill='{}'/><text x='28' y='{}'>not measured</text>",
-                  height - 24, css(kUnknownColour), height - 13);
+      layer.scale == BodyLayer::Scale::kKinds ? kinds_bar(layer) : scale_bar(layer, number, height);
+  if (layer.local)
+    out +=
+        fmt::format("<path d='M0 {}h20v14h-20z' fill='{}'/><text x='28' y='{}'>not measured</text>",
+                    height - 24, css(kUnknownColour), height - 13);
   return out + "</svg>";
 }
 
@@ -96,20 +134,32 @@ Vec3 surface_normal(const ReportBody& body, const Vec3& p) {
   return sum.stableNormalized();
 }
 
-std::string viewer_data(const ReportBody& body, double top) {
+std::uint16_t share16(double x) {
+  return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(x, 0.0, 1.0)));
+}
+
+std::string layer_data(const BodyLayer& layer) {
+  std::vector<std::uint16_t> level;
+  const double low = bottom_of(layer);
+  const bool kinds = layer.scale == BodyLayer::Scale::kKinds;
+  for (const double v : layer.value)
+    level.push_back(share16(kinds ? std::fmod(v, 6) / 5 : (v - low) / (layer.top - low)));
+  std::string out = fmt::format("{{level:\"{}\",local:{},note:{},stops:[", base64(level),
+                                layer.local, script_string(layer.note));
+  for (const Rgb& c : stops_of(layer)) out += fmt::format("[{},{},{}],", c[0], c[1], c[2]);
+  return out + "]},";
+}
+
+std::string viewer_data(const ReportBody& body) {
   Vec3 low = body.vertices.front(), high = low;
   for (const Vec3& v : body.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
   const Vec3 size = (high - low).cwiseMax(1e-9), middle = 0.5 * (low + high);
-  std::vector<std::uint16_t> place, level, near;
+  std::vector<std::uint16_t> place, near;
   for (std::size_t i = 0; i < body.vertices.size(); ++i) {
     for (int k = 0; k < 3; ++k)
       place.push_back(static_cast<std::uint16_t>(
           std::lround(65535 * (body.vertices[i][k] - low[k]) / size[k])));
-    const auto share = [](double x) {
-      return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(x, 0.0, 1.0)));
-    };
-    level.push_back(share(body.error[i] / top));
-    near.push_back(share(1 - 0.5 * body.distance[i] / body.reach));  // half at the reach
+    near.push_back(share16(1 - 0.5 * body.distance[i] / body.reach));  // half at the reach
   }
   std::vector<std::uint32_t> faces;
   for (const auto& f : body.faces)
@@ -117,35 +167,37 @@ std::string viewer_data(const ReportBody& body, double top) {
 
   std::string out = fmt::format(
       "<script>window.hapsimBody={{size:[{:.6g},{:.6g},{:.6g}],vertices:"
-      "\"{}\",error:\"{}\",near:\"{}\",faces:\"{}\",stops:[",
-      size[0], size[1], size[2], base64(place), base64(level), base64(near), base64(faces));
-  for (int i = 0; i < 6; ++i) {
-    const Rgb c = error_colour(i / 5.0);
-    out += fmt::format("[{},{},{}],", c[0], c[1], c[2]);
-  }
-  out += fmt::format("],unknown:[{},{},{}],positions:[", kUnknownColour[0], kUnknownColour[1],
-                     kUnknownColour[2]);
-  const std::vector<int> rank = ranks(body.position_error);
+      "\"{}\",near:\"{}\",faces:\"{}\",unknown:[{},{},{}],layers:[",
+      size[0], size[1], size[2], base64(place), base64(near), base64(faces), kUnknownColour[0],
+      kUnknownColour[1], kUnknownColour[2]);
+  for (const BodyLayer& layer : body.layers) out += layer_data(layer);
+  out += "],positions:[";
+  const std::vector<int> rank = ranks(body.layers.front().at_position);
   for (std::size_t i = 0; i < body.positions.size(); ++i) {
     const Vec3 p = body.positions[i] - middle, n = surface_normal(body, body.positions[i]);
     const Vec3 mm = 1e3 * body.positions[i];
-    out += fmt::format(
-        "{{at:[{:.5f},{:.5f},{:.5f}],normal:[{:.3f},{:.3f},{:.3f}],rank:{},colour:"
-        "\"{}\",label:\"position ({:.1f}, {:.1f}, {:.1f}) mm: error {:.3g} N, number "
-        "{} from the worst\"}},",
-        p[0], p[1], p[2], n[0], n[1], n[2], rank[i],
-        css(error_colour(body.position_error[i] / top)), mm[0], mm[1], mm[2],
-        body.position_error[i], rank[i]);
+    std::string label =
+        fmt::format("position ({:.1f}, {:.1f}, {:.1f}) mm, number {} from the worst", mm[0], mm[1],
+                    mm[2], rank[i]);
+    out +=
+        fmt::format("{{at:[{:.5f},{:.5f},{:.5f}],normal:[{:.3f},{:.3f},{:.3f}],rank:{},colours:[",
+                    p[0], p[1], p[2], n[0], n[1], n[2], rank[i]);
+    for (const BodyLayer& layer : body.layers) {
+      out += "\"" + css(colour_of(layer, layer.at_position[i])) + "\",";
+      label += "; " + layer.at_position_text[i];
+    }
+    out += "],label:" + script_string(label) + "},";
   }
   return out + "]};</script>";
 }
 
 // Seen from above, x to the right and y up, to one scale.
-std::string plan(const ReportBody& body, double top) {
+std::string plan(const ReportBody& body) {
   Vec3 low = body.positions.front(), high = low;
   for (const Vec3& p : body.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
   const Vec3 span = (high - low).cwiseMax(1e-3);
   const double scale = std::min(560 / span[0], 380 / span[1]);
+  const BodyLayer& layer = body.layers.front();
   Plot plot(static_cast<int>(span[0] * 1.1 * scale) + 70,
             static_cast<int>(span[1] * 1.1 * scale) + 50, "x [mm]", "y [mm]");
   for (int side : {-1, 1}) {
@@ -155,7 +207,7 @@ std::string plan(const ReportBody& body, double top) {
   for (std::size_t i = 0; i < body.positions.size(); ++i) {
     const std::vector<double> x{1e3 * body.positions[i][0]}, y{1e3 * body.positions[i][1]};
     plot.points(x, y, {"#1b2733", 19});
-    plot.points(x, y, {css(error_colour(body.position_error[i] / top)), 16});
+    plot.points(x, y, {css(colour_of(layer, layer.at_position[i])), 16});
   }
   return "<figure>" + plot.svg() + "</figure>";
 }
@@ -164,22 +216,28 @@ std::string plan(const ReportBody& body, double top) {
 
 std::string page_body(const Report& report) {
   const ReportBody& body = report.body;
-  if (body.positions.empty()) return "";
-  const double top = top_of_scale(body);
+  if (body.positions.empty() || body.layers.empty()) return "";
   std::string out = "<section><h2>The body, coloured by error</h2>";
   if (body.faces.empty())
     return out +
            "<p class='note'>Pressed positions seen from above, coloured by the typical error of "
            "their presses. Give the body with --body for its surface.</p><div class='body3d "
            "plan'>" +
-           plan(body, top) + colour_bar(body, top, 400) + "</div></section>\n";
-  out +=
-      "<p class='note'>Typical error (rmse) of the presses near by; grey where nothing was pressed "
-      "near. Circles are the pressed positions, 1 to 3 the worst. <span id='tip'>Drag to turn, "
-      "ctrl + wheel to zoom, double click to reset.</span></p><div class='body3d'><div "
-      "class='stage' "
-      "id='stage'><canvas class='surface'></canvas><canvas class='marks'></canvas></div>";
-  return out + colour_bar(body, top, 480) + "</div>" + viewer_data(body, top) + "</section>\n";
+           plan(body) + colour_bar(body.layers.front(), 0, 400) + "</div></section>\n";
+  if (body.layers.size() > 1) {
+    out += "<div class='layers' id='layers'>colour by ";
+    for (std::size_t k = 0; k < body.layers.size(); ++k)
+      out += fmt::format("<button data-layer='{}'{}>{}</button>", k, k == 0 ? " class='on'" : "",
+                         escape_html(body.layers[k].name));
+    out += "</div>";
+  }
+  out += "<p class='note'><span id='layernote'>" + escape_html(body.layers.front().note) +
+         "</span> Circles are the pressed positions, 1 to 3 the worst; a click shows its presses "
+         "below. <span id='tip'>Drag to turn, ctrl + wheel to zoom, double click to "
+         "reset.</span></p><div class='body3d'><div class='stage' id='stage'><canvas "
+         "class='surface'></canvas><canvas class='marks'></canvas></div><div id='bars'>";
+  for (std::size_t k = 0; k < body.layers.size(); ++k) out += colour_bar(body.layers[k], k, 480);
+  return out + "</div></div>" + viewer_data(body) + "</section>\n";
 }
 
 }  // namespace hapsim

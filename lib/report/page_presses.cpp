@@ -30,7 +30,8 @@ std::string colour_of(const Report& report, std::size_t version) {
   return version_colour(report.curves.size() - 1 - version);
 }
 
-std::string small_plot(const Report& report, const ReportPress& press) {
+std::string small_plot(const Report& report, std::size_t index) {
+  const ReportPress& press = report.presses[index];
   Plot plot(362, 190, report.time_label, "force [N]");
   plot.title(fmt::format("press {}, error {:.3g} N", press.id, press.rmse));
   plot.include_y(0);
@@ -42,8 +43,8 @@ std::string small_plot(const Report& report, const ReportPress& press) {
   plot.line(press.t, along(press.measured), {"#1b2733", 1.6});
   for (std::size_t v = 0; v < press.simulated.size(); ++v)
     plot.line(press.t, along(press.simulated[v]), {colour_of(report, v), 1.5});
-  return "<figure>" + plot.svg() + "<div class='note'>" + escape_html(press.place) +
-         "</div></figure>";
+  return fmt::format("<figure data-press='{}' title='show all of it below'>", index) + plot.svg() +
+         "<div class='note'>" + escape_html(press.place) + "</div></figure>";
 }
 
 // Forces as integers of a common unit: short, and exact to a 20,000th of the largest.
@@ -73,7 +74,7 @@ std::string press_data(const Report& report) {
     out += script_string(colour_of(report, v)) + ",";
   out += "],presses:[\n";
   for (const ReportPress& p : report.presses) {
-    out += "{t:[";
+    out += fmt::format("{{p:{},t:[", p.position);
     for (std::size_t i = 0; i < p.t.size(); ++i)
       out += fmt::format("{}{:.6g}", i == 0 ? "" : ",", p.t[i]);
     out += "],m:" + components(p.measured) + ",s:[";
@@ -100,13 +101,13 @@ std::string page_presses(const Report& report) {
   const std::vector<std::size_t> order = by_error(report.presses);
   const std::size_t worst = std::min(kWorst, order.size());
   out += fmt::format("<h3>{} largest errors</h3><div class='multiples'>", worst);
-  for (std::size_t i = 0; i < worst; ++i) out += small_plot(report, report.presses[order[i]]);
+  for (std::size_t i = 0; i < worst; ++i) out += small_plot(report, order[i]);
   out += "</div>";
   if (order.size() > worst) {
     const std::size_t best = std::min(kBest, order.size() - worst);
     out += fmt::format("<h3>{} smallest errors</h3><div class='multiples'>", best);
     for (std::size_t i = order.size() - best; i < order.size(); ++i)
-      out += small_plot(report, report.presses[order[i]]);
+      out += small_plot(report, order[i]);
     out += "</div>";
   }
   out +=

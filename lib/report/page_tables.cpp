@@ -74,10 +74,20 @@ std::string page_versions(const Report& report) {
     plot.points(step, y, {colour, 7});
   };
   if (any(noise)) plot.line(step, noise, {"#5b6876", 1.5, 1, "5 4"}, "sensor noise");
+  if (std::isfinite(report.mesh_uncertainty))
+    plot.line(step, std::vector<double>(step.size(), report.mesh_uncertainty),
+              {"#8a6d3b", 1.5, 1, "2 3"}, "what the meshes leave open");
   series(rmse, "#d55e00", "error of the fit");
   series(held_out, "#0072b2", "error on unseen positions");
   plot.integer_x();
   return out + "<figure>" + plot.svg() + "</figure></section>\n";
+}
+
+std::string page_parameters(const Report& report) {
+  if (report.parameters.rows.empty()) return "";
+  return "<section><h2>Parameters of the model</h2><p class='note'>" +
+         escape_html(report.parameters.caption) + "</p>" + table(report.parameters, "") +
+         "</section>\n";
 }
 
 namespace {

@@ -7,21 +7,47 @@
 
 namespace hapsim {
 
-Rgb error_colour(double share) {
-  static constexpr std::array<std::array<double, 3>, 6> kStops{{{255, 245, 214},
-                                                                {253, 214, 137},
-                                                                {245, 164, 79},
-                                                                {222, 104, 57},
-                                                                {171, 45, 50},
-                                                                {95, 16, 47}}};
-  const double x = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), kStops.size() - 2);
+namespace {
+
+using Stops = std::array<std::array<double, 3>, 6>;
+
+Rgb between(const Stops& stops, double share) {
+  const double x = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), stops.size() - 2);
   const double part = x - static_cast<double>(i);
   Rgb colour{};
   for (int k = 0; k < 3; ++k)
     colour[k] =
-        static_cast<std::uint8_t>(std::lround((1 - part) * kStops[i][k] + part * kStops[i + 1][k]));
+        static_cast<std::uint8_t>(std::lround((1 - part) * stops[i][k] + part * stops[i + 1][k]));
   return colour;
+}
+
+}  // namespace
+
+Rgb error_colour(double share) {
+  static constexpr Stops kStops{{{255, 245, 214},
+                                 {253, 214, 137},
+                                 {245, 164, 79},
+                                 {222, 104, 57},
+                                 {171, 45, 50},
+                                 {95, 16, 47}}};
+  return between(kStops, share);
+}
+
+Rgb signed_colour(double share) {
+  static constexpr Stops kStops{
+      {{5, 48, 97}, {67, 147, 195}, {214, 230, 240}, {250, 224, 208}, {214, 96, 77}, {103, 0, 31}}};
+  return between(kStops, 0.5 + 0.5 * share);
+}
+
+Rgb kind_colour(std::size_t k) {
+  static constexpr std::array<Rgb, 6> kColours{{{86, 180, 233},
+                                                {230, 159, 0},
+                                                {0, 158, 115},
+                                                {204, 121, 167},
+                                                {240, 228, 66},
+                                                {0, 114, 178}}};
+  return kColours[k % kColours.size()];
 }
 
 std::string css(const Rgb& colour) {

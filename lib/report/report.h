@@ -35,6 +35,7 @@ struct ReportVersion {
 
 struct ReportPress {
   int id = 0;
+  int position = -1;  // index into ReportBody::positions, -1: none
   std::string place;
   double rmse = 0;                           // [N]
   Vec3 direction = Vec3(0, 0, 1);            // of the force, for the small plots
@@ -50,15 +51,33 @@ struct ResidualPlot {
   std::vector<double> centre, mean, error;  // of bins; error: one standard error
 };
 
+// One quantity that the body is coloured by.
+struct BodyLayer {
+  enum class Scale {
+    kSize,    // pale to dark, from 0
+    kSigned,  // blue below 0, red above
+    kKinds    // whole numbers, a colour each
+  };
+  std::string name;   // of the button: "error"
+  std::string title;  // of the colour bar: "error [N]"
+  std::string note;   // one sentence
+  Scale scale = Scale::kSize;
+  double top = 1;                             // of the scale; kSigned: from -top
+  double mark = 0;                            // a value to mark on the bar; 0: none
+  std::string mark_name;                      // "noise"
+  bool local = true;                          // grey beyond the reach of the positions
+  std::vector<double> value;                  // one a vertex
+  std::vector<double> at_position;            // one a position
+  std::vector<std::string> at_position_text;  // "error 0.12 N"
+};
+
 struct ReportBody {
   std::vector<Vec3> vertices;             // [m]
   std::vector<std::array<int, 3>> faces;  // may be empty: only the positions are shown
-  std::vector<double> error;              // one a vertex [N]
   std::vector<double> distance;           // one a vertex: to the nearest position [m]
-  double reach = 1;                       // [m]; beyond it the surface is grey
+  double reach = 1;                       // [m]; beyond it local layers are grey
   std::vector<Vec3> positions;            // [m]
-  std::vector<double> position_error;     // [N]
-  double noise = 0;                       // [N], marked on the colour bar
+  std::vector<BodyLayer> layers;          // the first is the error, and is shown first
 };
 
 struct DiagnosisRow {
@@ -80,8 +99,10 @@ struct Report {
   bool good = false;    // colours the verdict
   std::vector<KeyNumber> numbers;
   std::vector<std::string> sentences;
-  ReportTable history;  // no rows: not shown
+  ReportTable history;     // no rows: not shown
+  ReportTable parameters;  // no rows: not shown
   std::vector<ReportVersion> versions;
+  double mesh_uncertainty = std::numeric_limits<double>::quiet_NaN();  // [N]
   std::vector<ReportDiagnosis> diagnoses;
   ReportBody body;
   std::vector<std::string> curves;  // names of the simulated versions, the compared one last

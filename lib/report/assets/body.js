@@ -1,13 +1,15 @@
-// The surface coloured by error: drag to turn, ctrl + wheel to zoom, double click to reset.
+// The surface coloured by a layer: drag to turn, ctrl + wheel to zoom, double click to reset, click on
+// a position for its presses.
 (function () {
   const data = window.hapsimBody, stage = document.getElementById("stage");
   if (!data || !stage) return;
   const bytes = s => Uint8Array.from(atob(s), c => c.charCodeAt(0)).buffer;
-  const q = new Uint16Array(bytes(data.vertices)), level = new Uint16Array(bytes(data.error)), near = new Uint16Array(bytes(data.near));
+  const q = new Uint16Array(bytes(data.vertices)), near = new Uint16Array(bytes(data.near));
   const face = new Uint32Array(bytes(data.faces));
   const size = data.size, at = (i, k) => (q[3 * i + k] / 65535 - 0.5) * size[k];
-  let half = 0;
-  for (let i = 0; i < level.length; ++i) half = Math.max(half, Math.hypot(at(i, 0), at(i, 1), at(i, 2)));
+  for (const layer of data.layers) layer.level = new Uint16Array(bytes(layer.level));
+  let half = 0, shown = 0, chosen = -1;
+  for (let i = 0; i < near.length; ++i) half = Math.max(half, Math.hypot(at(i, 0), at(i, 1), at(i, 2)));
 
   // Normals smooth across small angles only, so that edges of the body stay edges.
   const count = face.length, normal = new Float32Array(face.length), used = new Map();
@@ -27,7 +29,13 @@
       if (dot > 0.75) for (let k = 0; k < 3; ++k) n[k] += normal[g + k];
     }
     const l = Math.hypot(...n) || 1;
-    corner.set([at(v, 0), at(v, 1), at(v, 2), n[0] / l, n[1] / l, n[2] / l, level[v] / 65535, near[v] / 65535], 8 * i);
+    corner.set([at(v, 0), at(v, 1), at(v, 2), n[0] / l, n[1] / l, n[2] / l, 0, 0], 8 * i);
+  }
+  function paint(layer) {
+    for (let i = 0; i < count; ++i) {
+      corner[8 * i + 6] = layer.level[face[i]] / 65535;
+      corner[8 * i + 7] = layer.local ? near[face[i]] / 65535 : 1;
+    }
   }
 
   const canvas = stage.querySelector("canvas.surface"), over = stage.querySelector("canvas.marks");
@@ -52,13 +60,11 @@
     gl.linkProgram(program);
     gl.useProgram(program);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, corner, gl.STATIC_DRAW);
     [["place", 3, 0], ["normal", 3, 12], ["value", 2, 24]].forEach(([name, n, offset]) => {
       const where = gl.getAttribLocation(program, name);
       gl.enableVertexAttribArray(where);
       gl.vertexAttribPointer(where, n, gl.FLOAT, false, 32, offset);
     });
-    gl.uniform3fv(gl.getUniformLocation(program, "stops"), data.stops.flat().map(v => v / 255));
     gl.uniform3fv(gl.getUniformLocation(program, "unknown"), data.unknown.map(v => v / 255));
     gl.enable(gl.DEPTH_TEST);
   }
@@ -70,6 +76,19 @@
   }
   const project = (p, r) => r.map(row => row[0] * p[0] + row[1] * p[1] + row[2] * p[2]);
   let marks = [];
+
+  function show(k) {
+    const layer = data.layers[shown = k];
+    paint(layer);
+    if (gl) {
+      gl.bufferData(gl.ARRAY_BUFFER, corner, gl.STATIC_DRAW);
+      gl.uniform3fv(gl.getUniformLocation(program, "stops"), layer.stops.flat().map(v => v / 255));
+    }
+    document.getElementById("layernote").textContent = layer.note;
+    document.querySelectorAll("#layers button").forEach((b, i) => b.classList.toggle("on", i === k));
+    document.querySelectorAll("#bars svg").forEach((bar, i) => bar.toggleAttribute("hidden", i !== k));
+    draw();
+  }
 
   function draw() {
     const ratio = window.devicePixelRatio || 1, w = stage.clientWidth, h = stage.clientHeight;
@@ -90,12 +109,15 @@
     data.positions.forEach((p, i) => {
       if (gl && project(p.normal, r)[2] < 0.02) return;
       const v = project(p.at, r), x = w / 2 + v[0] * unit, y = h / 2 - v[1] * unit;
-      marks.push({ x, y, p });
+      marks.push({ x, y, p, i });
       pen.beginPath();
       pen.arc(x, y, p.rank <= 3 ? 7 : 5, 0, 7);
-      pen.fillStyle = p.colour; pen.fill();
+      pen.fillStyle = p.colours[shown]; pen.fill();
       pen.lineWidth = 3; pen.strokeStyle = "#fff"; pen.stroke();
       pen.lineWidth = 1.5; pen.strokeStyle = "#1b2733"; pen.stroke();
+      if (i === chosen) {
+        pen.beginPath(); pen.arc(x, y, 12, 0, 7); pen.lineWidth = 2; pen.strokeStyle = "#1b2733"; pen.stroke();
+      }
       if (p.rank <= 3) {
         pen.font = "600 13px sans-serif"; pen.lineWidth = 3.5; pen.strokeStyle = "#fff"; pen.fillStyle = "#1b2733";
         pen.strokeText(p.rank, x + 9, y - 7); pen.fillText(p.rank, x + 9, y - 7);
@@ -115,19 +137,29 @@
       pen.textAlign = "right"; pen.fillText((span * 1000) + " mm", w - 20, h - 28); pen.textAlign = "left";
     }
   }
-  let drag = null;
-  stage.onpointerdown = e => { drag = [e.clientX, e.clientY]; stage.setPointerCapture(e.pointerId); };
-  stage.onpointerup = stage.onpointercancel = () => { drag = null; };
+  const hit_at = e => {
+    const box = stage.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
+    return marks.find(m => Math.hypot(m.x - x, m.y - y) < 9);
+  };
+  let drag = null, turned = 0;
+  stage.onpointerdown = e => { drag = [e.clientX, e.clientY]; turned = 0; stage.setPointerCapture(e.pointerId); };
+  stage.onpointercancel = () => { drag = null; };
+  stage.onpointerup = e => {
+    const hit = drag && turned < 4 && hit_at(e);
+    drag = null;
+    if (hit) window.dispatchEvent(new CustomEvent("hapsim-position", { detail: hit.i }));
+  };
+  window.addEventListener("hapsim-press", e => { chosen = e.detail; draw(); });
   stage.onpointermove = e => {
     if (drag) {
       view.yaw += (e.clientX - drag[0]) * 0.008;
       view.pitch = Math.max(-1.57, Math.min(1.57, view.pitch + (e.clientY - drag[1]) * 0.008));
+      turned += Math.hypot(e.clientX - drag[0], e.clientY - drag[1]);
       drag = [e.clientX, e.clientY];
       draw();
       return;
     }
-    const box = stage.getBoundingClientRect(), x = e.clientX - box.left, y = e.clientY - box.top;
-    const hit = marks.find(m => Math.hypot(m.x - x, m.y - y) < 9);
+    const hit = hit_at(e);
     tip.textContent = hit ? hit.p.label : "Drag to turn, ctrl + wheel to zoom, double click to reset.";
   };
   stage.addEventListener("wheel", e => {
@@ -139,5 +171,6 @@
   stage.ondblclick = () => { view = { ...start }; draw(); };
   window.addEventListener("resize", draw);
   if (!gl) tip.textContent = "This browser has no WebGL 2: only the pressed positions are shown.";
-  draw();
+  document.querySelectorAll("#layers button").forEach((b, k) => { b.onclick = () => show(k); });
+  show(0);
 })();

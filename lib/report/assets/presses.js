@@ -80,8 +80,24 @@
         panels.map(q => q.name + "  " + q.curves.map(c => c.name + " " + text(c.y[best], 3) + " N").join(", ")).join("   |   ");
     };
   }
-  const step = by => { pick.selectedIndex = (pick.selectedIndex + by + pick.length) % pick.length; draw(); };
-  pick.onchange = draw;
+  // Another press, of the plots, the list, or the position that was clicked on the body.
+  const choose = index => {
+    pick.value = String(index);
+    draw();
+    window.dispatchEvent(new CustomEvent("hapsim-press", { detail: data.presses[index].p }));
+  };
+  const reveal = () => host.parentElement.querySelector(".picker").scrollIntoView({ block: "nearest" });
+  document.querySelectorAll("figure[data-press]").forEach(f => {
+    f.onclick = () => { choose(Number(f.dataset.press)); reveal(); };
+  });
+  window.addEventListener("hapsim-position", e => {
+    const there = data.presses.map((p, i) => i).filter(i => data.presses[i].p === e.detail);
+    if (there.length === 0) return;
+    choose(there[(there.indexOf(Number(pick.value)) + 1) % there.length]);
+    reveal();
+  });
+  const step = by => choose((pick.selectedIndex + by + pick.length) % pick.length);
+  pick.onchange = () => choose(pick.selectedIndex);
   document.getElementById("before").onclick = () => step(-1);
   document.getElementById("after").onclick = () => step(1);
   draw();

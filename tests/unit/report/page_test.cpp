@@ -17,12 +17,21 @@ Report full_report(const std::string& word) {
   r.diagnoses = {{word, {{word, word, word, {{word, word}}, {{word, word}}, word}}}};
   r.body.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   r.body.faces = {{0, 1, 2}};
-  r.body.error = {0, 1, 2};
   r.body.distance = {0, 1, 2};
   r.body.positions = {{0, 0, 0}};
-  r.body.position_error = {1};
+  r.body.layers = {{.name = word,
+                    .title = word,
+                    .note = word,
+                    .mark = 0.5,
+                    .mark_name = word,
+                    .value = {0, 1, 2},
+                    .at_position = {1},
+                    .at_position_text = {word}}};
+  r.body.layers.push_back(r.body.layers.front());
+  r.parameters = {word, {word}, {{word}}, {}};
   r.curves = {word};
-  r.presses = {{1, word, 0.1, {0, 0, 1}, {0, 1}, {{0, 0, 0}, {0, 0, 1}}, {{{0, 0, 0}, {0, 0, 1}}}}};
+  r.presses = {
+      {1, 0, word, 0.1, {0, 0, 1}, {0, 1}, {{0, 0, 0}, {0, 0, 1}}, {{{0, 0, 0}, {0, 0, 1}}}}};
   r.time_label = word;
   r.residuals = {{word, {0, 1}, {0, 1}, {0.5}, {0.5}, {0.1}}};
   r.tables = {{word, {word, "n"}, {{word, "1"}}, {0.5}}, {word, {word, "n"}, {{word, "1"}}, {}}};
@@ -52,9 +61,10 @@ TEST(Page, NeedsNoNetwork) {
 TEST(Page, SectionsComeInOrder) {
   const std::string text = page(full_report("word"));
   std::size_t last = 0;
-  for (const char* title : {"Model versions and their errors", "Which physical effect is missing",
-                            "The body, coloured", "Force over time", "Residual along",
-                            "Where the error is", "How to read", "Where this comes"}) {
+  for (const char* title :
+       {"Model versions and their errors", "Which physical effect is missing",
+        "Parameters of the model", "The body, coloured", "Force over time", "Residual along",
+        "Where the error is", "How to read", "Where this comes"}) {
     const std::size_t at = text.find(std::string("<h2>") + title);
     ASSERT_NE(at, std::string::npos) << title;
     EXPECT_GT(at, last);
