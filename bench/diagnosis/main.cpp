@@ -1,17 +1,19 @@
 // Trials of the diagnosis: effects x sizes x seeds. The forces come from another body (the exact
 // shape, finer meshes) than the one that is diagnosed (made from the scan), with a random relative
 // error of each position's stiffness on top. See run.sh.
-//   bench_diagnosis DIAGNOSED.ply TRUE.ply MOTION.csv RESULTS.csv SEEDS LEVELS [TRUTH...]
+//   bench_diagnosis DIAGNOSED.ply TRUE.ply MOTION.csv RESULTS.csv FROM:TO LOW:HIGH [TRUTH...]
+// Seeds FROM to TO, each with a level drawn between LOW and HIGH: the error, over the noise, that
+// what is hidden leaves of the model that is diagnosed. A truth `nothing*` means all that begin so.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <ctime>
+#include <map>
 #include <set>
-#include <sstream>
 
 #include "base/error.h"
 #include "diagnose/diagnose.h"
+#include "effects/catalogue.h"
 #include "geometry/tetmesh.h"
 #include "summary.h"
 #include "truths.h"
@@ -23,11 +25,28 @@ constexpr double kNoise = 0.01;           // [N] per component
 constexpr double kStiffnessError = 0.01;  // relative, of each position and direction
 constexpr double kTrueRim = 0.08;         // finer than what is diagnosed
 
-Recording motion(const std::string& path, bool open) {
+Recording first_presses(const Recording& all, int count) {
+  Recording some = all;
+  const std::vector<Press> presses = all.presses();
+  std::vector<std::size_t> rows;
+  for (int k = 0; k < count; ++k)
+    rows.insert(rows.end(), presses[k].rows.begin(), presses[k].rows.end());
+  const auto keep = [&](auto& values) {
+    if (values.empty()) return;
+    const auto before = values;
+    values.resize(rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) values[i] = before[rows[i]];
+  };
+  keep(some.line), keep(some.press), keep(some.t), keep(some.position), keep(some.u), keep(some.f);
+  keep(some.temp), keep(some.contact);
+  return some;
+}
+
+Recording motion(const std::string& path, const Truth& truth) {
   Input input(path);
   Recording r = read_recording(input, false);
   r.f.assign(r.rows(), Vec3::Zero());
-  if (open) r.contact.clear();
+  if (truth.open) r.contact.clear();
   // Each press at its own temperature, in no order; the thermometer has noise.
   Random random(5);
   r.temp.resize(r.rows());
@@ -35,7 +54,7 @@ Recording motion(const std::string& path, bool open) {
     const double t = 20 + 10 * random.uniform();
     for (const int row : press.rows) r.temp[row] = t + 0.05 * random.normal();
   }
-  return r;
+  return truth.presses > 0 ? first_presses(r, truth.presses) : r;
 }
 
 TetMesh body(const std::string& path) {
@@ -47,22 +66,48 @@ struct Pair {
   Workspace truth, diagnosed;
 };
 
-Pair make_pair(const std::string& diagnosed, const std::string& truth, const std::string& path,
-               bool open) {
-  WorkspaceOptions options;
-  options.noise = kNoise;
-  options.cache = default_cache_directory();
-  WorkspaceOptions finer = options;
-  finer.rim_edge = kTrueRim;
-  finer.nu_low = finer.nu_high = true_base({}).find("elastic", 0, "nu")->value;
-  return {make_workspace(body(truth), motion(path, open), finer),
-          make_workspace(body(diagnosed), motion(path, open), options)};
+// Bodies prepared once for each kind of recording.
+class Pairs {
+ public:
+  Pairs(const std::string& diagnosed, const std::string& truth, const std::string& path)
+      : diagnosed_(body(diagnosed)), truth_(body(truth)), path_(path) {}
+  Pair& of(const Truth& truth) {
+    const auto [it, fresh] = pairs_.try_emplace({truth.open, truth.presses});
+    if (!fresh) return it->second;
+    WorkspaceOptions options;
+    options.noise = kNoise;
+    options.cache = default_cache_directory();
+    WorkspaceOptions finer = options;
+    finer.rim_edge = kTrueRim;
+    finer.nu_low = finer.nu_high = true_base({}).find("elastic", 0, "nu")->value;
+    options.draft = true;  // as hs-diagnose
+    it->second = {make_workspace(truth_, motion(path_, truth), finer),
+                  make_workspace(diagnosed_, motion(path_, truth), options)};
+    return it->second;
+  }
+
+ private:
+  TetMesh diagnosed_, truth_;
+  std::string path_;
+  std::map<std::pair<bool, int>, Pair> pairs_;
+};
+
+// What the sensor adds.
+void add_noise(NoiseKind kind, const Episode& e, Random& random, Eigen::Ref<Eigen::VectorXd> f) {
+  constexpr double kMemory = 0.9, kOutliers = 0.01, kFarOff = 15;
+  Vec3 last = Vec3::Zero();
+  for (std::size_t i = 0; i < e.rows.size(); ++i) {
+    Vec3 n(random.normal(), random.normal(), random.normal());
+    if (kind == NoiseKind::kCorrelated && i > 0)
+      n = kMemory * last + std::sqrt(1 - kMemory * kMemory) * n;
+    last = n;
+    if (kind == NoiseKind::kOutliers && random.uniform() < kOutliers) n *= kFarOff;
+    f.segment<3>(3 * static_cast<Eigen::Index>(i)) += kNoise * n;
+  }
 }
 
-// Forces of the truth, each position's with a symmetric relative error, and noise.
-Eigen::VectorXd measured(const Truth& truth, const Workspace& w, double strength, int seed) {
-  Random draw(1000 + static_cast<std::uint64_t>(seed));
-  Eigen::VectorXd f = truth.forces(w, true_base(truth.base), strength, draw);
+// Each position's forces with a symmetric relative error, and noise.
+void measure(NoiseKind noise, const Workspace& w, int seed, Eigen::VectorXd& f) {
   Random random(static_cast<std::uint64_t>(seed));
   std::vector<Eigen::Matrix3d> error;
   for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) {
@@ -73,79 +118,144 @@ Eigen::VectorXd measured(const Truth& truth, const Workspace& w, double strength
     error.push_back(Eigen::Matrix3d::Identity() + S);
   }
   Eigen::Index at = 0;
-  for (const Episode& e : w.dataset.episodes)
-    for (std::size_t i = 0; i < e.rows.size(); ++i, at += 3) {
-      f.segment<3>(at) = (error[e.position] * f.segment<3>(at)).eval();
-      for (int k = 0; k < 3; ++k) f[at + k] += kNoise * random.normal();
-    }
-  return f;
+  for (const Episode& e : w.dataset.episodes) {
+    const auto n = 3 * static_cast<Eigen::Index>(e.rows.size());
+    for (Eigen::Index i = at; i < at + n; i += 3)
+      f.segment<3>(i) = (error[e.position] * f.segment<3>(i)).eval();
+    add_noise(noise, e, random, f.segment(at, n));
+    at += n;
+  }
 }
 
-Trial run(const Truth& truth, Pair& pair, double level, int seed) {
-  Trial trial{truth.name, truth.effect, level, seed, "", "", "", 0};
-  const std::uint64_t draw = 1000 + static_cast<std::uint64_t>(seed);
-  const bool sized = !truth.effect.empty() && truth.effect != "slack";
-  const double strength = sized ? strength_for(truth, pair.truth, level * kNoise, draw) : 1;
-  if (strength < 0) {
+struct Drawn {
+  Eigen::VectorXd forces;  // empty: too small
+  Model model;             // no parameters when the truth is none of the catalogue's
+};
+
+Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w, double level,
+           int seed) {
+  const std::uint64_t own = 1000 + static_cast<std::uint64_t>(seed);
+  Drawn drawn;
+  const Model base = true_base(truth.base);
+  if (!truth.parts.empty()) {
+    drawn.model = base;
+    for (const std::string& name : truth.parts) {
+      const Truth& part = find_truth(all, name);
+      const double strength = strength_for(part, w, level * kNoise, own);
+      if (strength < 0) return {};
+      drawn.model = part.model(drawn.model, strength);
+    }
+    drawn.forces = forces_of(w, drawn.model);
+    return drawn;
+  }
+  double strength = truth.effects.empty() ? 0 : 1 + (seed - 1) % std::max(truth.sizes, 1);
+  if (!truth.effects.empty() && truth.sizes == 0)
+    strength = strength_for(truth, w, level * kNoise, own);
+  if (strength < 0) return {};
+  Random random(own);
+  drawn.forces = truth.forces(w, base, strength, random);
+  if (truth.model && strength > 0) drawn.model = truth.model(base, strength);
+  return drawn;
+}
+
+// How many of the sizes that were found hold the truth in their 95 % intervals. Orientations have
+// twins (an axis and its reverse) and are not counted.
+void count_sizes(const Model& found, const Model& truth, Trial& trial) {
+  for (const Parameter& p : found.parameters) {
+    if (p.effect == "elastic" || p.state != ParameterState::kFree) continue;
+    const Parameter* exact = truth.find(p.effect, p.region, p.name);
+    if (exact == nullptr || (p.unit == "rad" && require_effect(p.effect).card().solved)) continue;
+    ++trial.sized;
+    trial.covered += std::abs(p.value - exact->value) <= 1.96 * p.std_error;
+  }
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, double level, int seed,
+          bool verbose) {
+  Pair& pair = pairs.of(truth);
+  Trial trial;
+  trial.truth = truth.name;
+  trial.effects = joined(truth.effects);
+  trial.seed = seed;
+  Drawn drawn = draw(truth, all, pair.truth, level, seed);
+  if (drawn.forces.size() == 0) {
     trial.verdict = "too small";
     return trial;
   }
+  trial.level = misfit_of(drawn.forces, truth, pair.truth) / kNoise;
+  measure(truth.noise, pair.truth, seed, drawn.forces);
   Workspace& w = pair.diagnosed;
-  const Eigen::VectorXd f = measured(truth, pair.truth, strength, seed);
-  const Selection all = all_episodes(w.dataset);
-  const std::vector<int> rows = stacked_rows(w.dataset, all);
+  const Selection everything = all_episodes(w.dataset);
+  const std::vector<int> rows = stacked_rows(w.dataset, everything);
   for (std::size_t i = 0; i < rows.size(); ++i)
-    w.dataset.recording.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
+    w.dataset.recording.f[rows[i]] = drawn.forces.segment<3>(3 * static_cast<Eigen::Index>(i));
   const FitOptions fit_options{w.noise.value, w.floor, true};
-  std::vector<Model> starts{elastic_model(w.dataset, all, *w.body)};
+  std::vector<Model> starts{elastic_model(w.dataset, everything, *w.body)};
   for (const std::string& effect : truth.base) {
-    const Model fitted = fit_best(starts, w.dataset, all, *w.body, fit_options).model;
-    starts = with_effect(fitted, effect, w.dataset, all, *w.body, {});
+    const Model fitted = fit_best(starts, w.dataset, everything, *w.body, fit_options).model;
+    starts = with_effect(fitted, effect, w.dataset, everything, *w.body, {});
   }
-  const Model model = fit_best(starts, w.dataset, all, *w.body, fit_options).model;
+  const Model model = fit_best(starts, w.dataset, everything, *w.body, fit_options).model;
   const std::clock_t begin = std::clock();  // of the processor: other programs do not count
   const Diagnosis d = diagnose(model, w, {});
   trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   trial.verdict = verdict_name(d.verdict);
-  if (std::getenv("VERBOSE") != nullptr)
-    for (const Finding& finding : d.findings)
-      fmt::print(stderr, "{} {:g} {}: {} {}, gain {:.1f}, p {:.3f}, unseen {:.4g} -> {:.4g}; {}\n",
-                 truth.name, level, seed, finding.effect, verdict_name(finding.verdict),
+  for (const Finding& finding : d.findings) {
+    if (verbose)
+      fmt::print(stderr,
+                 "{} {:.2g} {}: {} {}, gain {:.1f}, p {:.3f}, unseen {:.4g} -> {:.4g}; {}\n",
+                 truth.name, trial.level, seed, finding.effect, verdict_name(finding.verdict),
                  finding.criterion_gain, finding.p_value, finding.held_out_now,
                  finding.held_out_after, finding.evidence);
-  for (const Finding& finding : d.findings) {
     std::string* list = finding.verdict == Verdict::kMissing             ? &trial.missing
                         : finding.verdict == Verdict::kIndistinguishable ? &trial.rivals
                                                                          : nullptr;
     if (list != nullptr) *list += (list->empty() ? "" : " ") + finding.effect;
   }
+  const double floor = std::hypot(d.noise, d.floor * d.force_rms);
+  trial.now = d.held_out / floor;
+  trial.after = d.held_out_end / floor;
+  if (trial.rivals.empty() && !d.rivals.empty()) count_sizes(d.rivals.front(), drawn.model, trial);
   return trial;
 }
 
-int run_all(const std::vector<std::string>& a) {
+std::pair<double, double> range(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  return {std::stod(text.substr(0, colon)), std::stod(text.substr(colon + 1))};
+}
+
+bool chosen(const Truth& truth, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (name == truth.name) return true;
+    if (name.back() == '*' && truth.name.rfind(name.substr(0, name.size() - 1), 0) == 0)
+      return true;
+  }
+  return names.empty();
+}
+
+int run_all(std::vector<std::string> a) {
+  const bool verbose = std::erase(a, "--verbose") > 0;
   const std::string results = a[3];
-  const int seeds = std::stoi(a[4]);
-  std::vector<double> levels;
-  std::istringstream text(a[5]);
-  for (std::string level; std::getline(text, level, ',');) levels.push_back(std::stod(level));
-  const std::set<std::string> chosen(a.begin() + 6, a.end());
-  Pair closed = make_pair(a[0], a[1], a[2], false), open = make_pair(a[0], a[1], a[2], true);
+  const auto [from, to] = range(a[4]);
+  const auto [low, high] = range(a[5]);
+  const std::vector<std::string> names(a.begin() + 6, a.end());
+  Pairs pairs(a[0], a[1], a[2]);
+  const std::vector<Truth> truths = all_truths();
   std::vector<Trial> trials = read_trials(results);
-  std::set<std::string> known;
-  const auto key = [](const std::string& truth, double level, int seed) {
-    return fmt::format("{} {:g} {}", truth, level, seed);
-  };
-  for (const Trial& t : trials) known.insert(key(t.truth, t.level, t.seed));
-  for (int seed = 1; seed <= seeds; ++seed)
-    for (const Truth& truth : all_truths())
-      for (const double level : levels) {
-        if (!chosen.empty() && chosen.count(truth.name) == 0) continue;
-        if (truth.effect.empty() && level != levels.front()) continue;
-        if (truth.effect == "slack" && level != levels.front()) continue;
-        if (known.count(key(truth.name, level, seed)) > 0) continue;
-        trials.push_back(run(truth, truth.open ? open : closed, level, seed));
-        append_trial(results, trials.back());
-      }
+  std::set<std::pair<std::string, int>> known;
+  for (const Trial& t : trials) known.insert({t.truth, t.seed});
+  for (int seed = static_cast<int>(from); seed <= static_cast<int>(to); ++seed)
+    for (const Truth& truth : truths) {
+      if (!chosen(truth, names) || known.count({truth.name, seed}) > 0) continue;
+      Random random(500 + static_cast<std::uint64_t>(seed));
+      const double level = low * std::pow(high / low, random.uniform());
+      trials.push_back(run(truth, truths, pairs, level, seed, verbose));
+      append_trial(results, trials.back());
+    }
   std::erase_if(trials, [](const Trial& t) { return t.verdict == "too small"; });
   print_summary(trials);
   return 0;
@@ -157,8 +267,8 @@ int run_all(const std::vector<std::string>& a) {
 int main(int argc, char** argv) {
   if (argc < 7) {
     fmt::print(stderr,
-               "bench_diagnosis DIAGNOSED.ply TRUE.ply MOTION.csv RESULTS.csv SEEDS LEVELS "
-               "[TRUTH...]\n");
+               "bench_diagnosis DIAGNOSED.ply TRUE.ply MOTION.csv RESULTS.csv FROM:TO LOW:HIGH "
+               "[TRUTH...] [--verbose]\n");
     return 2;
   }
   try {

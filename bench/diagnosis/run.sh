@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# run.sh BUILD OUT [SEEDS [LEVELS [TRUTH...]]]: trials of the diagnosis on the shipped phantom. The
-# results in OUT/trials.csv are gone on with when it is run again; delete the file to begin anew.
-# VERBOSE=1 prints what each diagnosis found.
+# run.sh BUILD OUT [FROM:TO [LOW:HIGH [TRUTH...]]] [--verbose]: trials of the diagnosis on the shipped
+# phantom, seeds FROM to TO, errors LOW to HIGH times the noise. The results in OUT/trials.csv are
+# gone on with when it is run again; delete the file to begin anew. Two runs at once share nothing:
+# give each an OUT of its own and put the files together.
 set -euo pipefail
-build=$1 out=$2 seeds=${3:-3} levels=${4:-0.5,1,3}
+build=$1 out=$2 seeds=${3:-1:8} levels=${4:-3:10}
 shift $(($# < 4 ? $# : 4))
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 phantom=$root/share/examples/phantom

@@ -7,19 +7,21 @@
 namespace hapsim::bench {
 
 struct Trial {
-  std::string truth, effect;  // as in Truth
-  double level = 0;           // misfit over noise
+  std::string truth, effects;  // name and effects as in Truth, separated by spaces
+  double level = 0;            // misfit over noise
   int seed = 0;
-  std::string verdict;  // of the model
-  std::string missing;  // effects called missing, in order, separated by spaces
-  std::string rivals;   // effects called indistinguishable
-  double seconds = 0;
+  std::string verdict;         // of the model
+  std::string missing;         // effects called missing, in order, separated by spaces
+  std::string rivals;          // effects called indistinguishable
+  double now = 0, after = 0;   // error on unseen positions over the floor, before and after adding
+  int sized = 0, covered = 0;  // sizes of right effects, and how many 95 % intervals hold the truth
+  double seconds = 0;          // of the processor
 };
 
 std::vector<Trial> read_trials(const std::string& path);  // none when there is no file
 void append_trial(const std::string& path, const Trial& trial);
 
-// To standard output: outcomes by truth and level, what was named instead, rates, time.
+// To standard output: outcomes by truth, what was named instead, rates, time.
 void print_summary(const std::vector<Trial>& trials);
 
 }  // namespace hapsim::bench

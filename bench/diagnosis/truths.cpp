@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "effects/catalogue.h"
 #include "model/extend.h"
 
@@ -16,11 +17,6 @@ using Strengths = std::function<std::vector<double>(double)>;
 using Change =
     std::function<void(const Episode&, double strength, Random&, Eigen::Ref<Eigen::VectorXd>)>;
 
-Eigen::VectorXd forces_of(const Workspace& w, const Model& model) {
-  w.body->solve(material_of(model));  // exact, not linear about an earlier strength
-  return model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false).f;
-}
-
 Model with(Model model, const std::string& effect, const std::vector<double>& values) {
   const Effect& e = require_effect(effect);
   const int terms = static_cast<int>(values.size() / e.card().parameters.size());
@@ -28,20 +24,43 @@ Model with(Model model, const std::string& effect, const std::vector<double>& va
   return model;
 }
 
-// The effect in the catalogue's own form, values by strength.
+// A truth in the catalogue's own form.
+Truth of_model(const std::string& name, const std::string& effect, double most,
+               const std::function<Model(const Model&, double)>& model) {
+  Truth truth;
+  truth.name = name;
+  if (!effect.empty()) truth.effects = {effect};
+  truth.most = most;
+  truth.model = model;
+  truth.forces = [model](const Workspace& w, const Model& base, double s, Random&) {
+    return forces_of(w, s > 0 ? model(base, s) : base);
+  };
+  return truth;
+}
+
+// The effect with values by strength.
 Truth own_form(const std::string& name, const std::string& effect, double most,
                const Strengths& values) {
-  Truth truth{name, effect, false, most, {}, {}};
-  truth.forces = [effect, values](const Workspace& w, const Model& base, double s, Random&) {
-    return forces_of(w, s > 0 && !effect.empty() ? with(base, effect, values(s)) : base);
-  };
+  return of_model(name, effect, most, [effect, values](const Model& base, double s) {
+    return with(base, effect, values(s));
+  });
+}
+
+// The effect with values of a list: strength k is the k-th, from 1.
+Truth listed(const std::string& effect, const std::vector<std::vector<double>>& values) {
+  Truth truth = own_form(effect, effect, static_cast<double>(values.size()),
+                         [values](double s) { return values[static_cast<std::size_t>(s) - 1]; });
+  truth.sizes = static_cast<int>(values.size());
   return truth;
 }
 
 // A change of the base's forces, press by press, in a form that the catalogue does not have.
 Truth other_form(const std::string& name, const std::string& effect, double most,
                  const Change& change) {
-  Truth truth{name, effect, false, most, {}, {}};
+  Truth truth;
+  truth.name = name;
+  truth.effects = {effect};
+  truth.most = most;
   truth.forces = [change](const Workspace& w, const Model& base, double s, Random& random) {
     Eigen::VectorXd f = forces_of(w, base);
     Eigen::Index at = 0;
@@ -57,7 +76,10 @@ Truth other_form(const std::string& name, const std::string& effect, double most
 
 // Each position's factor on its forces.
 Truth by_place(const std::string& name, const std::function<double(const Vec3&, double)>& factor) {
-  Truth truth{name, "regions", false, 3, {}, {}};
+  Truth truth;
+  truth.name = name;
+  truth.effects = {"regions"};
+  truth.most = 3;
   truth.forces = [factor](const Workspace& w, const Model& base, double s, Random&) {
     Eigen::VectorXd f = forces_of(w, base);
     Eigen::Index at = 0;
@@ -73,26 +95,22 @@ Truth by_place(const std::string& name, const std::function<double(const Vec3&, 
 
 // One half of the body stiffer than the other.
 Truth halves() {
-  Truth truth{"regions", "regions", false, 3, {}, {}};
-  truth.forces = [](const Workspace& w, const Model& base, double s, Random&) {
+  return of_model("regions", "regions", 3, [](const Model& base, double s) {
     Model model = base;
-    if (s > 0) {
-      Parameter stiffer = *model.find("elastic", 0, "E");
-      stiffer.region = 1;
-      stiffer.value *= 1 + s;
-      model.parameters.insert(model.parameters.begin() + 1, stiffer);
-      for (const int region : {0, 1})
-        for (Parameter row :
-             effect_rows(require_effect("regions"), 1, {region == 0 ? -0.02 : 0.02, 0, 0})) {
-          if (row.name == "local") continue;
-          row.name = row.name.substr(0, 1) + "1";
-          row.region = region;
-          model.parameters.push_back(row);
-        }
-    }
-    return forces_of(w, model);
-  };
-  return truth;
+    Parameter stiffer = *model.find("elastic", 0, "E");
+    stiffer.region = 1;
+    stiffer.value *= 1 + s;
+    model.parameters.insert(model.parameters.begin() + 1, stiffer);
+    for (const int region : {0, 1})
+      for (Parameter row :
+           effect_rows(require_effect("regions"), 1, {region == 0 ? -0.02 : 0.02, 0, 0})) {
+        if (row.name == "local") continue;
+        row.name = row.name.substr(0, 1) + "1";
+        row.region = region;
+        model.parameters.push_back(row);
+      }
+    return model;
+  });
 }
 
 std::vector<Truth> own_forms() {
@@ -108,13 +126,6 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s, std::min(1.0, 5 * s)};
   }));
   t.push_back(own_form("tip", "tip", 250, [](double s) { return std::vector<double>{s}; }));
-  t.push_back(own_form("layer", "layer", 20, [](double s) {
-    return std::vector<double>{2e-3, 1 + s};
-  }));
-  t.push_back(own_form("anisotropic", "anisotropic", 4, [](double s) {
-    return std::vector<double>{1 + s, 1, 1.4, 0.3};
-  }));
-  t.push_back(own_form("base", "base", 1, [](double s) { return std::vector<double>{s, 0.5, 0}; }));
   t.push_back(own_form("temperature", "temperature", 0.5, [](double s) {
     return std::vector<double>{s, 25};
   }));
@@ -157,6 +168,80 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("deadband-true", "deadband", 0.25, [](double s) {
     return std::vector<double>{s, 0};
   }));
+  return t;
+}
+
+// Sizes of features, which finite elements solve one by one.
+std::vector<Truth> features() {
+  std::vector<Truth> t;
+  t.push_back(listed("layer", {{2e-3, 2},
+                               {2e-3, 3},
+                               {1.5e-3, 4},
+                               {3e-3, 2},
+                               {2e-3, 0.4},
+                               {3e-3, 0.5},
+                               {4e-3, 1.7},
+                               {1e-3, 6}}));
+  t.push_back(listed("anisotropic", {{1.5, 1, 1.4, 0.3},
+                                     {2, 1, 1.4, 0.3},
+                                     {0.6, 1, 1.4, 1.2},
+                                     {2.5, 1, 1.2, -0.6},
+                                     {1.7, 1, 0.6, 2},
+                                     {0.5, 1, 0.3, 0},
+                                     {3, 1, 0.9, -1.5},
+                                     {2, 1, 0, 0}}));
+  t.push_back(listed("base", {{0.5, 0.5, 0},
+                              {0.5, 2, 0},
+                              {0.6, -1, 0},
+                              {0.45, -2.5, 0},
+                              {0.55, 1.2, 0},
+                              {0.5, 3, 0},
+                              {0.6, 0, 0},
+                              {0.4, -0.3, 0}}));
+  // Balls below pressed places, whose tops stay 3 mm and more under the surface.
+  t.push_back(listed("inclusion", {{0.0164, 0.0164, 0.023, 6e-3, 8},
+                                   {0.0106, 0, 0.025, 7e-3, 6},
+                                   {-0.0134, 0.0094, 0.026, 6e-3, 8},
+                                   {0.002, -0.0176, 0.023, 7e-3, 5},
+                                   {-0.0298, -0.004, 0.0205, 7e-3, 6},
+                                   {0.0278, -0.0135, 0.019, 7e-3, 8},
+                                   {-0.0092, 0.0261, 0.0185, 7e-3, 8},
+                                   {0.0181, -0.0295, 0.0135, 7e-3, 6}}));
+  return t;
+}
+
+// Two effects at once, of which each alone would be seen.
+Truth both(const std::string& a, const std::string& b) {
+  Truth truth;
+  truth.name = a + "&" + b;
+  truth.parts = {a, b};
+  return truth;
+}
+
+std::vector<Truth> pairs() {
+  return {both("viscoelastic", "friction"),     both("viscoelastic", "regions"),
+          both("hyperelastic", "viscoelastic"), both("sensor-drift", "viscoelastic"),
+          both("regions", "sensor-bias"),       both("sensor-rotation", "viscoelastic"),
+          both("temperature", "sensor-gain-x"), both("softening", "viscoelastic"),
+          both("sensor-lag", "hyperelastic"),   both("friction", "sensor-drift"),
+          both("backlash", "temperature"),      both("adhesion", "regions")};
+}
+
+// Nothing hidden, in ways that look like something.
+std::vector<Truth> nothings() {
+  const Truth plain = own_form("nothing", "", 0, [](double) { return std::vector<double>(); });
+  std::vector<Truth> t(6, plain);
+  t[1].name = "nothing-correlated";
+  t[1].noise = NoiseKind::kCorrelated;
+  t[2].name = "nothing-outliers";
+  t[2].noise = NoiseKind::kOutliers;
+  t[3].name = "nothing-six-presses";
+  t[3].presses = 6;
+  t[4].name = "nothing-open";
+  t[4].open = true;
+  t[4].base = {"slack"};
+  t[5].name = "nothing+relaxing";
+  t[5].base = {"viscoelastic"};
   return t;
 }
 
@@ -218,21 +303,21 @@ std::vector<Truth> other_forms() {
 }  // namespace
 
 std::vector<Truth> all_truths() {
-  std::vector<Truth> truths = own_forms();
-  for (Truth& t : other_forms()) truths.push_back(std::move(t));
-  Truth nothing = own_form("nothing", "", 0, [](double) { return std::vector<double>(); });
-  truths.insert(truths.begin(), nothing);
+  std::vector<Truth> truths = nothings();
+  std::vector<Truth> single = own_forms();
+  for (Truth& t : other_forms()) single.push_back(std::move(t));
+  truths.insert(truths.end(), single.begin(), single.end());
+  for (Truth& t : features()) truths.push_back(std::move(t));
   // The same on a body that relaxes, which the diagnosed model knows.
-  const std::size_t count = truths.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    if (truths[k].effect == "viscoelastic") continue;
-    Truth t = truths[k];
+  for (Truth t : single) {
+    if (t.effects.front() == "viscoelastic") continue;
     t.name += "+relaxing";
     t.base = {"viscoelastic"};
     truths.push_back(t);
   }
   // Air samples that nobody marked: the body cannot pull there.
   Truth slack = own_form("slack", "slack", 1, [](double) { return std::vector<double>{1}; });
+  slack.sizes = 1;
   slack.open = true;
   truths.push_back(slack);
   Truth adhesion = own_form("adhesion-open", "adhesion", 5, [](double s) {
@@ -241,12 +326,18 @@ std::vector<Truth> all_truths() {
   adhesion.open = true;
   adhesion.base = {"slack"};
   truths.push_back(adhesion);
-  Truth open = nothing;
-  open.name = "nothing-open";
-  open.open = true;
-  open.base = {"slack"};
-  truths.push_back(open);
+  for (Truth& t : pairs()) {
+    for (const std::string& part : t.parts)
+      t.effects.push_back(find_truth(truths, part).effects.front());
+    truths.push_back(t);
+  }
   return truths;
+}
+
+const Truth& find_truth(const std::vector<Truth>& truths, const std::string& name) {
+  for (const Truth& t : truths)
+    if (t.name == name) return t;
+  fail_usage("there is no truth " + name, "see truths.cpp");
 }
 
 Model true_base(const std::vector<std::string>& base) {
@@ -259,14 +350,22 @@ Model true_base(const std::vector<std::string>& base) {
   return model;
 }
 
+Eigen::VectorXd forces_of(const Workspace& w, const Model& model) {
+  w.body->solve(material_of(model));  // exact, not linear about an earlier strength
+  return model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false).f;
+}
+
+double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Workspace& w) {
+  const Eigen::VectorXd plain = forces_of(w, true_base(truth.base));
+  const double gain = forces.dot(plain) / plain.squaredNorm();
+  return std::sqrt((forces - gain * plain).squaredNorm() / static_cast<double>(plain.size()));
+}
+
 double strength_for(const Truth& truth, const Workspace& w, double misfit, std::uint64_t seed) {
   const Model base = true_base(truth.base);
-  const Eigen::VectorXd plain = forces_of(w, base);
   const auto differs = [&](double s) {
     Random random(seed);
-    const Eigen::VectorXd f = truth.forces(w, base, s, random);
-    const double gain = f.dot(plain) / plain.squaredNorm();
-    return std::sqrt((f - gain * plain).squaredNorm() / static_cast<double>(f.size()));
+    return misfit_of(truth.forces(w, base, s, random), truth, w);
   };
   double low = 1e-7 * truth.most, high = truth.most;
   double most = differs(high);

@@ -10,25 +10,37 @@
 
 namespace hapsim::bench {
 
+enum class NoiseKind { kWhite, kCorrelated, kOutliers };
+
 // One way in which the measured forces differ from the model that is diagnosed.
 struct Truth {
-  std::string name;               // of the trial: an effect, or an effect and the form it takes
-  std::string effect;             // what the diagnosis should name; "" for nothing
-  bool open = false;              // the recording does not say when the tool is in the air
-  double most = 1;                // of `strength`
+  std::string name;                  // of the trial: an effect, or an effect and the form it takes
+  std::vector<std::string> effects;  // what the diagnosis should name; none for nothing
+  double most = 1;                   // of `strength`
   std::vector<std::string> base;  // effects that the diagnosed model has already, and the truth too
+  bool open = false;              // the recording does not say when the tool is in the air
+  int presses = 0;                // all but the first so many are left out; 0: none
+  NoiseKind noise = NoiseKind::kWhite;
+  int sizes = 0;  // > 0: `strength` is 1 .. sizes, each a size of its own (finite elements)
+  std::vector<std::string> parts;  // two truths with models, each as strong as asked; else empty
+  // The base with the effect, where it has the catalogue's own form; else empty.
+  std::function<Model(const Model& base, double strength)> model;
   // Stacked forces at a strength from 0 (nothing) on; the same seed draws the same effect.
   std::function<Eigen::VectorXd(const Workspace&, const Model& base, double strength, Random&)>
       forces;
 };
 
 std::vector<Truth> all_truths();
+const Truth& find_truth(const std::vector<Truth>& truths, const std::string& name);
 
 // The model of the body behind all trials, with the effects of `base` at their true values.
 Model true_base(const std::vector<std::string>& base);
+// Stacked forces of a model, features solved by finite elements.
+Eigen::VectorXd forces_of(const Workspace& w, const Model& model);
 
-// The strength at which the truth differs from its base, less a common gain, by `misfit` [N] rms;
-// negative when even the largest does not reach it.
+// What the base, less a common gain, leaves of the truth's forces [N] rms.
+double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Workspace& w);
+// The strength at which that is `misfit`; negative when even the largest does not reach it.
 double strength_for(const Truth& truth, const Workspace& w, double misfit, std::uint64_t seed);
 
 }  // namespace hapsim::bench
