@@ -13,9 +13,11 @@ packages=(
   libeigen3-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
   coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   liborocos-kdl-dev liburdfdom-dev libgdcm-dev libnifti2-dev libteem-dev zlib1g-dev
+  libsqlite3-dev
   libgtest-dev libbenchmark-dev mandoc
 )
-dev_packages=(clang-format clang-tidy ccache chromium debootstrap calculix-ccx gmsh tetgen)
+dev_packages=(clang-format clang-tidy ccache chromium debootstrap calculix-ccx gmsh tetgen
+  python3-scipy)
 
 say() { printf 'install-deps: %s\n' "$*"; }
 fail() { printf 'install-deps: %s\n' "$*" >&2; exit 1; }

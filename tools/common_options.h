@@ -6,6 +6,7 @@
 #include "cli/tool.h"
 #include "geometry/tetmesh.h"
 #include "io/recording.h"
+#include "model/search_state.h"
 #include "model/workspace.h"
 
 namespace hapsim {
@@ -70,6 +71,15 @@ inline Recording load_recording(const Arguments& arguments, const std::string& p
 inline TetMesh load_body(const Arguments& arguments) {
   Input input(arguments.text("--body"));
   return read_body(input);
+}
+
+// --model; says so when its fit was ended early.
+inline Model load_model(const Arguments& arguments, const std::string& tool) {
+  Input input(arguments.text("--model"));
+  Model model = read_model(input);
+  if (is_unfinished(model))
+    say(arguments, tool, input.name() + ": the fit of this model was ended before it converged");
+  return model;
 }
 
 // With progress on a terminal while positions are prepared.

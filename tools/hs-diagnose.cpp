@@ -232,8 +232,7 @@ void write_plan(const Arguments& arguments, const Diagnosis& d, const Workspace&
 }
 
 int run(const Arguments& arguments) {
-  Input model_input(arguments.text("--model"));
-  const Model model = read_model(model_input);
+  const Model model = load_model(arguments, "hs-diagnose");
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);

@@ -9,7 +9,9 @@
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "estimate/identifiability.h"
+#include "identify_library.h"
 #include "identify_plan.h"
+#include "identify_search.h"
 #include "identify_specification.h"
 #include "linalg/blas.h"
 #include "model/edit.h"
@@ -47,13 +49,16 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
   for (std::size_t k = 0; k < plan.add.size(); ++k) {
     FitOptions quick = fit_options;
     quick.exact_regions = false;
+    quick.starts = 1;  // the last fit searches
     const Model base = fit_best(starts, w.dataset, selection, *w.body, quick).model;
     const EffectCard& card = require_effect(plan.add[k]).card();
     const bool terms = card.terms && !card.from_locations;
+    FitOptions searching = quick;
+    searching.starts = fit_options.starts;
     ExtendOptions own = extend;
     if (terms && plan.terms.automatic) {
       const TermChoice choice = choose_terms(base, plan.add[k], plan.terms.count, w.dataset,
-                                             selection, *w.body, quick, extend);
+                                             selection, *w.body, searching, extend);
       own.terms = choice.terms;
       if (plan.say) plan.say(words_of(choice, plan.add[k]));
     }
@@ -137,6 +142,7 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
           {arguments.output() + ": " + label, label, step.fitted.rmse, step.held_out, w.noise.value,
            force_rms, static_cast<int>(step.fitted.model.free_parameters().size())});
   }
+  if (improvement.stopped) return improvement;
   if (!improvement.refused.empty())
     say(arguments, "hs-identify",
         improvement.refused + " was called missing but does not help on unseen presses: left out");
@@ -170,12 +176,43 @@ void write_image(const Arguments& arguments, const Model& model, const Workspace
   for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
 }
 
+void describe_fit(Model& model, const Plan& plan, const Workspace& w, double rmse) {
+  model.metadata = plan.start.metadata;
+  unmark(model);
+  model.metadata.remove("heldout");
+  model.metadata.set("rmse", format_number(rmse));
+  model.metadata.set("force_noise", format_number(w.noise.value));
+  model.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
+}
+
+// The best so far of a fit that a signal ended, marked.
+int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspace& w,
+                     FitResult result, const SearchState& search) {
+  SearchState state = search;
+  state.done = result.starts_done;
+  describe_fit(result.model, plan, w, result.rmse);
+  mark_unfinished(result.model, state);
+  Output output(arguments.output());
+  write_model(output.stream(), result.model);
+  output.commit();
+  fail_numerics(
+      w.dataset.recording.name,
+      fmt::format(
+          "the fit was interrupted{}; the best so far, error {:.4g} N, is written",
+          state.starts > 1 ? fmt::format(" after {} of {} starts", state.done, state.starts) : "",
+          result.rmse),
+      state.starts > 1 ? "go on with --model and --resume" : "go on with --model");
+}
+
 int run(const Arguments& arguments) {
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
   extend.regions = regions_asked(arguments.text("--regions"));
   extend.terms = plan.terms.count;
+  const SearchState search = search_asked(arguments, plan.start);
   const TetMesh body = load_body(arguments);
+  Recording recording = load_recording(arguments, arguments.input(), true);
+  IdentifyLibrary library(arguments, recording, body);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
   set_poisson_range(plan.start, options);
@@ -186,18 +223,21 @@ int run(const Arguments& arguments) {
       if (is_nu && parse_number(what.substr(what.find('=') + 1), nu))
         options.nu_low = options.nu_high = nu;
     }
-  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), true), options);
+  Workspace w = make_workspace(body, std::move(recording), options);
   progress.reset();
   FitOptions fit_options{w.noise.value, w.floor, true};
-  fit_options.starts = static_cast<int>(arguments.integer("--starts"));
-  fit_options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  fit_options.starts = search.starts;
+  fit_options.seed = search.seed;
   if (arguments.text("--robust") == "huber") fit_options.robust = RobustLoss::kHuber;
   if (arguments.text("--robust") == "tukey") fit_options.robust = RobustLoss::kTukey;
   extend.noise = w.noise.value;
   extend.floor = w.floor;
 
   const Selection all = all_episodes(w.dataset);
+  SearchWatch watch(arguments);
+  fit_options.watch = watch.watch();
   FitOptions final_options = fit_options;
+  final_options.skip = search.done;
   if (arguments.given("--profile") && fit_options.robust != RobustLoss::kNone)
     fail_usage("--profile and --robust exclude each other",
                "a robust loss is no likelihood: use one of them");
@@ -205,6 +245,7 @@ int run(const Arguments& arguments) {
   const double force_rms = std::sqrt(measured_forces(w.dataset, all).squaredNorm() /
                                      (3.0 * static_cast<double>(w.dataset.rows())));
   double held_out = std::nan("");
+  std::string cut_short;  // what a signal ended
   Folds folds;
   FitResult result;
   if (plan.automatic) {
@@ -212,19 +253,24 @@ int run(const Arguments& arguments) {
         improve_step_by_step(arguments, plan, body, options, fit_options, w, force_rms);
     result = improvement.steps.back().fitted;
     held_out = improvement.steps.back().held_out;
+    cut_short = improvement.stopped ? "the model was improved" : "";
     folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
   } else {
-    const std::vector<Model> starts = build(plan, w, all, fit_options, extend);
+    std::vector<Model> starts = build(plan, w, all, fit_options, extend);
     require_enough_data(starts.front(), w.dataset, all);
+    if (plan.start.parameters.empty()) library.add_start(starts);
     result = fit_best(starts, w.dataset, all, *w.body, final_options);
   }
+  if (result.stopped) return write_unfinished(arguments, plan, w, std::move(result), search);
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
                   "start from a simpler model, or fix a parameter");
-  if (const long count = arguments.integer("--folds"); count > 1 && !plan.automatic) {
+  if (const long count = arguments.integer("--folds");
+      count > 1 && !plan.automatic && !watch.interrupted()) {
     folds = make_folds(w.dataset, static_cast<int>(count));
     FitOptions quick = fit_options;
     quick.exact_regions = false;
+    quick.starts = 1;
     // Each fold starts from the fit on all data; regions come from the training positions alone,
     // so they are built anew.
     Plan refit = plan;
@@ -241,26 +287,31 @@ int run(const Arguments& arguments) {
             w.dataset, folds, *w.body, quick)
             .rmse;
   }
+  if (watch.interrupted() && cut_short.empty()) {
+    cut_short = "the error on unseen data was found";
+    held_out = std::nan("");
+  }
+  watch.clear();
   Model& model = result.model;
-  model.metadata = plan.start.metadata;
-  model.metadata.set("rmse", format_number(result.rmse));
+  describe_fit(model, plan, w, result.rmse);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
-  model.metadata.set("force_noise", format_number(w.noise.value));
-  model.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
   Output output(arguments.output());
   write_model(output.stream(), model);
-  if (arguments.given("--locations")) {
+  if (arguments.given("--locations") && cut_short.empty()) {
     Output locations(arguments.text("--locations"));
     write_locations(locations.stream(), fit_locations(model, w.dataset, *w.body, fit_options));
     locations.commit();
   }
-  if (arguments.given("--image")) write_image(arguments, model, w, body);
-  output.commit();
+  if (arguments.given("--image") && cut_short.empty()) write_image(arguments, model, w, body);
+  library.store(model, [&] { output.commit(); });
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),
                 {arguments.output(), effects_label(model), result.rmse, held_out, w.noise.value,
                  force_rms, static_cast<int>(model.free_parameters().size())});
   report(arguments, w, result, held_out, folds.by, force_rms);
+  if (!cut_short.empty())
+    fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,
+                  "the model that was fitted is written: go on from it with --model");
   return 0;
 }
 

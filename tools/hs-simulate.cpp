@@ -43,8 +43,7 @@ double live_radius(const Arguments& arguments, const Metadata& metadata) {
 int run_live_mode(const Arguments& arguments) {
   if (arguments.given("--add-noise"))
     fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
-  Input model_input(arguments.text("--model"));
-  const Model model = read_model(model_input);
+  const Model model = load_model(arguments, "hs-simulate");
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
   std::unique_ptr<MotionSource> source;
@@ -146,8 +145,7 @@ void write_forces(const Arguments& arguments, const Model& model, const Dataset&
 }
 
 int run_full_mode(const Arguments& arguments) {
-  Input model_input(arguments.text("--model"));
-  const Model model = read_model(model_input);
+  const Model model = load_model(arguments, "hs-simulate");
   const TetMesh body = load_body(arguments);
   FullOptions options;
   options.own_mesh = arguments.given("--own-mesh");
@@ -167,8 +165,7 @@ int run_full_mode(const Arguments& arguments) {
 }
 
 int run_own_mesh(const Arguments& arguments) {
-  Input model_input(arguments.text("--model"));
-  const Model model = read_model(model_input);
+  const Model model = load_model(arguments, "hs-simulate");
   const TetMesh mesh = load_body(arguments);
   Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
   std::vector<FieldRow> fields;
@@ -245,8 +242,7 @@ int run(const Arguments& arguments) {
       fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
   if (arguments.given("--full")) return run_full_mode(arguments);
   if (arguments.given("--own-mesh")) return run_own_mesh(arguments);
-  Input model_input(arguments.text("--model"));
-  const Model model = read_model(model_input);
+  const Model model = load_model(arguments, "hs-simulate");
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);

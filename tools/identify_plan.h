@@ -95,8 +95,7 @@ inline Plan make_plan(const Arguments& arguments) {
   if (arguments.given("--model")) {
     if (arguments.given("--effects") && !plan.automatic)
       fail_usage("--model and --effects exclude each other", "use --model with --add");
-    Input input(arguments.text("--model"));
-    plan.start = read_model(input);
+    plan.start = load_model(arguments, "hs-identify");
   } else if (!plan.automatic) {
     for (const std::string& effect : arguments.list("--effects"))
       if (effect != "elastic") plan.add.push_back(effect);

@@ -3,6 +3,8 @@
 
 #include "common_options.h"
 #include "effects/catalogue.h"
+#include "identify_library.h"
+#include "identify_search.h"
 
 namespace hapsim {
 
@@ -23,6 +25,9 @@ inline ToolSpec identify_specification() {
       "(--effects) or from a model (--model), to which effects are added or from which they are "
       "removed. The error on data that the fit has not seen comes from refitting with whole "
       "contact positions left out in turn (whole presses, when there is only one position).",
+      "Interrupted (SIGINT, SIGTERM) while it fits, it writes the best model so far with the "
+      "metadata 'converged: no' and ends with exit code 4; a search from many starts can go on "
+      "from there (--resume). A second signal ends it at once.",
       "Effects: " + effect_names() + "."};
   spec.options = workspace_flags();
   const std::vector<Option> own{
@@ -90,15 +95,6 @@ inline ToolSpec identify_specification() {
        .help = "Stiffness imaging: writes the modulus at each tetrahedron's centre (CSV) that all "
                "presses together ask for about the fitted model, and says what is seen inside the "
                "body, where, and how deep these presses see."},
-      {.flag = "--starts",
-       .kind = OptionKind::kInteger,
-       .value = "N",
-       .help =
-           "Starts of each fit: the usual one and N - 1 spread evenly over the bounds; the least "
-           "error wins.",
-       .default_text = "1",
-       .minimum = 1,
-       .maximum = 1000},
       {.flag = "--robust",
        .kind = OptionKind::kChoice,
        .value = "LOSS",
@@ -110,14 +106,9 @@ inline ToolSpec identify_specification() {
        .kind = OptionKind::kSwitch,
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
-           "need not be symmetric."},
-      {.flag = "--seed",
-       .kind = OptionKind::kInteger,
-       .value = "N",
-       .help = "Seed of --starts.",
-       .default_text = "1",
-       .minimum = 0}};
-  spec.options.insert(spec.options.end(), own.begin(), own.end());
+           "need not be symmetric."}};
+  for (const auto& more : {own, search_flags(), library_flags()})
+    spec.options.insert(spec.options.end(), more.begin(), more.end());
   spec.tables = {{"Model (output)",
                   {{"effect", "name in the catalogue, see hs-effects(7)"},
                    {"region", "region that the parameter belongs to, from 0"},
@@ -140,7 +131,8 @@ inline ToolSpec identify_specification() {
        "Adds what hs-diagnose found missing."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
        "Gives each pressed position its own stiffness."}};
-  spec.see_also = {"hs-simulate(1)", "hs-compare(1)", "hs-diagnose(1)", "hs-effects(7)"};
+  spec.see_also = {"hs-simulate(1)", "hs-compare(1)", "hs-diagnose(1)", "hs-library(1)",
+                   "hs-effects(7)"};
   return spec;
 }
 

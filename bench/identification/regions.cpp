@@ -52,7 +52,7 @@ std::shared_ptr<Setting> make_setting(const Regions& truth, const std::string& o
   const auto K = true_stiffness(out, "block-" + truth.name, s->object, positions, material);
   for (std::size_t p = 0; p < positions.size(); ++p)
     s->presses.push_back({static_cast<int>(p), {0, 0, -kDepth}, 1, 0});
-  Recording r = record(positions, s->presses, 0);
+  Recording r = record(positions, s->presses, 0, 25);  // 500 samples
   s->forces = true_forces(r, s->presses, K, kModulus, {});
   s->noise = 0.01 * peak(s->forces);
   WorkspaceOptions options;

@@ -56,22 +56,21 @@ std::vector<Eigen::Matrix3d> true_stiffness(const std::string& out, const std::s
 }
 
 Recording record(const std::vector<Vec3>& positions, const std::vector<TruePress>& presses,
-                 double step) {
-  constexpr int kDepths = 20;
+                 double step, int depths) {
   Recording r;
   r.name = "recording";
   r.metadata.set("tool_radius", format_number(kToolRadius));
   for (std::size_t p = 0; p < presses.size(); ++p) {
     const TruePress& press = presses[p];
     const int samples =
-        step > 0 ? static_cast<int>(std::lround((press.ramp + press.hold) / step)) : kDepths;
+        step > 0 ? static_cast<int>(std::lround((press.ramp + press.hold) / step)) : depths;
     for (int i = step > 0 ? 0 : 1; i <= samples; ++i) {
       const double t = step * i;
       r.line.push_back(static_cast<long>(r.line.size()) + 2);
       r.press.push_back(static_cast<int>(p));
       if (step > 0) r.t.push_back(t);
       r.position.push_back(positions[press.position]);
-      r.u.push_back((step > 0 ? std::min(1.0, t / press.ramp) : i / double{kDepths}) * press.u);
+      r.u.push_back((step > 0 ? std::min(1.0, t / press.ramp) : i / double(depths)) * press.u);
       r.f.push_back(Vec3::Zero());
     }
   }

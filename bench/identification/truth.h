@@ -35,9 +35,9 @@ struct TruePress {
   Vec3 u = Vec3::Zero();  // [m]
   double ramp = 1, hold = 0;
 };
-// Samples every `step` seconds; without time when `step` is 0, then at 20 depths.
+// Samples every `step` seconds; without time when `step` is 0, then at so many `depths`.
 Recording record(const std::vector<Vec3>& positions, const std::vector<TruePress>& presses,
-                 double step);
+                 double step, int depths = 20);
 
 // f = K u E (1 + sum of shares, each relaxing by its time): in closed form for a ramp and a hold,
 //   E u (t / T) + sum E_i (u / T) tau_i (1 - exp(-t / tau_i)) while it moves,

@@ -41,13 +41,7 @@ void Progress::step(std::size_t done) {
   if (!shown_) return;
   const std::lock_guard lock(mutex_);
   done_ += done;
-  const auto now = Clock::now();
-  if (now - drawn_ < kInterval) return;
-  drawn_ = now;
-  draw();
-}
-
-void Progress::draw() {
+  if (!is_due()) return;
   std::string line = what_ + ": " + std::to_string(done_);
   if (total_ > 0) {
     line += " of " + std::to_string(total_);
@@ -58,6 +52,23 @@ void Progress::draw() {
                             static_cast<double>(total_ - done_)) +
               " left";
   }
+  draw(line);
+}
+
+void Progress::show(const std::string& state) {
+  if (!shown_) return;
+  const std::lock_guard lock(mutex_);
+  if (is_due()) draw(what_ + ": " + state);
+}
+
+bool Progress::is_due() {
+  const auto now = Clock::now();
+  if (now - drawn_ < kInterval) return false;
+  drawn_ = now;
+  return true;
+}
+
+void Progress::draw(const std::string& line) {
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);
 }

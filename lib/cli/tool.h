@@ -92,9 +92,11 @@ class Progress {
   Progress(const Arguments& arguments, const std::string& what, std::size_t total);
   ~Progress();  // clears the line
   void step(std::size_t done = 1);
+  void show(const std::string& state);  // instead of a count
 
  private:
-  void draw();
+  bool is_due();
+  void draw(const std::string& line);
 
   std::string what_;
   std::size_t total_;  // 0: not known

@@ -36,6 +36,8 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
       start.parameters.empty() ? elastic_model(fine.dataset, all, *fine.body) : start;
   tell("fitting " + effects_label(first));
   result.steps.push_back(fitted_step("", {first}, fine, folds, options));
+  result.stopped = result.steps.front().fitted.stopped;
+  if (result.stopped) return result;
   if (!result.steps.front().fitted.converged)
     fail_numerics(fine.dataset.recording.name,
                   "the fit did not converge: " + result.steps.front().fitted.message,
@@ -43,6 +45,8 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
   for (int k = 0; k < options.most_diagnoses; ++k) {
     tell("diagnosing " + effects_label(result.steps.back().fitted.model));
     result.last = diagnose(result.steps.back().fitted.model, draft, options.diagnose);
+    result.stopped = options.fit.watch && !options.fit.watch({});
+    if (result.stopped) return result;
     bool grown = false;
     for (const Finding& finding : result.last.findings) {
       if (finding.verdict != Verdict::kMissing) continue;
@@ -52,6 +56,8 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
           finding.effect,
           with_effect(before.fitted.model, finding.effect, fine.dataset, all, *fine.body, extend),
           fine, folds, options);
+      result.stopped = step.fitted.stopped;
+      if (result.stopped) return result;
       // Without anything to hold out the diagnosis decides alone.
       const bool helps =
           step.fitted.converged &&

@@ -26,7 +26,9 @@ struct ImprovementStep {
 struct Improvement {
   std::vector<ImprovementStep> steps;  // the last one is the result
   Diagnosis last;                      // of the result, or of the model that could not be improved
-  std::string refused;  // an effect that was called missing but did not help on unseen presses
+  std::string refused;   // an effect that was called missing but did not help on unseen presses
+  bool stopped = false;  // by the watch of the fits; the last step is the last that was finished,
+                         // or the first fit as far as it came
 };
 
 // Thesis 5.5, with the diagnosis deciding what to add: an effect stays only when the error on

@@ -149,6 +149,11 @@ LeastSquaresResult minimise(const std::vector<Unknown>& start, const ResidualFun
       result.message = result.converged ? "converged" : "no step decreases the error";
       break;
     }
+    if (options.watch && !options.watch(result.sum_of_squares)) {
+      result.stopped = true;
+      result.message = "interrupted";
+      break;
+    }
   }
   if (result.message.empty()) result.message = "too many iterations";
 

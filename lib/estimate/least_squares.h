@@ -25,11 +25,15 @@ struct Unknown {
 using ResidualFunction =
     std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J)>;
 
+// Told the least sum of squares so far, after each step; false ends the search with what there is.
+using Watch = std::function<bool(double sum_of_squares)>;
+
 struct LeastSquaresOptions {
   int max_iterations = 200;
   double step_tolerance = 1e-7;      // largest step in units of `scale` (or of the logarithm)
   double decrease_tolerance = 1e-3;  // decrease of the sum of squares over its mean per residual:
                                      // 1e-3 is 3 % of a standard error
+  Watch watch;                       // may be empty
 };
 
 struct LeastSquaresResult {
@@ -38,7 +42,8 @@ struct LeastSquaresResult {
   double sum_of_squares = 0;   // of the whitened residuals
   int iterations = 0;
   bool converged = false;
-  std::string message;  // why it stopped
+  bool stopped = false;  // by the watch
+  std::string message;   // why it stopped
   std::vector<bool> at_bound;
   std::vector<bool> undetermined;  // directions that the data do not see go through this unknown
 };

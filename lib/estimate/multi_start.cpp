@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "estimate/coordinates.h"
@@ -43,7 +44,8 @@ std::vector<std::vector<Unknown>> latin_hypercube_starts(const std::vector<Unkno
 
 MultiStartResult minimise_from_many(const std::vector<std::vector<Unknown>>& starts,
                                     const ResidualFunction& residuals,
-                                    const LeastSquaresOptions& options, double same) {
+                                    const LeastSquaresOptions& options, double same,
+                                    const StartWatch& before_start) {
   MultiStartResult result;
   std::vector<double> minima;
   Eigen::Index count = 1;
@@ -52,18 +54,29 @@ MultiStartResult minimise_from_many(const std::vector<std::vector<Unknown>>& sta
     residuals(x, r, J);
     count = std::max<Eigen::Index>(1, r.size());
   };
+  bool first = true, stopped = false;
   for (const std::vector<Unknown>& start : starts) {
+    const double least =
+        first ? std::numeric_limits<double>::infinity() : result.best.sum_of_squares;
+    if (before_start && !before_start(result.starts, least) && !first) stopped = true;
+    if (stopped) break;
     LeastSquaresResult found = minimise(start, counted, options);
-    ++result.starts;
+    stopped = found.stopped;
+    if (!stopped) ++result.starts;
     if (found.converged) {
       ++result.converged;
       minima.push_back(found.sum_of_squares);
     }
     const bool better =
-        result.starts == 1 || (found.converged && !result.best.converged) ||
+        first || (found.converged && !result.best.converged) ||
         (found.converged == result.best.converged && std::isfinite(found.sum_of_squares) &&
          !(found.sum_of_squares >= result.best.sum_of_squares));
     if (better) result.best = std::move(found);
+    first = false;
+  }
+  if (stopped) {
+    result.best.stopped = true;
+    result.best.message = "interrupted";
   }
   std::sort(minima.begin(), minima.end());
   const double tolerance =

@@ -15,18 +15,23 @@ std::vector<std::vector<Unknown>> latin_hypercube_starts(const std::vector<Unkno
                                                          int count, Random& random);
 
 struct MultiStartResult {
-  LeastSquaresResult best;  // converged, if any start did
-  int starts = 0;
-  int converged = 0;  // starts that ended in a minimum
-  int agreeing = 0;   // starts whose sum of squares is that of the best
-  int valleys = 0;    // minima of different sum of squares
+  LeastSquaresResult best;  // converged, if any start did; stopped, if the watch ended the search
+  int starts = 0;           // that were gone through to their end
+  int converged = 0;        // starts that ended in a minimum
+  int agreeing = 0;         // starts whose sum of squares is that of the best
+  int valleys = 0;          // minima of different sum of squares
 };
+
+// Before each start, its number from 0 and the least sum of squares so far (infinite at first);
+// false ends the search.
+using StartWatch = std::function<bool(int start, double sum_of_squares)>;
 
 // Thesis Algorithm 5.6: minimise() from each start, the least sum of squares wins. Sums of squares
 // that differ by less than `same` of their mean per residual (or 1e-6 of their own) are one valley.
 // A best that few starts reach is doubtful: ask for more.
 MultiStartResult minimise_from_many(const std::vector<std::vector<Unknown>>& starts,
                                     const ResidualFunction& residuals,
-                                    const LeastSquaresOptions& options = {}, double same = 0.1);
+                                    const LeastSquaresOptions& options = {}, double same = 0.1,
+                                    const StartWatch& before_start = {});
 
 }  // namespace hapsim

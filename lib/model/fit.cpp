@@ -12,6 +12,7 @@
 #include "estimate/least_squares.h"
 #include "estimate/multi_start.h"
 #include "estimate/profile.h"
+#include "model/extend.h"
 #include "model/move_limits.h"
 #include "model/press_offsets.h"
 #include "model/terms.h"
@@ -37,6 +38,34 @@ void set_values(Model& model, const Eigen::VectorXd& x) {
   const std::vector<int> free = model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c)
     model.parameters[free[c]].value = x[static_cast<Eigen::Index>(c)];
+}
+
+// The range over which starts are spread, within the bounds: moduli from a thousandth to ten times
+// the one that the gain of the forces asks for, times in seconds from half a sample's step to twice
+// the longest press. Bounds alone leave 24 and 9 decades, nearly all of which say nothing of the
+// data.
+std::vector<Unknown> spread(const Model& model, std::vector<Unknown> unknowns,
+                            const Dataset& dataset, const Selection& selection,
+                            const BodyStiffness& body) {
+  const double modulus = elastic_model(dataset, selection, body).find("elastic", 0, "E")->value;
+  double longest = 0;
+  for (const int e : selection)
+    if (!dataset.episodes[e].view.t.empty())
+      longest = std::max(longest, dataset.episodes[e].view.t.back());
+  const double step = summarise(dataset, modulus).sample_step;
+  const std::vector<int> free = model.free_parameters();
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    Unknown& u = unknowns[c];
+    const auto within = [&u](double low, double high) {
+      low = std::max(low, u.lower);
+      high = std::min(high, u.upper);
+      if (low < high) u.lower = low, u.upper = high;
+    };
+    const std::string& unit = model.parameters[free[c]].unit;
+    if (unit == "Pa") within(1e-3 * modulus, 10 * modulus);
+    if (unit == "s" && u.logarithmic && step > 0) within(step / 2, 2 * longest);
+  }
+  return unknowns;
 }
 
 double component_rms(const Eigen::VectorXd& r) {
@@ -108,36 +137,64 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
     take_out_press_means(dataset, selection, r);
     if (J != nullptr) take_out_press_means(dataset, selection, *J);
   };
+  FitProgress progress{options.skip, options.starts};
+  const auto go_on = [&](double sum) {
+    const double now = options.noise * std::sqrt(sum / static_cast<double>(measured.size()));
+    if (!(progress.rmse <= now)) progress.rmse = now;
+    return !options.watch || options.watch(progress);
+  };
+  LeastSquaresOptions search;
+  if (options.watch) search.watch = go_on;
+  result.starts_done = options.starts;
   bool from_many = options.starts > 1;  // once: later rounds improve on the valley found
   const auto minimise_within = [&](double reach) {
     trial = result.model;
     if (from_many) {
       Random random(options.seed);
-      solution =
-          minimise_from_many(latin_hypercube_starts(unknowns(result.model), options.starts, random),
-                             residuals)
-              .best;
+      const std::vector<Unknown> open = unknowns(result.model);
+      auto starts = latin_hypercube_starts(spread(result.model, open, dataset, selection, body),
+                                           options.starts, random);
+      for (std::vector<Unknown>& one : starts)  // spread so, but bounded as ever
+        for (std::size_t i = 0; i < one.size(); ++i) {
+          one[i].lower = open[i].lower;
+          one[i].upper = open[i].upper;
+        }
+      // The given start is the first in any case.
+      const int skip = std::clamp(options.skip - 1, 0, options.starts - 1);
+      starts.erase(starts.begin() + 1, starts.begin() + 1 + skip);
+      MultiStartResult many =
+          minimise_from_many(starts, residuals, search, 0.1, [&](int number, double sum) {
+            progress.start = number == 0 ? 0 : number + skip;
+            return std::isinf(sum) || go_on(sum);
+          });
+      result.stopped = many.best.stopped;
+      if (result.stopped) result.starts_done = many.starts == 0 ? 0 : many.starts + skip;
+      solution = std::move(many.best);
       set_values(result.model, solution.x);
       from_many = false;
+      if (result.stopped) return;
     }
     std::vector<Unknown> open = unknowns(result.model);
     if (linearised) open = within_reach(std::move(open), result.model, reach);
     if (options.robust != RobustLoss::kNone) {
-      RobustResult robust = minimise_robustly(open, residuals, options.robust);
+      RobustResult robust = minimise_robustly(open, residuals, options.robust, search);
       solution = std::move(robust.fit);
       result.discounted = robust.discounted;
     } else {
-      solution = minimise(open, residuals);
+      solution = minimise(open, residuals, search);
     }
     set_values(result.model, solution.x);
+    result.stopped = solution.stopped;
+    if (result.stopped) return;
     if (options.robust != RobustLoss::kNone) return;
     if (sort_terms(result.model)) {
       open = unknowns(result.model);
       if (linearised) open = within_reach(std::move(open), result.model, reach);
-      solution = minimise(open, residuals);
+      solution = minimise(open, residuals, search);
       set_values(result.model, solution.x);
+      result.stopped = solution.stopped;
     }
-    if (!options.keep_apart) return;
+    if (!options.keep_apart || result.stopped) return;
     keep_terms_apart(result.model, open, residuals, solution);
     set_values(result.model, solution.x);
   };
@@ -165,15 +222,17 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
     };
     double sum = true_sum(), reach = 1;
     bool settled = false;
-    for (int round = 0; round < options.rounds && !settled; ++round) {
+    for (int round = 0; round < options.rounds && !settled && !result.stopped; ++round) {
       const Model before = result.model;
       minimise_within(reach);
+      if (result.stopped) break;
       const double promised = sum - solution.sum_of_squares;
       const double now = true_sum();
       const double least = options.settled * sum;
       settled = promised < least || (now <= sum && sum - now < least) || reach < kLeastReach;
       if (now <= sum) {
         sum = now;
+        result.stopped = !go_on(sum);
         continue;
       }
       result.model = before;
@@ -203,8 +262,8 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   }
   result.rmse = component_rms(residual);
   result.residuals = residual.size();
-  result.converged = solution.converged;
-  result.message = solution.message;
+  result.converged = solution.converged && !result.stopped;
+  result.message = result.stopped ? "interrupted" : solution.message;
   const std::vector<int> free = result.model.free_parameters();
   const double freedom =
       std::max(1.0, static_cast<double>(result.residuals) - static_cast<double>(free.size()));
@@ -231,7 +290,7 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
     if (unseen) result.undetermined.push_back(label(p));
   }
   tell_what_is_not_seen(result, signal.df / options.noise, std::sqrt(variance));
-  if (options.profile && solution.converged) tell_intervals(result, residuals, solution, variance);
+  if (options.profile && result.converged) tell_intervals(result, residuals, solution, variance);
   return result;
 }
 
@@ -241,14 +300,24 @@ FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
   FitOptions each = options;
   const bool choose = starts.size() > 1 && is_linearised(material_of(starts[0]), false);
   if (choose) each.rounds = 0;
+  // All starts have the same bounds, over which the others are spread: one search is enough.
+  const bool search = starts.size() > 1 && options.starts > 1;
+  if (search) each.starts = 1;
   FitResult best;
   for (std::size_t s = 0; s < starts.size(); ++s) {
     FitResult result = fit(starts[s], dataset, selection, body, each);
     const bool better = s == 0 || (result.converged && !best.converged) ||
                         (result.converged == best.converged && result.rmse < best.rmse);
+    const bool stopped = result.stopped;
     if (better) best = std::move(result);
+    if (!stopped) continue;
+    best.stopped = true;
+    best.converged = false;
+    best.message = "interrupted";
+    if (search) best.starts_done = 0;
+    return best;
   }
-  if (choose && options.rounds > each.rounds)
+  if (search || (choose && options.rounds > each.rounds))
     return fit(best.model, dataset, selection, body, options);
   return best;
 }

@@ -14,11 +14,19 @@ namespace hapsim {
 
 constexpr int kFullRounds = 12;
 
+// Where a fit stands.
+struct FitProgress {
+  int start = 0, starts = 1;  // of several starts, from 0
+  // Least so far [N], after the weights of a robust loss.
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct FitOptions {
   double noise = 1;           // standard deviation of the force noise [N]
   double floor = 0;           // relative gain error by position (mesh and geometry)
   bool exact_regions = true;  // solve inhomogeneous bodies anew; false: first-order stiffness
-  int starts = 1;             // more: a Latin hypercube over the bounds besides the given start
+  int starts = 1;             // more: a Latin hypercube besides the given start (spread in fit.cpp)
+  int skip = 0;               // so many of them are done: an earlier search gave the start
   std::uint64_t seed = 1;     // of the starts
   RobustLoss robust = RobustLoss::kNone;
   // Bodies with features are solved anew in up to so many rounds, until one changes the sum of
@@ -28,11 +36,15 @@ struct FitOptions {
   double settled = 1e-6;
   bool keep_apart = true;  // relaxation times that coincide are moved apart (keep_terms_apart())
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
+  // Asked again and again; false ends the fit with what there is. May be empty.
+  std::function<bool(const FitProgress&)> watch;
 };
 
 struct FitResult {
   Model model;  // values, standard errors
   bool converged = false;
+  bool stopped = false;  // by the watch; never converged then
+  int starts_done = 0;   // of FitOptions::starts, the skipped ones among them
   std::string message;
   double rmse = 0;  // per force component [N], all components pooled
   Eigen::Index residuals = 0;
@@ -49,7 +61,7 @@ struct FitResult {
 FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
               BodyStiffness& body, const FitOptions& options);
 
-// The best of several starts.
+// The best of several starts, from which the search of FitOptions::starts begins.
 FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
                    const Selection& selection, BodyStiffness& body, const FitOptions& options);
 

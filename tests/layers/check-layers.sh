@@ -31,6 +31,7 @@ tetgen\.h: geometry
 (coin/|coin-or/)?Ip[A-Z][A-Za-z]*\.hpp: estimate
 kdl/|urdf_|console_bridge/|gdcm|nifti/|teem/: scan
 CLI/: cli
+sqlite3\.h: io
 "
 
 breach() { # FILE LINE TEXT

@@ -1,0 +1,25 @@
+// The mark on a model whose fit was ended early, and where its search can go on.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "model/model.h"
+
+namespace hapsim {
+
+// Metadata `converged: no`, and of a search from several starts `search: 7 of 20 starts, seed 1`.
+struct SearchState {
+  int done = 0;  // starts gone through
+  int starts = 1;
+  std::uint64_t seed = 1;
+};
+
+void mark_unfinished(Model& model, const SearchState& state);
+void unmark(Model& model);
+bool is_unfinished(const Model& model);
+// Empty: no such search. `where` names the file in Error(kBadInput) for a mark that cannot be read.
+std::optional<SearchState> unfinished_search(const Model& model, const std::string& where);
+
+}  // namespace hapsim

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# interrupt.sh BIN: hs-identify ended by a signal, and gone on with.
+set -uo pipefail
+bin=$1
+. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-identify"
+. "$(dirname "${BASH_SOURCE[0]}")/identify_data.sh"
+common=(--body block.ply --rim-edge 0.3 --folds 0)
+# A search of many starts takes long; what comes before it is in the cache.
+"$tool" -q data.csv "${common[@]}" -o m0.csv || complain 'the elastic model is identified'
+search=(data.csv "${common[@]}" --add viscoelastic --terms 2 --starts 100000 --seed 3)
+
+# interrupted SIGNAL ARGUMENTS...: leaves the exit code in `code`. A slow machine, which is not yet
+# searching when the signal comes, gets more time.
+interrupted() {
+  local signal=$1 seconds
+  shift
+  for seconds in 1.5 6 30; do
+    timeout --preserve-status -s "$signal" $seconds "$tool" "$@" 2>.err
+    code=$?
+    ((code == 4)) && ! grep -q 'after 0 of' .err && return
+  done
+}
+for signal in INT TERM; do
+  rm -f m.csv
+  interrupted "$signal" "${search[@]}" -o m.csv
+  ((code == 4)) || complain "exit code $code, not 4, after SIG$signal"
+  grep -q 'data.csv: the fit was interrupted after [0-9]* of 100000 starts; the best so far, error' .err ||
+    complain "what SIG$signal did is told"
+  grep -q '^# converged: no' m.csv && grep -q '^# search: [0-9]* of 100000 starts, seed 3' m.csv ||
+    complain 'the model is marked'
+done
+done_first=$(sed -n 's/^# search: \([0-9]*\) .*/\1/p' m.csv)
+((done_first > 0)) || complain 'some starts were done'
+"$bin/hs-simulate" motion.csv --body block.ply --model m.csv --rim-edge 0.3 -o forces.csv 2>.err ||
+  complain 'the best so far gives forces'
+grep -q 'm.csv: the fit of this model was ended before it converged' .err ||
+  complain 'hs-simulate tells what it was given'
+
+interrupted TERM data.csv "${common[@]}" --model m.csv --resume -o m2.csv
+((code == 4)) || complain 'interrupted again'
+done_then=$(sed -n 's/^# search: \([0-9]*\) .*/\1/p' m2.csv)
+((done_then > done_first)) || complain "the search goes on: $done_first, then $done_then"
+# To its end: the mark is gone.
+sed "s/^# search: .*/# search: 99990 of 100000 starts, seed 3/" m2.csv >nearly.csv
+expect 0 'viscoelastic tau2' data.csv "${common[@]}" --model nearly.csv --resume -o m3.csv
+! grep -q 'converged\|search' m3.csv || complain 'a finished search has no mark'
+expect 2 'm3.csv is no model of an interrupted search' data.csv "${common[@]}" --model m3.csv --resume
+expect 2 '--resume needs the model' data.csv "${common[@]}" --resume
+expect 2 '--resume and --starts exclude each other' data.csv "${common[@]}" --model m.csv --resume \
+  --starts 5 -q
+
+# A second signal ends it at once; before the fit a signal ends it as it always did.
+rm -f m.csv
+"$tool" "${search[@]}" -o m.csv 2>.err &
+pid=$!
+sleep 2
+kill -TERM $pid; kill -TERM $pid 2>/dev/null
+wait $pid
+code=$?
+((code == 4 || code == 143)) || complain "exit code $code after two signals"
+[[ -z $(find . -name '.hapsim-*') ]] || complain 'no temporary file is left'
+
+if command -v script >/dev/null; then
+  for seconds in 1.5 6 30; do
+    TERM=xterm script -qec "timeout -s TERM $seconds $tool ${search[*]} -o m.csv" /dev/null \
+      </dev/null >shown
+    ! grep -q 'fit: start' shown || break
+  done
+  grep -q 'fit: start [0-9]* of 100000, error [0-9.]* N' shown || complain 'progress with the error'
+fi
+
+((failures == 0)) && echo 'all as expected'
+exit $((failures > 0))

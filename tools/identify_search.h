@@ -1,0 +1,74 @@
+// Long fits of hs-identify: progress, an end by a signal, and going on from there.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "cli/interrupt.h"
+#include "cli/tool.h"
+#include "model/fit.h"
+#include "model/search_state.h"
+
+namespace hapsim {
+
+inline std::vector<Option> search_flags() {
+  return {{.flag = "--starts",
+           .kind = OptionKind::kInteger,
+           .value = "N",
+           .help = "Starts of the fit: the usual ones and N - 1 spread evenly over the bounds; the "
+                   "least error wins.",
+           .default_text = "1",
+           .minimum = 1,
+           .maximum = 100000},
+          {.flag = "--resume",
+           .kind = OptionKind::kSwitch,
+           .help = "Goes on with the search of --starts in which --model was interrupted."},
+          {.flag = "--seed",
+           .kind = OptionKind::kInteger,
+           .value = "N",
+           .help = "Seed of --starts.",
+           .default_text = "1",
+           .minimum = 0}};
+}
+
+inline SearchState search_asked(const Arguments& arguments, const Model& start) {
+  if (!arguments.given("--resume"))
+    return {0, static_cast<int>(arguments.integer("--starts")),
+            static_cast<std::uint64_t>(arguments.integer("--seed"))};
+  if (!arguments.given("--model"))
+    fail_usage("--resume needs the model that an interrupted run wrote", "add --model FILE");
+  for (const char* flag : {"--starts", "--seed", "--add", "--remove", "--diagnosis"})
+    if (arguments.given(flag))
+      fail_usage(std::string("--resume and ") + flag + " exclude each other",
+                 "the search goes on as it was begun");
+  const std::string& file = arguments.text("--model");
+  const auto state = unfinished_search(start, file);
+  if (!state) fail_usage(file + " is no model of an interrupted search", "leave --resume out");
+  return *state;
+}
+
+// Watches the fits from now on.
+class SearchWatch {
+ public:
+  explicit SearchWatch(const Arguments& arguments)
+      : progress_(std::make_unique<Progress>(arguments, "fit", 0)) {}
+  std::function<bool(const FitProgress&)> watch() {
+    return [this](const FitProgress& p) {
+      const std::string error = std::isnan(p.rmse) ? "" : fmt::format("error {:.4g} N", p.rmse);
+      progress_->show(p.starts > 1 ? fmt::format("start {} of {}, {}", p.start + 1, p.starts, error)
+                                   : error);
+      return !interrupt_.asked();
+    };
+  }
+  bool interrupted() const { return interrupt_.asked(); }
+  void clear() { progress_.reset(); }  // the line on the terminal; no watching after it
+
+ private:
+  Interrupt interrupt_;
+  std::unique_ptr<Progress> progress_;
+};
+
+}  // namespace hapsim
