@@ -8,6 +8,7 @@
 #include "import/block.h"
 #include "import/import.h"
 #include "io/csv.h"
+#include "io/length.h"
 #include "io/number.h"
 
 namespace hapsim {

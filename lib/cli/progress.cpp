@@ -46,13 +46,21 @@ void Progress::step(std::size_t done) {
   if (total_ > 0) {
     line += " of " + std::to_string(total_);
     const double seconds = std::chrono::duration<double>(drawn_ - start_).count();
-    if (done_ > 0 && done_ < total_)
+    if (done_ > before_ && done_ < total_)
       line += ", " +
-              duration_text(seconds / static_cast<double>(done_) *
+              duration_text(seconds / static_cast<double>(done_ - before_) *
                             static_cast<double>(total_ - done_)) +
               " left";
   }
   draw(line);
+}
+
+void Progress::found_done() {
+  {
+    const std::lock_guard lock(mutex_);
+    ++before_;
+  }
+  step();
 }
 
 void Progress::show(const std::string& state) {

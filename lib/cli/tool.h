@@ -93,6 +93,7 @@ class Progress {
   ~Progress();  // clears the line
   void step(std::size_t done = 1);
   void show(const std::string& state);  // instead of a count
+  void found_done();  // one that had been done before: it does not tell how long the others take
 
  private:
   bool is_due();
@@ -101,6 +102,7 @@ class Progress {
   std::string what_;
   std::size_t total_;  // 0: not known
   std::size_t done_ = 0;
+  std::size_t before_ = 0;  // of done_
   bool shown_;
   std::mutex mutex_;
   std::chrono::steady_clock::time_point start_;

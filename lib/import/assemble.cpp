@@ -9,6 +9,7 @@
 
 #include "import/block.h"
 #include "import/force_noise.h"
+#include "io/length.h"
 #include "io/number.h"
 
 namespace hapsim {

@@ -11,9 +11,6 @@ namespace hapsim {
 // "120x80x40mm", "0.12,0.08,0.04": three lengths [m]. Error(kUsage) unless all are positive.
 Vec3 parse_block(const std::string& text);
 
-// One length with or without a unit: "4mm", "0.004" [m]. Error(kUsage) naming `flag`.
-double parse_length(const std::string& text, const std::string& flag);
-
 // Closed surface, triangles outward, standing on z = 0 with its axis at x = y = 0.
 PlyFile block_surface(const Vec3& size);
 

@@ -6,5 +6,6 @@ namespace hapsim::assets {
 extern const char* const kStyle;
 extern const char* const kPresses;
 extern const char* const kBody;
+extern const char* const kTable;
 
 }  // namespace hapsim::assets

@@ -60,14 +60,18 @@ std::string page_provenance(const Report& report) {
   return out + "</tbody></table></section>\n";
 }
 
-void write_report(std::ostream& out, const Report& report) {
+void write_head(std::ostream& out, const std::string& title) {
   out << "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
          "<meta name='viewport' content='width=device-width, initial-scale=1'>"
          "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; "
          "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">"
-      << "<title>" << escape_html(report.title) << "</title>\n<style>\n"
-      << assets::kStyle << "</style></head><body>\n"
-      << page_header(report) << page_versions(report) << page_diagnosis(report)
+      << "<title>" << escape_html(title) << "</title>\n<style>\n"
+      << assets::kStyle << "</style></head><body>\n";
+}
+
+void write_report(std::ostream& out, const Report& report) {
+  write_head(out, report.title);
+  out << page_header(report) << page_versions(report) << page_diagnosis(report)
       << page_parameters(report) << page_body(report) << page_presses(report)
       << page_residuals(report) << page_tables(report) << page_reading(report)
       << page_provenance(report);

@@ -11,6 +11,7 @@ base:
 io: base
 cli: io
 import: io
+batch: io
 linalg: base
 estimate: linalg
 geometry: io

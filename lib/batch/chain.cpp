@@ -1,0 +1,141 @@
+#include "batch/chain.h"
+
+#include <algorithm>
+#include <map>
+
+#include "batch/shell_words.h"
+#include "io/number.h"
+
+namespace hapsim {
+namespace {
+
+using Words = std::vector<std::string>;
+
+std::string last_part(const std::string& path) {
+  return path.substr(path.rfind('/') + 1);
+}
+
+// Collects the steps of one row after the other.
+class Planner {
+ public:
+  explicit Planner(Batch& batch) : batch_(batch) {}
+
+  void add(const ManifestRow& row) {
+    row_ = &row;
+    chain_.clear();
+    if (row.problem.empty()) {
+      folder_ = "recordings/" + row.folder;
+      const bool own = !row.body.empty();
+      const int body = own ? -1 : add_body();
+      body_ = own ? row.body : path_of(body);
+      add_model(body);
+    }
+    batch_.chain.push_back(chain_);
+  }
+
+ private:
+  std::string path_of(int step) const { return batch_.options.folder + "/" + output(step); }
+  const std::string& output(int step) const {
+    return batch_.steps[static_cast<std::size_t>(step)].output;
+  }
+
+  // The command of a stage: its tool, `words`, the row's own flags, and the output.
+  int add_step(const char* stage, const std::string& file, Words words, const Words& given,
+               const std::vector<int>& made, bool threads) {
+    const auto found =
+        std::find_if(kBatchStages.begin(), kBatchStages.end(),
+                     [&](const BatchStage& s) { return s.step == std::string(stage); });
+    const Words& own = row_->options[static_cast<std::size_t>(found - kBatchStages.begin())];
+    const auto is_threads = [](const std::string& word) {
+      return word == "--threads" || word.rfind("--threads=", 0) == 0;
+    };
+    const bool said = std::any_of(own.begin(), own.end(), is_threads) ||
+                      std::any_of(words.begin(), words.end(), is_threads);
+    if (threads && !said) words.insert(words.end(), {"--threads", "1"});
+    words.insert(words.end(), own.begin(), own.end());
+    BatchStep step{stage, folder_, folder_ + "/" + file, {}, {}, ""};
+    words.insert(words.begin(), found->tool);
+    const bool report = step.name == "report";
+    words.insert(words.end(),
+                 {report ? "--html" : "-o", batch_.options.folder + "/" + step.output});
+    if (report) words.insert(words.end(), {"-o", "/dev/null"});
+    step.command = shell_line(words);
+    for (const std::string& path : given)
+      if (!path.empty()) step.given.push_back(path);
+    for (const int earlier : made)
+      if (earlier >= 0) step.made.push_back(output(earlier));
+    batch_.steps.push_back(std::move(step));
+    chain_.push_back(static_cast<int>(batch_.steps.size()) - 1);
+    return chain_.back();
+  }
+
+  int add_body() {
+    std::string key = row_->scan + "\n" + row_->scan_unit;
+    for (std::size_t s = 0; s < 3; ++s) key += "\n" + shell_line(row_->options[s]);
+    const auto [known, added] = bodies_.emplace(key, Words::size_type{0});
+    if (added) {
+      const std::string recordings = folder_;
+      folder_ = "bodies/" + plain_name(last_part(row_->scan) + "\n" + key);
+      const int points = add_step("points", "points.ply", {row_->scan, "--unit", row_->scan_unit},
+                                  {row_->scan}, {}, false);
+      const int surface =
+          add_step("surface", "surface.ply", {path_of(points)}, {}, {points}, false);
+      add_step("body", "body.ply", {path_of(surface)}, {}, {surface}, false);
+      folder_ = recordings;
+      known->second = steps_of_bodies_.size();
+      steps_of_bodies_.push_back(chain_);
+    }
+    chain_ = steps_of_bodies_[known->second];
+    return chain_.back();
+  }
+
+  void add_model(int body) {
+    const ManifestRow& row = *row_;
+    Words common{row.data, "--body", body_};
+    if (row.tool_radius > 0)
+      common.insert(common.end(), {"--tool-radius", format_number(row.tool_radius)});
+    common.insert(common.end(), row.common.begin(), row.common.end());
+    const auto with = [&](Words more) {
+      more.insert(more.begin(), common.begin(), common.end());
+      return more;
+    };
+    const Words given{row.data, row.body};
+    const int model =
+        add_step("model", "model.csv", with({"--effects", row.effects}), given, {body}, true);
+    int diagnosis = -1;
+    if (batch_.options.diagnosis)
+      diagnosis = add_step("diagnosis", "effects.csv", with({"--model", path_of(model)}), given,
+                           {body, model}, true);
+    if (!batch_.options.report) return;
+    const int forces = add_step("forces", "forces.csv", with({"--model", path_of(model)}), given,
+                                {body, model}, true);
+    Words compare{row.data, "--simulated", path_of(forces), "--body", body_, "--title=" + row.name};
+    if (diagnosis >= 0) compare.insert(compare.end(), {"--diagnosis", path_of(diagnosis)});
+    add_step("report", "report.html", compare, given, {body, forces, diagnosis}, false);
+  }
+
+  Batch& batch_;
+  const ManifestRow* row_ = nullptr;
+  std::string folder_, body_;
+  std::vector<int> chain_;
+  std::map<std::string, std::size_t> bodies_;
+  std::vector<std::vector<int>> steps_of_bodies_;
+};
+
+}  // namespace
+
+Batch plan_batch(const Manifest& manifest, const BatchOptions& options) {
+  Batch batch{manifest, options, {}, {}};
+  Planner planner(batch);
+  for (const ManifestRow& row : batch.manifest.rows) planner.add(row);
+  return batch;
+}
+
+std::string output_of(const Batch& batch, std::size_t row, const std::string& step) {
+  for (const int s : batch.chain[row])
+    if (batch.steps[static_cast<std::size_t>(s)].name == step)
+      return batch.options.folder + "/" + batch.steps[static_cast<std::size_t>(s)].output;
+  return "";
+}
+
+}  // namespace hapsim

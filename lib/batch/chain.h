@@ -1,0 +1,42 @@
+// What is made for each recording of a manifest, step by step.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "batch/manifest.h"
+
+namespace hapsim {
+
+// One command and the file that it makes. Files of the batch are relative to its folder, those of
+// the user as the command names them.
+struct BatchStep {
+  std::string name;                // "model"
+  std::string folder;              // "recordings/liver"
+  std::string output;              // "recordings/liver/model.csv"
+  std::vector<std::string> made;   // inputs that earlier steps make
+  std::vector<std::string> given;  // inputs that are the user's
+  std::string command;             // a line for a shell in the folder where the batch was started
+};
+
+struct BatchOptions {
+  std::string folder = "batch";  // where everything is made
+  bool diagnosis = true;
+  bool report = true;
+};
+
+struct Batch {
+  Manifest manifest;
+  BatchOptions options;
+  std::vector<BatchStep> steps;         // of all rows; a body of several rows once
+  std::vector<std::vector<int>> chain;  // [row]: its steps in order; empty when it has a problem
+};
+
+// Rows with the same scan, unit and options share their body. Where a row's options do not say
+// otherwise, each command runs with one thread: the batch is parallel over the recordings.
+Batch plan_batch(const Manifest& manifest, const BatchOptions& options);
+
+// The row's file of a step, seen from the folder where the batch was started; "" without that step.
+std::string output_of(const Batch& batch, std::size_t row, const std::string& step);
+
+}  // namespace hapsim

@@ -1,0 +1,60 @@
+// The manifest of a batch: a CSV with a row a recording.
+#pragma once
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/stream.h"
+
+namespace hapsim {
+
+// The stages of a recording, in their order; `column` has flags for the stage's tool.
+struct BatchStage {
+  const char* step;    // "model"
+  const char* tool;    // "hs-identify"
+  const char* column;  // "options"
+};
+inline constexpr std::array<BatchStage, 7> kBatchStages{{
+    {"points", "hs-scan2ply", "scan_options"},
+    {"surface", "hs-reconstruct", "reconstruct_options"},
+    {"body", "hs-tetmesh", "tetmesh_options"},
+    {"model", "hs-identify", "options"},
+    {"diagnosis", "hs-diagnose", "diagnose_options"},
+    {"forces", "hs-simulate", "simulate_options"},
+    {"report", "hs-compare", "compare_options"},
+}};
+
+// One recording. Paths are as a command in the current folder names them: those of the manifest
+// are relative to the manifest's own folder.
+struct ManifestRow {
+  long line = 0;
+  std::string name;
+  std::string folder;  // the name as one word that is plain to make and shell
+  std::string body, scan, data;
+  std::string scan_unit = "m";
+  double tool_radius = 0;           // [m]; 0: the recording's own
+  std::string effects = "elastic";  // separated by commas
+  std::array<std::vector<std::string>, kBatchStages.size()> options;
+  std::vector<std::string> common;  // flags of hs-identify, hs-diagnose and hs-simulate alike
+  std::vector<std::string> extra;   // unknown columns
+  std::string problem;              // why it cannot run: "batch.csv:7: what is wrong; what to do"
+};
+
+struct Manifest {
+  std::string name;
+  std::vector<std::string> extra_header;
+  std::vector<ManifestRow> rows;
+};
+
+// Columns name, data, and body or scan; tool, effects, scan_unit and the stages' options may be
+// absent or empty. What is wrong with one row (a missing file, a name given twice, an open quote)
+// becomes its `problem`. Error(kBadInput): missing column, malformed CSV, no rows.
+Manifest read_manifest(Input& input);
+
+// `text` as a name of plain letters; where letters had to be replaced, or cut off, a hash of the
+// whole keeps different texts apart.
+std::string plain_name(const std::string& text);
+
+}  // namespace hapsim

@@ -1,0 +1,164 @@
+#include "batch/rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "base/error.h"
+#include "batch/outcome.h"
+#include "batch/shell_words.h"
+
+namespace hapsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write_if_changed(const fs::path& path, const std::string& text) {
+  std::ifstream old(path, std::ios::binary);
+  std::ostringstream bytes;
+  if (old && bytes << old.rdbuf() && bytes.str() == text) return;
+  Output output(path.string());
+  output.write(text);
+  output.commit();
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) fail_io(path.string(), "cannot be made: " + error.message(), "choose another --out");
+}
+
+// A name that make takes as it stands.
+bool plain_to_make(const std::string& path) {
+  return path.find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+             "_./-+,@") == path.npos;
+}
+
+// The user's file as a prerequisite: by its full name, or by a link where make would misread that.
+std::string prerequisite(const fs::path& folder, const std::string& path) {
+  const std::string full = fs::absolute(path).lexically_normal().string();
+  if (plain_to_make(full)) return full;
+  const std::string link = "links/" + plain_name(full);
+  make_folder(folder / "links");
+  std::error_code error;
+  if (fs::read_symlink(folder / link, error) == full) return link;
+  fs::remove(folder / link, error);
+  fs::create_symlink(full, folder / link, error);
+  if (error) fail_io((folder / link).string(), error.message(), "choose another --out");
+  return link;
+}
+
+constexpr const char* kStepScript = R"(#!/bin/sh
+# step.sh FOLDER STEP OUTPUT [INPUT...]: runs FOLDER/STEP.sh, which makes OUTPUT. INPUTs come from
+# earlier steps: where one is missing, that step failed. Ends with 0 also when the step fails, which
+# FOLDER/failure then says; with another code when it was stopped from outside.
+batch={}
+cd {} || exit 1
+{}folder=$batch/$1 step=$2 output=$batch/$3
+shift 3
+for input; do [ -e "$batch/$input" ] || exit 0; done
+echo "step ${{folder##*/}}"
+log=$folder/$step.log
+sh "$folder/$step.sh" </dev/null >/dev/null 2>"$log.$$"
+code=$?
+case $code in
+  0) rm -f "$folder/failure" ;;
+  129 | 130 | 131 | 143) rm -f "$log.$$"; exit $code ;;
+  *)
+    rm -f "$output"
+    {{ printf '%s\n%s\n' "$step" $code; tail -n 1 "$log.$$"; }} >"$folder/failure.$$" &&
+      mv -f "$folder/failure.$$" "$folder/failure" || exit 1
+    ;;
+esac
+mv -f "$log.$$" "$log"
+)";
+
+// Whether the chain failed for a reason that stays, and after all that the failed step builds on.
+bool fails_again(const Batch& batch, const std::vector<int>& chain, const StepFailure& failure) {
+  if (failure.code < 2 || failure.code > 4) return false;
+  const fs::path folder = batch.options.folder;
+  const auto step_of = [&](int s) -> const BatchStep& {
+    return batch.steps[static_cast<std::size_t>(s)];
+  };
+  const auto last = std::find_if(chain.begin(), chain.end(),
+                                 [&](int s) { return step_of(s).name == failure.step; });
+  if (last == chain.end()) return false;
+  std::error_code error;
+  const auto failed = fs::last_write_time(folder / step_of(*last).folder / "failure", error);
+  if (error) return false;
+  const auto older = [&](const fs::path& input) {
+    const auto time = fs::last_write_time(input, error);
+    return !error && time <= failed;
+  };
+  for (auto s = chain.begin(); s != last + 1; ++s) {
+    const BatchStep& step = step_of(*s);
+    if (!older(folder / step.folder / (step.name + ".sh"))) return false;
+    for (const std::string& input : step.given)
+      if (!older(input)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+PrepareReport write_rules(const Batch& batch, const std::string& bin, const std::string& version) {
+  const fs::path folder = batch.options.folder;
+  make_folder(folder);
+  const std::string here = fs::current_path().string();
+  write_if_changed(
+      folder / "step.sh",
+      fmt::format(kStepScript, shell_quoted(fs::absolute(folder).lexically_normal().string()),
+                  shell_quoted(here),
+                  bin.empty()
+                      ? ""
+                      : "PATH=" + shell_quoted(fs::absolute(bin).lexically_normal().string()) +
+                            ":$PATH\n"));
+  for (const BatchStep& step : batch.steps) {
+    make_folder(folder / step.folder);
+    write_if_changed(folder / step.folder / (step.name + ".sh"),
+                     "# hapsim " + version + "\n" + step.command + "\n");
+  }
+
+  PrepareReport report;
+  std::string all, rules;
+  std::set<int> written;
+  for (std::size_t r = 0; r < batch.chain.size(); ++r) {
+    const ManifestRow& row = batch.manifest.rows[r];
+    if (batch.chain[r].empty()) {
+      ++report.refused;
+      continue;
+    }
+    const std::optional<StepFailure> failure = find_failure(batch, batch.chain[r]);
+    if (failure && fails_again(batch, batch.chain[r], *failure)) {
+      ++report.failed_before;
+      continue;
+    }
+    ++report.ready;
+    const std::string target = "recording-" + row.folder;
+    all += " " + target;
+    for (const int s : batch.chain[r]) {
+      if (!written.insert(s).second) continue;
+      const BatchStep& step = batch.steps[static_cast<std::size_t>(s)];
+      std::string made, given;
+      for (const std::string& input : step.made) made += " " + input;
+      for (const std::string& input : step.given) given += " " + prerequisite(folder, input);
+      rules += fmt::format("{0}: {1}/{2}.sh{3}{4}\n\t@$(STEP) step.sh {1} {2} {0}{4}\n",
+                           step.output, step.folder, step.name, given, made);
+    }
+    rules += fmt::format("{}: {}\n\t@echo finished {}\n", target,
+                         batch.steps[static_cast<std::size_t>(batch.chain[r].back())].output,
+                         row.folder);
+  }
+  Output output((folder / "batch.mk").string());
+  output.write("# Written by hs-batch.\nSTEP := sh\nall:" + all + "\n.PHONY: all" + all +
+               "\nMAKEFLAGS += -rR\n" + rules);
+  output.commit();
+  return report;
+}
+
+}  // namespace hapsim

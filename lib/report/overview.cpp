@@ -1,0 +1,122 @@
+#include "report/overview.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "report/assets.h"
+#include "report/html.h"
+#include "report/page.h"
+
+namespace hapsim {
+namespace {
+
+double median(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return !std::isfinite(v); });
+  if (values.empty()) return std::nan("");
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.3g}", value) : "";
+}
+
+Report header_of(const Overview& o) {
+  Report report;
+  report.title = o.title;
+  report.verdict = o.verdict;
+  report.good = o.failures.empty() && o.not_run.empty();
+  report.provenance = o.provenance;
+  std::vector<double> rmse, ratio, held_out;
+  std::map<std::string, int> verdicts;
+  for (const OverviewRow& row : o.rows) {
+    rmse.push_back(row.rmse);
+    ratio.push_back(row.noise > 0 ? row.rmse / row.noise : std::nan(""));
+    held_out.push_back(row.held_out);
+    if (!row.verdict.empty()) ++verdicts[row.verdict];
+  }
+  report.numbers = {{"recordings done", std::to_string(o.rows.size()),
+                     fmt::format("{} failed, {} not run", o.failures.size(), o.not_run.size())}};
+  const auto add = [&](const char* label, double value, const char* unit, const char* note) {
+    if (std::isfinite(value)) report.numbers.push_back({label, number(value) + unit, note});
+  };
+  add("median error", median(rmse), " N", "rmse of the fit, components pooled");
+  add("median error over noise", median(ratio), " ×", "1 × when nothing but noise is left");
+  add("median error, unseen", median(held_out), " N", "on positions left out of the fit");
+  std::string counts;
+  for (const auto& [verdict, count] : verdicts)
+    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, verdict);
+  if (!counts.empty()) {
+    const auto complete = verdicts.find("complete");
+    report.numbers.push_back({"models complete",
+                              std::to_string(complete == verdicts.end() ? 0 : complete->second),
+                              counts});
+  }
+  return report;
+}
+
+std::string cell(const std::string& text, bool is_number) {
+  return fmt::format("<td{}>{}</td>", is_number ? " class='n'" : "", escape_html(text));
+}
+
+std::string page_rows(const Overview& o) {
+  if (o.rows.empty()) return "";
+  std::vector<const OverviewRow*> order;
+  for (const OverviewRow& row : o.rows) order.push_back(&row);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto* a, const auto* b) { return a->rmse > b->rmse; });
+  std::string out =
+      "<section><h2>Recordings, largest error first</h2><div class='scroll'>"
+      "<table class='sortable'><thead><tr><th>recording</th><th class='n'>rmse [N]</th>"
+      "<th class='n'>over noise</th><th class='n'>unseen [N]</th><th class='n'>E [Pa]</th>"
+      "<th class='n'>nu</th><th>effects</th><th>verdict</th><th>missing</th></tr></thead><tbody>\n";
+  for (const OverviewRow* row : order) {
+    const std::string name = escape_html(row->name);
+    out += row->link.empty()
+               ? "<tr><td>" + name + "</td>"
+               : fmt::format("<tr><td><a href='{}'>{}</a></td>", escape_html(row->link), name);
+    out += cell(number(row->rmse), true) +
+           cell(row->noise > 0 ? number(row->rmse / row->noise) : "", true) +
+           cell(number(row->held_out), true) + cell(row->modulus, true) + cell(row->nu, true) +
+           cell(row->effects, false);
+    out += fmt::format("<td><span class='tag {0}'>{0}</span></td>", escape_html(row->verdict)) +
+           cell(row->missing, false) + "</tr>\n";
+  }
+  return out + "</tbody></table></div></section>\n";
+}
+
+std::string page_failures(const Overview& o) {
+  std::string out;
+  if (!o.failures.empty()) {
+    out += "<section><h2>Failed</h2>\n";
+    for (const OverviewFailure& f : o.failures) {
+      out += fmt::format("<div class='long'><b>{}</b><br>{}", escape_html(f.name),
+                         escape_html(f.message));
+      if (!f.command.empty()) out += "<pre>" + escape_html(f.command) + "</pre>";
+      out += "</div>\n";
+    }
+    out += "</section>\n";
+  }
+  if (!o.not_run.empty()) {
+    out += "<section><h2>Not run</h2><p>The batch was stopped before these; run it again.</p><ul>";
+    for (const std::string& name : o.not_run) out += "<li>" + escape_html(name) + "</li>";
+    out += "</ul></section>\n";
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_overview(std::ostream& out, const Overview& overview) {
+  const Report header = header_of(overview);
+  write_head(out, header.title);
+  out << page_header(header) << page_failures(overview) << page_rows(overview)
+      << page_provenance(header) << "<script>\n"
+      << assets::kTable << "</script>\n</body></html>\n";
+}
+
+}  // namespace hapsim

@@ -1,0 +1,43 @@
+// The overview of many recordings: one page with a table to sort, and what failed.
+#pragma once
+
+#include <limits>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/report.h"
+
+namespace hapsim {
+
+struct OverviewRow {
+  std::string name;
+  std::string link;  // to the recording's own report, relative to the page; "" for none
+  std::string effects, verdict, missing;
+  double rmse = std::numeric_limits<double>::quiet_NaN();      // [N]
+  double held_out = std::numeric_limits<double>::quiet_NaN();  // [N]
+  double noise = std::numeric_limits<double>::quiet_NaN();     // [N]
+  std::string modulus, nu;                                     // as text
+};
+
+struct OverviewFailure {
+  std::string name;
+  std::string message;
+  std::string command;  // that repeats it; may be empty
+};
+
+struct Overview {
+  std::string title;
+  std::string verdict;  // one line
+  std::vector<OverviewRow> rows;
+  std::vector<OverviewFailure> failures;
+  std::vector<std::string> not_run;  // names
+  std::vector<std::pair<std::string, std::string>> provenance;
+};
+
+// One HTML file that needs no network: key numbers, how often each verdict, failures, and the
+// recordings with the largest error first (a click on a column's head sorts by it).
+void write_overview(std::ostream& out, const Overview& overview);
+
+}  // namespace hapsim

@@ -1,0 +1,221 @@
+// hs-batch: many recordings by one manifest; make does the work.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <set>
+
+#include "base/error.h"
+#include "batch/outcome.h"
+#include "batch/rules.h"
+#include "cli/tool.h"
+#include "io/number.h"
+#include "report/overview.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-batch";
+  spec.summary = "identify and diagnose many recordings by one manifest";
+  spec.input = "manifest CSV, a row a recording";
+  spec.description = {
+      "With --prepare it checks the manifest and writes rules for make, one chain of files for "
+      "each "
+      "recording; without, it reads how far they have come and writes the summary. In between make "
+      "does the work, which `make -f Makefile.pipeline batch MANIFEST=... -jN` puts together. A "
+      "file "
+      "is made again only when its command, its inputs or hapsim's version has changed, so what "
+      "was "
+      "interrupted goes on where it was. One failure never stops the others, and is not tried "
+      "again "
+      "until something that it depends on has changed, unless it was a failure of the machine "
+      "(full "
+      "disk, out of memory).",
+      "Each step runs with one thread; -j of make says how many run side by side, and bounds the "
+      "memory.",
+      "Exit code 1 when a recording failed or was not run. Each failed recording is told in a line "
+      "of its own."};
+  spec.options = {
+      {.flag = "--out",
+       .kind = OptionKind::kText,
+       .value = "DIR",
+       .help = "Where everything is made: bodies/..., recordings/NAME/model.csv, effects.csv, "
+               "forces.csv, report.html, and what each step said in STEP.log.",
+       .default_text = "batch"},
+      {.flag = "--prepare",
+       .kind = OptionKind::kSwitch,
+       .help = "Write DIR/batch.mk for `make -k -C DIR -f batch.mk`, and no summary."},
+      {.flag = "--stages",
+       .kind = OptionKind::kChoice,
+       .value = "LAST",
+       .help = "How far each recording goes: its model, also its diagnosis, also its report.",
+       .default_text = "report",
+       .choices = {"model", "diagnosis", "report"}},
+      {.flag = "--bin",
+       .kind = OptionKind::kText,
+       .value = "DIR",
+       .help = "Where the other tools are, before the PATH."},
+      {.flag = "--wait",
+       .kind = OptionKind::kSwitch,
+       .help =
+           "Read make's output from standard input until it ends, show progress, then write the "
+           "summary."},
+      {.flag = "--html",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes an overview: recordings by error, verdicts, failures with the command "
+               "that repeats them."}};
+  spec.tables = {
+      {"Manifest (input)",
+       {{"name", "name of the recording, any text, no two alike"},
+        {"data", "its recording CSV; paths are relative to the manifest's folder"},
+        {"body", "body from hs-tetmesh; or"},
+        {"scan", "its scan, of which the body is made (once for rows with equal scan and options)"},
+        {"tool", "radius of the tool, 0.004 [m] or 4mm; empty: as the recording says"},
+        {"effects", "as hs-identify --effects: elastic (when empty), 'elastic viscoelastic', auto"},
+        {"options", "further flags of hs-identify, quoted as in a shell"},
+        {"common_options",
+         "flags of hs-identify, hs-diagnose and hs-simulate alike: --rim-edge 0.2"},
+        {"scan_unit", "unit of the scan, m when empty"},
+        {"scan_options, reconstruct_options, tetmesh_options, diagnose_options, simulate_options, "
+         "compare_options",
+         "further flags of these tools"},
+        {"...", "other columns are carried through to the summary"}}},
+      {"Summary (output)",
+       {{"name, line", "of the manifest"},
+        {"state", "done, failed or not run"},
+        {"effects, E, nu", "of the model; E [Pa] and nu of region 0"},
+        {"rmse, heldout, force_noise", "error of the fit and on unseen positions, noise [N]"},
+        {"verdict, missing", "of the diagnosis: the model's, and the effects that it misses"},
+        {"message, command", "of a failure: its line, and the command that repeats it"}}}};
+  spec.examples = {
+      {"make -f Makefile.pipeline batch MANIFEST=recordings.csv OUT=batch -j4",
+       "Everything; again after an interruption or a change."},
+      {"hs-batch recordings.csv --prepare --out batch", "The rules alone."},
+      {"make -k -C batch -f batch.mk -j4 recording-liver-03", "One recording."},
+      {"hs-batch recordings.csv --out batch --html batch/overview.html -o batch/summary.csv",
+       "How far it is."}};
+  spec.see_also = {"hs-identify(1)", "hs-diagnose(1)", "hs-compare(1)", "make(1)"};
+  return spec;
+}
+
+int prepare(const Arguments& arguments, const Batch& batch) {
+  const PrepareReport report = write_rules(batch, arguments.text("--bin"), version());
+  const auto also = [](std::size_t count, const char* what) {
+    return count == 0 ? std::string() : fmt::format("; {} {}", count, what);
+  };
+  say(arguments, "hs-batch",
+      fmt::format("{} recordings{}{}", report.ready,
+                  also(report.refused, "cannot run as the manifest has them"),
+                  also(report.failed_before, "failed before, and nothing has changed")));
+  return 0;
+}
+
+// What make says: "step NAME" when a step of a recording begins, "finished NAME" when it is
+// through.
+void wait_for_make(const Arguments& arguments, const Batch& batch) {
+  std::size_t ready = 0;
+  for (std::size_t r = 0; r < batch.chain.size(); ++r)
+    if (!batch.chain[r].empty()) ++ready;
+  Progress progress(arguments, "recordings", ready);
+  std::set<std::string> worked;
+  for (std::string line; std::getline(std::cin, line);) {
+    if (line.rfind("step ", 0) == 0) worked.insert(line.substr(5));
+    if (line.rfind("finished ", 0) != 0) continue;
+    if (worked.count(line.substr(9)) != 0)
+      progress.step();
+    else
+      progress.found_done();
+  }
+}
+
+std::string four_digits(const std::string& text) {
+  double value = 0;
+  return parse_number(text, value) ? fmt::format("{:.4g}", value) : text;
+}
+
+Overview overview_of(const Arguments& arguments, const Batch& batch,
+                     const std::vector<RecordingOutcome>& outcomes, const std::string& verdict) {
+  namespace fs = std::filesystem;
+  Overview page;
+  page.title = "Recordings of " + batch.manifest.name;
+  page.verdict = verdict;
+  page.provenance = {
+      {"manifest", batch.manifest.name}, {"folder", batch.options.folder}, {"hapsim", version()}};
+  const fs::path beside = fs::absolute(arguments.text("--html")).parent_path();
+  for (std::size_t r = 0; r < outcomes.size(); ++r) {
+    const RecordingOutcome& o = outcomes[r];
+    const std::string& name = batch.manifest.rows[r].name;
+    if (o.state == RecordingState::kNotRun) page.not_run.push_back(name);
+    if (o.state == RecordingState::kFailed) page.failures.push_back({name, o.message, o.command});
+    if (o.state != RecordingState::kDone) continue;
+    OverviewRow row{name, "", o.effects, o.verdict, o.missing};
+    row.rmse = o.rmse;
+    row.held_out = o.held_out;
+    row.noise = o.noise;
+    row.modulus = four_digits(o.modulus);
+    row.nu = four_digits(o.nu);
+    if (const std::string report = output_of(batch, r, "report"); !report.empty())
+      row.link = fs::absolute(report).lexically_relative(beside).string();
+    page.rows.push_back(std::move(row));
+  }
+  return page;
+}
+
+int summarise(const Arguments& arguments, const Batch& batch) {
+  const std::vector<RecordingOutcome> outcomes = read_outcomes(batch);
+  const auto count = [&](RecordingState state) {
+    return static_cast<std::size_t>(
+        std::count_if(outcomes.begin(), outcomes.end(), [&](auto& o) { return o.state == state; }));
+  };
+  const std::size_t failed = count(RecordingState::kFailed), open = count(RecordingState::kNotRun);
+  std::string verdict =
+      fmt::format("{} of {} recordings done", count(RecordingState::kDone), outcomes.size());
+  if (failed > 0) verdict += fmt::format(", {} failed", failed);
+  if (open > 0) verdict += fmt::format(", {} not run", open);
+
+  Output summary(arguments.output());
+  write_summary(summary.stream(), batch, outcomes);
+  if (arguments.given("--html")) {
+    Output html(arguments.text("--html"));
+    write_overview(html.stream(), overview_of(arguments, batch, outcomes, verdict));
+    html.commit();
+  }
+  summary.commit();
+  for (std::size_t r = 0; r < outcomes.size(); ++r)
+    if (outcomes[r].state == RecordingState::kFailed)
+      say(arguments, "hs-batch",
+          fmt::format("failed: {}: {}", batch.manifest.rows[r].name, outcomes[r].message));
+  say(arguments, "hs-batch", verdict);
+  return static_cast<int>(failed + open > 0 ? ExitCode::kCheckFailed : ExitCode::kDone);
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.given("--prepare"))
+    for (const char* flag : {"--wait", "--html", "--output"})
+      if (arguments.given(flag))
+        fail_usage(std::string("--prepare and ") + flag + " exclude each other", "prepare first");
+  if (arguments.given("--wait") && arguments.input() == "-")
+    fail_usage("--wait reads standard input, and so would the manifest", "name the manifest");
+  BatchOptions options;
+  options.folder = arguments.text("--out");
+  while (options.folder.size() > 1 && options.folder.back() == '/') options.folder.pop_back();
+  options.report = arguments.text("--stages") == "report";
+  options.diagnosis = arguments.text("--stages") != "model";
+  Input input(arguments.input());
+  const Batch batch = plan_batch(read_manifest(input), options);
+  if (arguments.given("--prepare")) return prepare(arguments, batch);
+  if (arguments.given("--wait")) wait_for_make(arguments, batch);
+  return summarise(arguments, batch);
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
