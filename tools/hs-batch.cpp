@@ -12,6 +12,7 @@
 #include "batch/rules.h"
 #include "cli/tool.h"
 #include "io/number.h"
+#include "report/junit.h"
 #include "report/overview.h"
 
 namespace hapsim {
@@ -68,7 +69,11 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes an overview: recordings by error, verdicts, failures with the command "
-               "that repeats them."}};
+               "that repeats them."},
+      {.flag = "--junit",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes JUnit's XML, a test a recording, for CI servers."}};
   spec.tables = {
       {"Manifest (input)",
        {{"name", "name of the recording, any text, no two alike"},
@@ -166,6 +171,20 @@ Overview overview_of(const Arguments& arguments, const Batch& batch,
   return page;
 }
 
+void write_cases(const std::string& path, const Batch& batch,
+                 const std::vector<RecordingOutcome>& outcomes) {
+  std::vector<JunitCase> cases;
+  for (std::size_t r = 0; r < outcomes.size(); ++r) {
+    const RecordingOutcome& o = outcomes[r];
+    cases.push_back({batch.manifest.rows[r].name, o.message,
+                     o.command.empty() ? "" : o.message + "\n" + o.command,
+                     o.state == RecordingState::kNotRun});
+  }
+  Output junit(path);
+  write_junit(junit.stream(), "hs-batch", cases);
+  junit.commit();
+}
+
 int summarise(const Arguments& arguments, const Batch& batch) {
   const std::vector<RecordingOutcome> outcomes = read_outcomes(batch);
   const auto count = [&](RecordingState state) {
@@ -185,6 +204,7 @@ int summarise(const Arguments& arguments, const Batch& batch) {
     write_overview(html.stream(), overview_of(arguments, batch, outcomes, verdict));
     html.commit();
   }
+  if (arguments.given("--junit")) write_cases(arguments.text("--junit"), batch, outcomes);
   summary.commit();
   for (std::size_t r = 0; r < outcomes.size(); ++r)
     if (outcomes[r].state == RecordingState::kFailed)
@@ -196,7 +216,7 @@ int summarise(const Arguments& arguments, const Batch& batch) {
 
 int run(const Arguments& arguments) {
   if (arguments.given("--prepare"))
-    for (const char* flag : {"--wait", "--html", "--output"})
+    for (const char* flag : {"--wait", "--html", "--junit", "--output"})
       if (arguments.given(flag))
         fail_usage(std::string("--prepare and ") + flag + " exclude each other", "prepare first");
   if (arguments.given("--wait") && arguments.input() == "-")

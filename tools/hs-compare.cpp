@@ -10,6 +10,7 @@
 #include "compare_report.h"
 #include "geometry/tetmesh.h"
 #include "io/ply.h"
+#include "report/junit.h"
 #include "report/palette.h"
 
 namespace hapsim {
@@ -89,6 +90,10 @@ ToolSpec specification() {
        .value = "FILE",
        .help = "model.csv of the compared version: the report shows its parameters with their "
                "intervals, and its regions on the body."},
+      {.flag = "--junit",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers."},
       {.flag = "--title",
        .kind = OptionKind::kText,
        .value = "TEXT",
@@ -225,6 +230,7 @@ void add_provenance(const Arguments& arguments, const Recording& measured,
   const auto add = [&](const char* key, const std::string& value) {
     report.provenance.emplace_back(key, value);
   };
+  add("hapsim", version());
   add("measured", measured.name);
   for (const Version& v : versions)
     add("simulated", v.name + (v.name == v.recording.name ? "" : " = " + v.recording.name));
@@ -308,9 +314,26 @@ void summarise(const Arguments& arguments, const std::vector<Version>& versions,
   }
 }
 
+// Where the error is largest stands with a failure.
+void write_verdict(const Arguments& arguments, const Recording& measured, const Comparison& c,
+                   const std::string& excess) {
+  std::string details = excess;
+  for (const Observation& o : c.observations) details += "\n" + o.sentence;
+  const std::vector<int> worst = c.worst_positions();
+  if (!worst.empty())
+    details += "\nworst position " +
+               c.by_position().grouping.bins[static_cast<std::size_t>(worst[0])].label;
+  Output junit(arguments.text("--junit"));
+  write_junit(junit.stream(), "hs-compare",
+              {{measured.name + " below " + arguments.text("--fail-above"), excess, details}});
+  junit.commit();
+}
+
 int run(const Arguments& arguments) {
   Limit limit;
   if (arguments.given("--fail-above")) limit = parse_limit(arguments.text("--fail-above"));
+  if (arguments.given("--junit") && !arguments.given("--fail-above"))
+    fail_usage("--junit tells a verdict, and none is asked for", "add --fail-above 1.5noise");
   if (arguments.given("--ply") && !arguments.given("--body"))
     fail_usage("--ply colours a surface, and none is given", "add --body body.ply");
   Input input(arguments.input());
@@ -354,10 +377,12 @@ int run(const Arguments& arguments) {
   if (limit.unit == Limit::Unit::kNoise && !(c.noise.value > 0))
     fail_input(measured.name, "the noise is not known, so --fail-above in noise cannot be judged",
                "add a line '# force_noise: 0.02' (newtons), or give the limit in N");
-  if (c.size.rmse <= most) return 0;
-  say(arguments, "hs-compare",
-      fmt::format("typical error {} exceeds {} ({})", newtons(c.size.rmse), newtons(most),
-                  arguments.text("--fail-above")));
+  const bool failed = c.size.rmse > most;
+  const std::string excess = fmt::format("typical error {} exceeds {} ({})", newtons(c.size.rmse),
+                                         newtons(most), arguments.text("--fail-above"));
+  if (arguments.given("--junit")) write_verdict(arguments, measured, c, failed ? excess : "");
+  if (!failed) return 0;
+  say(arguments, "hs-compare", excess);
   return static_cast<int>(ExitCode::kCheckFailed);
 }
 

@@ -10,6 +10,7 @@
 #include "diagnose/plan.h"
 #include "io/csv.h"
 #include "model/edit.h"
+#include "report/junit.h"
 
 namespace hapsim {
 namespace {
@@ -53,6 +54,10 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes the diagnosis as JSON."},
+      {.flag = "--junit",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes the verdict as JUnit's XML, a test each effect that could be tested."},
       {.flag = "--plan",
        .kind = OptionKind::kFile,
        .value = "FILE",
@@ -231,6 +236,20 @@ void write_plan(const Arguments& arguments, const Diagnosis& d, const Workspace&
                      p.separation > 0 ? fmt::format(" ({:.3g} alone)", p.separation) : ""));
 }
 
+void write_verdicts(const std::string& path, const Diagnosis& d) {
+  std::vector<JunitCase> cases;
+  const bool complete = d.verdict == ModelVerdict::kComplete;
+  cases.push_back({"model", complete ? "" : verdict_name(d.verdict) + (": " + d.explanation), ""});
+  for (const Finding& f : d.findings) {
+    const bool lacking = f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
+    cases.push_back({f.effect, lacking ? verdict_name(f.verdict) + (": " + f.evidence) : "",
+                     f.where, f.verdict == Verdict::kNotTestable});
+  }
+  Output junit(path);
+  write_junit(junit.stream(), "hs-diagnose", cases);
+  junit.commit();
+}
+
 int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-diagnose");
   const TetMesh body = load_body(arguments);
@@ -254,6 +273,7 @@ int run(const Arguments& arguments) {
     json.stream() << as_json(arguments, d).dump(2) << '\n';
     json.commit();
   }
+  if (arguments.given("--junit")) write_verdicts(arguments.text("--junit"), d);
   report(arguments, d);
   if (arguments.given("--plan")) write_plan(arguments, d, w);
   const bool failed = arguments.given("--check") && d.verdict != ModelVerdict::kComplete;

@@ -1,0 +1,162 @@
+// hs-check: is a model still the golden one?
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "cli/tool.h"
+#include "io/csv.h"
+#include "model/golden.h"
+#include "report/junit.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-check";
+  spec.summary = "compare a model with a golden one, by tolerance and standard errors";
+  spec.input = "model CSV, freshly identified";
+  spec.description = {
+      "Two models of the same recording are never equal byte for byte: another compiler, machine "
+      "or "
+      "number of threads changes the last digits, and a new recording of the same object changes "
+      "more. A parameter counts as the same when it differs by no more than its tolerance, or than "
+      "--standard-errors times the standard error of the difference, whichever is more. Parameters "
+      "that only one model has differ, and so do those that are fixed in one and free in the "
+      "other. "
+      "The errors of the fit and on unseen data (metadata rmse, heldout) may be smaller, but not "
+      "larger by more than --worse.",
+      "Exit code 1 when anything differs, and a line for each that says what."};
+  spec.options = {
+      {.flag = "--golden",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "The model as it should be.",
+       .required = true},
+      {.flag = "--tolerance",
+       .value = "LIST",
+       .help = "By how much parameters may differ: 2% of the golden value, or in the parameter's "
+               "unit; for one alone NAME=, as in 2%,elastic.nu=0.01,tau1=10%.",
+       .default_text = "1%",
+       .repeatable = true},
+      {.flag = "--standard-errors",
+       .kind = OptionKind::kNumber,
+       .value = "K",
+       .help = "Differences of up to K standard errors are chance.",
+       .default_text = "3",
+       .minimum = 0,
+       .maximum = 100},
+      {.flag = "--worse",
+       .value = "SHARE",
+       .help = "By how much rmse and heldout may exceed the golden ones.",
+       .default_text = "10%"},
+      {.flag = "--junit",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Also writes JUnit's XML, a test a parameter, for CI servers."}};
+  spec.tables = {
+      {"Comparison (output)",
+       {{"effect, region, parameter", "as in the models; rmse and heldout without effect"},
+        {"value, golden", "of the two models, in SI units"},
+        {"allowed", "largest difference that counts as the same"},
+        {"verdict", "same, differs, new (not in the golden model) or gone"}}}};
+  spec.examples = {
+      {"hs-check model.csv --golden golden.csv", "A check in CI."},
+      {"hs-identify data.csv --body body.ply | hs-check --golden golden.csv --tolerance 5% -q -o "
+       "changes.csv",
+       "With the table of all parameters."}};
+  spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-diagnose(1)", "hs-batch(1)"};
+  return spec;
+}
+
+// "2%" or "0.01"; false when it is neither, or negative.
+bool parse_share(std::string_view text, Tolerance& tolerance) {
+  text = trim(text);
+  tolerance.relative = !text.empty() && text.back() == '%';
+  if (tolerance.relative) text.remove_suffix(1);
+  if (!parse_number(text, tolerance.value) || tolerance.value < 0) return false;
+  if (tolerance.relative) tolerance.value /= 100;
+  return true;
+}
+
+GoldenOptions golden_options(const Arguments& arguments) {
+  GoldenOptions options;
+  options.standard_errors = arguments.number("--standard-errors");
+  Tolerance all;
+  parse_share("1%", all);
+  options.tolerances = {all};
+  for (const std::string& text : arguments.list("--tolerance")) {
+    Tolerance tolerance;
+    const std::size_t equals = text.find('=');
+    if (equals != text.npos) tolerance.parameter = text.substr(0, equals);
+    if (!parse_share(equals == text.npos ? text : text.substr(equals + 1), tolerance))
+      fail_usage("--tolerance " + shown(text) + " is no tolerance",
+                 "give 2%, or for one parameter nu=0.01 or elastic.E=2%");
+    options.tolerances.push_back(tolerance);
+  }
+  Tolerance worse;
+  if (!parse_share(arguments.text("--worse"), worse))
+    fail_usage("--worse " + shown(arguments.text("--worse")) + " is no share", "give 10% or 0.1");
+  options.worse = worse.value;
+  return options;
+}
+
+std::string name_of(const GoldenRow& row) {
+  const std::string name = row.effect.empty() ? row.parameter : row.effect + "." + row.parameter;
+  return row.region == 0 ? name : fmt::format("{}[{}]", name, row.region);
+}
+
+Model load_model(const std::string& path) {
+  Input input(path);
+  return read_model(input);
+}
+
+int run(const Arguments& arguments) {
+  const GoldenOptions options = golden_options(arguments);
+  const Model model = load_model(arguments.input());
+  const Model golden = load_model(arguments.text("--golden"));
+  const std::vector<GoldenRow> rows = compare_with_golden(model, golden, options);
+  for (const Tolerance& t : options.tolerances) {
+    const bool fits = std::any_of(rows.begin(), rows.end(), [&](const GoldenRow& row) {
+      return t.parameter.empty() || t.parameter == row.parameter ||
+             t.parameter == row.effect + "." + row.parameter;
+    });
+    if (!fits)
+      fail_usage("--tolerance: no parameter is named '" + t.parameter + "'", "write elastic.E=2%");
+  }
+
+  Output output(arguments.output());
+  CsvWriter table(output.stream(), {},
+                  {"effect", "region", "parameter", "value", "golden", "allowed", "verdict"});
+  const auto number = [](double v) { return std::isfinite(v) ? format_number(v) : std::string(); };
+  std::vector<JunitCase> cases;
+  std::size_t differ = 0;
+  for (const GoldenRow& row : rows) {
+    table.row({row.effect, std::to_string(row.region), row.parameter, number(row.value),
+               number(row.golden), number(row.allowed), golden_verdict_name(row.verdict)});
+    cases.push_back({name_of(row), row.why, ""});
+    if (row.verdict != GoldenVerdict::kSame) ++differ;
+  }
+  if (arguments.given("--junit")) {
+    Output junit(arguments.text("--junit"));
+    write_junit(junit.stream(), "hs-check", cases);
+    junit.commit();
+  }
+  output.commit();
+  for (const GoldenRow& row : rows)
+    if (!row.why.empty()) say(arguments, "hs-check", row.why);
+  say(arguments, "hs-check",
+      differ == 0 ? fmt::format("{} parameters and errors are those of {}", rows.size(),
+                                arguments.text("--golden"))
+                  : fmt::format("{} of {} parameters and errors differ from {}", differ,
+                                rows.size(), arguments.text("--golden")));
+  return static_cast<int>(differ == 0 ? ExitCode::kDone : ExitCode::kCheckFailed);
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
