@@ -11,10 +11,15 @@ endfunction()
 function(hapsim_layer name)
   cmake_parse_arguments(arg "" "" "SOURCES;USES;LINKS" ${ARGN})
   add_library(hapsim_${name} STATIC ${arg_SOURCES})
-  target_include_directories(hapsim_${name} PUBLIC ${PROJECT_SOURCE_DIR}/lib)
+  target_include_directories(hapsim_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/hapsim>)
   list(TRANSFORM arg_USES PREPEND hapsim_)
   target_link_libraries(hapsim_${name} PUBLIC ${arg_USES} PRIVATE ${arg_LINKS})
   hapsim_flags(hapsim_${name})
+  set_target_properties(hapsim_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY hapsim_layers ${name})
+  install(TARGETS hapsim_${name} EXPORT hapsim COMPONENT dev
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 endfunction()
 
 # hapsim_tool(<name> USES layer ...): a command in tools/<name>.cpp, installed with its man page.
@@ -25,13 +30,26 @@ function(hapsim_tool name)
   target_link_libraries(${name} PRIVATE hapsim_cli ${arg_USES})
   hapsim_flags(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  set(page ${PROJECT_BINARY_DIR}/man/${name}.1)
-  add_custom_command(OUTPUT ${page}
-    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man
-    COMMAND ${name} --man > ${page} DEPENDS ${name} VERBATIM)
-  add_custom_target(man_${name} ALL DEPENDS ${page})
-  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+  # Man page and completions: made by the tool, each where its shell looks for it on Debian.
+  set(made "")
+  foreach(item
+      "man man/${name}.1 ${CMAKE_INSTALL_MANDIR}/man1"
+      "completion-bash completions/${name} ${CMAKE_INSTALL_DATADIR}/bash-completion/completions"
+      "completion-zsh completions/_${name} ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions"
+      "completion-fish completions/${name}.fish ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d")
+    separate_arguments(item)
+    list(GET item 0 flag)
+    list(GET item 1 file)
+    list(GET item 2 folder)
+    set(file ${PROJECT_BINARY_DIR}/${file})
+    add_custom_command(OUTPUT ${file}
+      COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/man ${PROJECT_BINARY_DIR}/completions
+      COMMAND ${name} --${flag} > ${file} DEPENDS ${name} VERBATIM)
+    install(FILES ${file} DESTINATION ${folder} COMPONENT tools)
+    list(APPEND made ${file})
+  endforeach()
+  add_custom_target(man_${name} ALL DEPENDS ${made})
 endfunction()
 
 # hapsim_test(<name> SOURCES x_test.cpp ... USES layer ...): one GoogleTest program, one ctest entry.

@@ -119,6 +119,11 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
     if (word == "-h" || word == "--help") line.request = Request::kHelp;
     if (word == "--man") line.request = Request::kMan;
     if (word == "-V" || word == "--version") line.request = Request::kVersion;
+    for (const char* shell : {"bash", "zsh", "fish"})
+      if (word == std::string("--completion-") + shell) {
+        line.request = Request::kCompletion;
+        line.shell = shell;
+      }
     if (line.request != Request::kRun) return line;
   }
   check_words(options, words);

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "cli/completion.h"
 #include "cli/help.h"
 #include "cli/parse.h"
 #include "io/number.h"
@@ -64,6 +65,8 @@ int parse_and_run(const ToolSpec& spec, int argc, char** argv,
       return print(man_page(spec));
     case Request::kVersion:
       return print(spec.name + " (hapsim) " + version() + "\n");
+    case Request::kCompletion:
+      return print(completion(spec, line.shell));
     case Request::kRun:
       break;
   }

@@ -1,0 +1,62 @@
+# What is installed beside the tools, and the Debian packages that cpack makes of it: hapsim (component
+# tools) and libhapsim-dev (component dev).
+include(CMakePackageConfigHelpers)
+
+# The library for CMake: find_package(hapsim), then hapsim::model and the like.
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/hapsim)
+install(EXPORT hapsim NAMESPACE hapsim:: DESTINATION ${package} COMPONENT dev)
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/hapsimConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/hapsimConfig.cmake INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hapsimConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/hapsimConfig.cmake ${PROJECT_BINARY_DIR}/hapsimConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/HapsimDependencies.cmake DESTINATION ${package} COMPONENT dev)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hapsim COMPONENT dev
+  FILES_MATCHING PATTERN "*.h" PATTERN assets EXCLUDE)
+
+# ... and for pkg-config: every layer, those that use others first.
+get_property(layers GLOBAL PROPERTY hapsim_layers)
+list(REVERSE layers)
+list(TRANSFORM layers PREPEND -lhapsim_)
+list(JOIN layers " " HAPSIM_PC_LAYERS)
+list(JOIN GDCM_LIBRARIES " " HAPSIM_PC_GDCM)
+file(RELATIVE_PATH HAPSIM_PC_UP /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/hapsim.pc.in ${PROJECT_BINARY_DIR}/hapsim.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/hapsim.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+
+# The pipeline, and the examples that it and the tutorials run.
+install(FILES ${PROJECT_SOURCE_DIR}/Makefile.pipeline DESTINATION ${CMAKE_INSTALL_DATADIR}/hapsim COMPONENT tools)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/share/examples DESTINATION ${CMAKE_INSTALL_DATADIR}/hapsim
+  COMPONENT tools USE_SOURCE_PERMISSIONS)
+install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/hapsim COMPONENT tools)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME hapsim)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "hapsim maintainers <maintainers@hapsim.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL tools dev)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
+set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/DebianFiles.cmake)
+set(CPACK_HAPSIM_SOURCE ${PROJECT_SOURCE_DIR})
+
+set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME hapsim)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+# The reference BLAS makes factorisation 2 to 6 times slower.
+set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS libopenblas0-pthread)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS make)
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION "models of soft objects from scans and presses
+ From a scan of a soft object and recordings of presses to a model that gives
+ contact forces in real time, and that says which physical effect it lacks.")
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhapsim-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+# What HapsimDependencies.cmake looks for.
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libcgal-dev, libtet1.5-dev, libsuitesparse-dev, libopenblas0-pthread, libblas-dev, liblapack-dev, coinor-libipopt-dev, libcli11-dev, nlohmann-json3-dev, liborocos-kdl-dev, liburdfdom-dev, libconsole-bridge-dev, libgdcm-dev, libnifti2-dev, libteem-dev, zlib1g-dev, pkg-config")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "models of soft objects from scans and presses (library)
+ Headers and static libraries of hapsim, for C++ programs that read its bodies
+ and models, identify, simulate and diagnose. For CMake and pkg-config.")
+include(CPack)
