@@ -148,7 +148,7 @@ void steps(const Named& body, const Model& model, bool slides) {
   const std::clock_t begun = std::clock();
   const PreparedBody prepared(body.mesh, model, prepare);
   const double ready = 1e3 * static_cast<double>(std::clock() - begun) / CLOCKS_PER_SEC;
-  ForceLoopOptions options;
+  ToolLoopOptions options;
   options.contact.slides = slides;
   ForceLoop loop(prepared, options);
   const Vec3 middle = 0.5 * (body.low + body.high), half = 0.5 * (body.high - body.low);

@@ -73,13 +73,16 @@ inline TetMesh load_body(const Arguments& arguments) {
   return read_body(input);
 }
 
-// --model; says so when its fit was ended early.
-inline Model load_model(const Arguments& arguments, const std::string& tool) {
-  Input input(arguments.text("--model"));
+// A model; says so when its fit was ended early.
+inline Model load_model(const Arguments& arguments, const std::string& tool, Input& input) {
   Model model = read_model(input);
   if (is_unfinished(model))
     say(arguments, tool, input.name() + ": the fit of this model was ended before it converged");
   return model;
+}
+inline Model load_model(const Arguments& arguments, const std::string& tool) {
+  Input input(arguments.text("--model"));
+  return load_model(arguments, tool, input);
 }
 
 // With progress on a terminal while positions are prepared.

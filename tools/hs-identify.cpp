@@ -9,6 +9,7 @@
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "estimate/identifiability.h"
+#include "identify_acfm.h"
 #include "identify_library.h"
 #include "identify_plan.h"
 #include "identify_search.h"
@@ -205,6 +206,7 @@ int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspa
 }
 
 int run(const Arguments& arguments) {
+  if (arguments.given("--acfm")) return run_acfm(arguments);
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
   extend.regions = regions_asked(arguments.text("--regions"));

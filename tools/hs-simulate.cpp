@@ -13,100 +13,12 @@
 #include "model/full_simulation.h"
 #include "model/own_mesh.h"
 #include "model/regional_relaxation.h"
-#include "realtime/live_session.h"
-#include "realtime/motion_lines.h"
-#include "realtime/motion_records.h"
-#include "realtime/real_time.h"
+#include "realtime/acfm_fit.h"
+#include "simulate_live.h"
 #include "simulate_specification.h"
 
 namespace hapsim {
 namespace {
-
-// The positions of --contacts, to be solved finely for any material. `progress` must outlive it.
-std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh& body,
-                                       const Model& model, std::shared_ptr<Progress>& progress) {
-  if (!arguments.given("--contacts")) return std::nullopt;
-  WorkspaceOptions options = workspace_options(arguments, progress);
-  set_poisson_range(model, options);
-  return make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false),
-                        options);
-}
-
-double live_radius(const Arguments& arguments, const Metadata& metadata) {
-  if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
-  const auto radius = metadata.number("tool_radius", arguments.input());
-  if (!radius || !(*radius > 0))
-    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
-  return *radius;
-}
-
-int run_live_mode(const Arguments& arguments) {
-  if (arguments.given("--add-noise"))
-    fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
-  const Model model = load_model(arguments, "hs-simulate");
-  const TetMesh mesh = load_body(arguments);
-  Input input(arguments.input());
-  std::unique_ptr<MotionSource> source;
-  Metadata metadata;  // binary motion has none
-  const bool binary = arguments.given("--binary");
-  if (binary) {
-    source = std::make_unique<MotionRecords>(input, arguments.text("--binary") == "tip"
-                                                        ? MotionRecords::Kind::kTip
-                                                        : MotionRecords::Kind::kPress);
-  } else {
-    auto lines = std::make_unique<MotionLines>(input);
-    metadata = lines->metadata();
-    source = std::move(lines);
-  }
-  PreparedBodyOptions options;
-  options.tool_radius = live_radius(arguments, metadata);
-  std::shared_ptr<Progress> progress;
-  const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model, progress);
-  progress.reset();
-  if (fine)
-    options.contacts = [&](const MaterialSpec& material) {
-      fine->body->solve(material);
-      return known_contacts(*fine->body, material);
-    };
-  const std::int64_t start = monotonic_ns();
-  const PreparedBody body(mesh, model, options);
-  say(arguments, "hs-simulate",
-      fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
-                  body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
-                  fine ? fine->dataset.positions.size() : 0));
-  if (body.is_regional())
-    say(arguments, "hs-simulate",
-        fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
-                    "stiffness",
-                    body.terms().size(), body.misfit()));
-
-  LiveOptions live;
-  if (arguments.has("--rate")) live.rate = arguments.number("--rate");
-  live.loop.relaxed = metadata.find("recovery").value_or("") != "none";
-  if (live.rate > 0) say(arguments, "hs-simulate", enter_real_time());
-  metadata.remove("force_noise");
-  metadata.set("simulated", effects_label(model));
-  Output output(arguments.output());
-  if (!binary) CsvWriter(output.stream(), metadata, kForceColumns);
-  output.stream().flush();
-  LiveReport report;
-  const auto tell = [&] {
-    std::string text = report.latency.summary();
-    if (live.rate > 0)
-      text += fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
-    say(arguments, "hs-simulate", text);
-  };
-  try {
-    run_live(*source, output.stream(), body, live, report);
-  } catch (const Error&) {
-    output.commit();  // the forces before a bad line stay
-    tell();
-    throw;
-  }
-  output.commit();
-  tell();
-  return 0;
-}
 
 SolverKind solver_kind(const Arguments& arguments) {
   const std::string name = arguments.text("--solver");
@@ -115,9 +27,9 @@ SolverKind solver_kind(const Arguments& arguments) {
 }
 
 // Noise as asked for, metadata, and out.
-void write_simulated(const Arguments& arguments, const Model& model, Recording& out) {
+void write_simulated(const Arguments& arguments, const std::string& label, Recording& out) {
   out.metadata.remove("force_noise");
-  out.metadata.set("simulated", effects_label(model));
+  out.metadata.set("simulated", label);
   if (arguments.given("--add-noise")) {
     const double noise = arguments.number("--add-noise");
     Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
@@ -141,11 +53,10 @@ void write_forces(const Arguments& arguments, const Model& model, const Dataset&
   const std::vector<int> rows = stacked_rows(dataset, all);
   for (std::size_t i = 0; i < rows.size(); ++i)
     out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
-  write_simulated(arguments, model, out);
+  write_simulated(arguments, effects_label(model), out);
 }
 
-int run_full_mode(const Arguments& arguments) {
-  const Model model = load_model(arguments, "hs-simulate");
+int run_full_mode(const Arguments& arguments, const Model& model) {
   const TetMesh body = load_body(arguments);
   FullOptions options;
   options.own_mesh = arguments.given("--own-mesh");
@@ -157,15 +68,14 @@ int run_full_mode(const Arguments& arguments) {
   FullResult result = simulate_full(body, model, out, options);
   out.f = std::move(result.force);
   out.u = std::move(result.motion);
-  write_simulated(arguments, model, out);
+  write_simulated(arguments, effects_label(model), out);
   say(arguments, "hs-simulate",
       fmt::format("{} rows by finite elements, up to {} unknowns, {} Newton steps, model {}",
                   out.rows(), result.unknowns, result.newton_steps, effects_label(model)));
   return 0;
 }
 
-int run_own_mesh(const Arguments& arguments) {
-  const Model model = load_model(arguments, "hs-simulate");
+int run_own_mesh(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
   std::vector<FieldRow> fields;
@@ -220,6 +130,21 @@ Eigen::VectorXd contact_mesh_forces(const Arguments& arguments, const Model& mod
   return model_forces(model, w.dataset, all, at, false).f;
 }
 
+int run_acfm(const Arguments& arguments, const Acfm& model) {
+  for (const char* flag : {"--full", "--own-mesh"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of finite elements, and this model has none",
+                 "leave it out");
+  const Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
+  Recording out = dataset.recording;
+  out.f = acfm_forces(model, dataset);
+  write_simulated(arguments, "acfm", out);
+  say(arguments, "hs-simulate",
+      fmt::format("{} rows, {} positions, from {} sub-models of {} Maxwell elements a direction",
+                  dataset.rows(), dataset.positions.size(), model.positions.size(), model.terms));
+  return 0;
+}
+
 int run(const Arguments& arguments) {
   if (arguments.given("--own-mesh") && arguments.given("--live"))
     fail_usage("--own-mesh is of the batch mode", "leave out --live or --own-mesh");
@@ -236,13 +161,27 @@ int run(const Arguments& arguments) {
     fail_usage("--force-control is of the full mode", "add --full, or leave it out");
   if (arguments.given("--rows") && !arguments.given("--vtu"))
     fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
-  if (arguments.given("--live")) return run_live_mode(arguments);
+  Input file(arguments.text("--model"));
+  const std::string bytes = file.read_all();
+  Input model_input = Input::from_bytes(bytes, file.name());
+  std::optional<Acfm> acfm;
+  Model model;
+  if (is_acfm(bytes))
+    acfm = read_acfm(model_input);
+  else
+    model = load_model(arguments, "hs-simulate", model_input);
+  if (!acfm && !arguments.given("--body"))
+    fail_usage("--body is required", "give the body that the model is of");
+  if (arguments.given("--live")) {
+    if (acfm) return run_live_acfm(arguments, *acfm);
+    return run_live_mode(arguments, model);
+  }
   for (const char* flag : {"--rate", "--contacts", "--binary"})
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
-  if (arguments.given("--full")) return run_full_mode(arguments);
-  if (arguments.given("--own-mesh")) return run_own_mesh(arguments);
-  const Model model = load_model(arguments, "hs-simulate");
+  if (acfm) return run_acfm(arguments, *acfm);
+  if (arguments.given("--full")) return run_full_mode(arguments, model);
+  if (arguments.given("--own-mesh")) return run_own_mesh(arguments, model);
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);

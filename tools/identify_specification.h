@@ -28,6 +28,10 @@ inline ToolSpec identify_specification() {
       "Interrupted (SIGINT, SIGTERM) while it fits, it writes the best model so far with the "
       "metadata 'converged: no' and ends with exit code 4; a search from many starts can go on "
       "from there (--resume). A second signal ends it at once.",
+      "--acfm identifies springs and dashpots at the pressed positions instead, between which "
+      "hs-simulate interpolates: no finite elements, so it needs no relaxation common to all "
+      "directions, and answers in well under a microsecond. Recordings or forces of hs-simulate "
+      "serve alike. A direction that was not moved is derived from the others.",
       "Effects: " + effect_names() + "."};
   spec.options = workspace_flags();
   const std::vector<Option> own{
@@ -72,6 +76,14 @@ inline ToolSpec identify_specification() {
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
                "moduli ask for) or sites (each position its own stiffness).",
        .default_text = "auto"},
+      {.flag = "--acfm",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "An analytical contact force model instead of one of effects: at every position and "
+               "in every direction a spring and N Maxwell elements; --windows bounds their "
+               "relaxation times.",
+       .minimum = 0,
+       .maximum = 8},
       {.flag = "--folds",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -118,6 +130,18 @@ inline ToolSpec identify_specification() {
                    {"std_error", "standard error, empty when not estimated"},
                    {"lower, upper", "bounds"},
                    {"state", "free, fixed or derived"}}},
+                 {"Model of --acfm (output)",
+                  {{"position", "number of the position"},
+                   {"x, y, z", "where it is [m]"},
+                   {"nx, ny, nz", "outward normal there, unit"},
+                   {"axis",
+                    "n: along the normal; t1, t2: the global x and y, turned by the "
+                    "shortest way that takes z to the normal"},
+                   {"parameter",
+                    "ks: spring; k1, tau1, k2, tau2, ...: Maxwell elements, whose "
+                    "dashpots are k tau"},
+                   {"value, unit, std_error", "in SI units; the error empty where not estimated"},
+                   {"state", "free, or derived where these data did not move that way"}}},
                  {"--image",
                   {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
                    {"E", "Young's modulus there [Pa]"}}}};
@@ -130,7 +154,11 @@ inline ToolSpec identify_specification() {
       {"hs-identify data.csv --body body.ply --model m0.csv --diagnosis effects.csv -o m1.csv",
        "Adds what hs-diagnose found missing."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
-       "Gives each pressed position its own stiffness."}};
+       "Gives each pressed position its own stiffness."},
+      {"hs-simulate motion.csv --body body.ply --model m.csv | hs-identify - --body body.ply "
+       "--acfm "
+       "2 -o acfm.csv",
+       "An analytical model of a finite-element model, for loops at a kilohertz and more."}};
   spec.see_also = {"hs-simulate(1)", "hs-compare(1)", "hs-diagnose(1)", "hs-library(1)",
                    "hs-effects(7)"};
   return spec;

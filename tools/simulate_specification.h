@@ -36,6 +36,9 @@ inline ToolSpec simulate_specification() {
       "x "
       "y z ux uy uz. Out (88 bytes): i press, i contact, t x y z ux uy uz fx fy fz. Give "
       "--tool-radius.",
+      "A model of hs-identify --acfm is springs and dashpots by position; between positions they "
+      "are "
+      "interpolated by inverse distances. It is answered by the same flags, in batch and live.",
       "With --own-mesh nothing is meshed: the body's own tetrahedra, of either order, are pressed "
       "at the nodes under the tool, by a sparse factorisation or by conjugate gradients, whichever "
       "is faster for the size (it says which). The force is as good as that mesh is fine there.",
@@ -46,10 +49,15 @@ inline ToolSpec simulate_specification() {
       "what the quick laws are judged by. Several tools press one body at once with a column "
       "tool_id: rows of one press and time, one a tool, are one step."};
   spec.options = workspace_flags();
+  for (Option& option : spec.options)
+    if (option.flag == "--body") {
+      option.required = false;
+      option.help += " An analytical model needs it only where contacts are to be found.";
+    }
   spec.options.push_back({.flag = "--model",
                           .kind = OptionKind::kFile,
                           .value = "FILE",
-                          .help = "Model from hs-identify.",
+                          .help = "Model from hs-identify, also one of its --acfm.",
                           .required = true});
   spec.options.push_back({.flag = "--add-noise",
                           .kind = OptionKind::kNumber,

@@ -4,47 +4,29 @@
 
 namespace hapsim {
 
-ForceLoop::ForceLoop(const PreparedBody& body, const ForceLoopOptions& options)
-    : body_(body), options_(options), contact_(body.distance(), options.contact) {
+ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options)
+    : ToolLoop(&body.distance(), options), body_(body) {
   state_.h.fill(Vec3::Zero());
   state_.driver.fill(Vec3::Zero());
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
 }
 
+ForceLoopState ForceLoop::state() const {
+  ForceLoopState state = state_;
+  state.tool = tool();
+  return state;
+}
+
 void ForceLoop::restore(const ForceLoopState& state) noexcept {
   state_ = state;
-  contact_.restore(state.tool);
+  restore_tool(state.tool);
 }
 
-Vec3 ForceLoop::step(double t, const Vec3& tool) noexcept {
-  const ToolState& now = state_.tool = contact_.update(tool);
-  if (!now.touching()) return advance(t, Vec3::Zero()), Vec3::Zero();
-  const bool began = now.phase == ContactPhase::kBegan;
-  if (began && options_.relaxed) state_.begun = false;
-  if (began || options_.contact.slides) {
-    state_.anchor = now.anchor;
-    state_.normal = now.surface.normal;
-    take_stiffness(now.surface.face);
-  }
-  return advance(t, now.displacement);
-}
-
-void ForceLoop::begin(const Vec3& contact) noexcept {
-  const SurfaceSide side = body_.distance().at(contact);
-  state_.anchor = side.point;
-  state_.normal = side.normal;
-  take_stiffness(side.face);
-  if (options_.relaxed) state_.begun = false;
-}
-
-Vec3 ForceLoop::press(double t, const Vec3& u, bool in_air) noexcept {
-  if (in_air) return advance(t, Vec3::Zero()), Vec3::Zero();
-  return advance(t, u);
-}
-
-void ForceLoop::take_stiffness(int face) noexcept {
-  state_.K = body_.field().at(face, state_.anchor);
-  if (body_.is_regional()) body_.maxwell_at(face, state_.anchor, state_.maxwell.data());
+void ForceLoop::take_place(const Place& place) noexcept {
+  state_.anchor = place.point;
+  state_.normal = place.normal;
+  state_.K = body_.field().at(place.face, place.point);
+  if (body_.is_regional()) body_.maxwell_at(place.face, place.point, state_.maxwell.data());
 }
 
 Vec3 ForceLoop::advance(double t, const Vec3& u) noexcept {

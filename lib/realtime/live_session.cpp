@@ -14,12 +14,8 @@ bool goes_on(const MotionLine& last, const MotionLine& line) {
 
 }  // namespace
 
-void run_live(MotionSource& in, std::ostream& out, const PreparedBody& body,
-              const LiveOptions& options, LiveReport& report) {
-  const bool remembers = !options.loop.relaxed;
-  ForceLoopOptions loop_options = options.loop;
-  if (in.has_contact_point()) loop_options.relaxed = true;  // begin() is called where it must be
-  ForceLoop loop(body, loop_options);
+void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOptions& options,
+              LiveReport& report) {
   std::optional<Pacer> pacer;
   if (options.rate > 0) pacer.emplace(options.rate);
   MotionLine line, last;
@@ -32,12 +28,12 @@ void run_live(MotionSource& in, std::ostream& out, const PreparedBody& body,
     Vec3 force;
     if (in.has_contact_point()) {
       const bool fresh = first || line.press != last.press;
-      if (fresh && (first || !remembers || !goes_on(last, line))) loop.begin(line.point);
+      if (fresh && (first || !options.remembers || !goes_on(last, line))) loop.begin(line.point);
       force = loop.press(line.t, line.u, line.in_air);
       last = line;
     } else {
       force = loop.step(line.t, line.point);
-      const ToolState& tool = loop.state().tool;
+      const ToolState& tool = loop.tool();
       line.press = tool.episode;
       line.in_air = !tool.touching();
       line.point = line.in_air ? tool.surface.point : tool.anchor;

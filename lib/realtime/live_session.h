@@ -3,15 +3,15 @@
 
 #include <ostream>
 
-#include "realtime/force_loop.h"
 #include "realtime/latency.h"
 #include "realtime/motion_source.h"
+#include "realtime/tool_loop.h"
 
 namespace hapsim {
 
 struct LiveOptions {
-  double rate = 0;        // lines a second by the clock; 0: each as soon as it comes
-  ForceLoopOptions loop;  // `relaxed`: what the metadata `recovery: none` says otherwise
+  double rate = 0;         // lines a second by the clock; 0: each as soon as it comes
+  bool remembers = false;  // a new press at the place of the last goes on from it
 };
 
 struct LiveReport {
@@ -20,10 +20,11 @@ struct LiveReport {
   std::int64_t misses = 0;  // forces later than one period after their line was due
 };
 
-// Runs until the input ends. Every force is written and flushed before the next line is read, so an
-// Error of a bad line comes after all forces before it; the error of a closed pipe comes through.
-// Nothing is allocated once the first line is through, apart from lines longer than those before.
-void run_live(MotionSource& in, std::ostream& out, const PreparedBody& body,
-              const LiveOptions& options, LiveReport& report);
+// Runs until the input ends; `loop` made with `relaxed` where the source has contact points. Every
+// force is written and flushed before the next line is read, so an Error of a bad line comes after
+// all forces before it; the error of a closed pipe comes through. Nothing is allocated once the
+// first line is through, apart from lines longer than those before.
+void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOptions& options,
+              LiveReport& report);
 
 }  // namespace hapsim

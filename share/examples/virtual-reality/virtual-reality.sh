@@ -75,6 +75,29 @@ done <<'END'
 10 ramp 0.05 0.2 0.2
 END
 
+# An analytical model of two Maxwell elements from each row's forces: its error on them, and on a
+# faster press with a hold that it has not seen.
+awk 'BEGIN {
+  print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
+  for (i = 0; i <= 600; ++i) {
+    t = i * 0.001; u = t < 0.05 ? 0.2 * t : t < 0.4 ? 0.01 : t < 0.5 ? 0.01 - 0.1 * (t - 0.4) : 0
+    printf "1,%.3f,0.06,0.105,0.06,0,0,%.9g\n", t, -u
+  }
+}' >unseen.motion.csv
+error_of() { # FORCES MOTION: of acfm.csv, in % of the forces' rms
+  hs-simulate "$2" --model acfm.csv -q |
+    hs-compare "$1" --simulated - -o residuals.csv 2>&1 | sed -n 's/.*pooled.*; \(.*\) % of the force.s rms.*/\1/p'
+}
+echo 'Analytical model of Table A.2 against finite elements, error in % of the force:'
+echo 'row  seen      unseen'
+for index in 1 2 3 4 5 6 7 8 9 10; do
+  name=viscoelastic-$index
+  hs-identify "$name.csv" --body cuboid.ply --acfm 2 -q -o acfm.csv
+  hs-simulate unseen.motion.csv --body cuboid.ply --model "$name.model.csv" -q -o unseen.csv
+  printf '%-4s %-9s %s\n' "$index" "$(error_of "$name.csv" "$name.motion.csv")" \
+    "$(error_of unseen.csv unseen.motion.csv)"
+done
+
 plot() { # FILE TITLE NAME...
   file=$1 title=$2
   shift 2

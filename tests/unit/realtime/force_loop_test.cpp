@@ -103,7 +103,7 @@ TEST(ForceLoop, FindsTheContactOfAToolThatComesDown) {
 TEST(ForceLoop, AllocatesNothing) {
   const Model model = viscoelastic_model(4);
   const PreparedBody body(body_mesh(), model, tool());
-  ForceLoopOptions sliding;
+  ToolLoopOptions sliding;
   sliding.contact.slides = true;
   ForceLoop loop(body, sliding);
   const long before = allocations;
@@ -123,7 +123,7 @@ TEST(ForceLoop, AllocatesNothing) {
 TEST(ForceLoop, GoesOnFromAStoredState) {
   const Model model = viscoelastic_model(2);
   const PreparedBody body(body_mesh(), model, tool());
-  ForceLoopOptions options;
+  ToolLoopOptions options;
   options.relaxed = false;
   const auto path = [](int i) {
     return Vec3(0.03 + 1e-5 * i, 0.04, 0.0405 - 0.002 * std::sin(0.02 * i));

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "realtime/force_loop.h"
 #include "realtime/live_session.h"
 #include "support/synthetic.h"
 
@@ -98,7 +99,8 @@ TEST(LiveSession, FlushesEachForceAndKeepsThoseBeforeABadLine) {
   Flushes buffer;
   std::ostream out(&buffer);
   LiveReport report;
-  EXPECT_THROW(run_live(lines, out, body, {}, report), Error);
+  ForceLoop loop(body);
+  EXPECT_THROW(run_live(lines, out, loop, {}, report), Error);
   EXPECT_EQ(buffer.count, 3);
   EXPECT_EQ(report.latency.count(), 3);
   const std::string written = buffer.str();

@@ -1,0 +1,141 @@
+// hs-simulate --live: motion in, forces out at once.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "model/edit.h"
+#include "realtime/acfm_loop.h"
+#include "realtime/force_loop.h"
+#include "realtime/live_session.h"
+#include "realtime/motion_lines.h"
+#include "realtime/motion_records.h"
+#include "realtime/real_time.h"
+
+namespace hapsim {
+
+// The positions of --contacts, to be solved finely for any material. `progress` must outlive it.
+inline std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh& body,
+                                              const Model& model,
+                                              std::shared_ptr<Progress>& progress) {
+  if (!arguments.given("--contacts")) return std::nullopt;
+  WorkspaceOptions options = workspace_options(arguments, progress);
+  set_poisson_range(model, options);
+  return make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false),
+                        options);
+}
+
+inline double live_radius(const Arguments& arguments, const Metadata& metadata) {
+  if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
+  const auto radius = metadata.number("tool_radius", arguments.input());
+  if (!radius || !(*radius > 0))
+    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+  return *radius;
+}
+
+// Where the motion comes from.
+struct LiveInput {
+  explicit LiveInput(const Arguments& arguments) : input(arguments.input()) {
+    if (arguments.given("--add-noise"))
+      fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
+    binary = arguments.given("--binary");
+    if (binary) {
+      source = std::make_unique<MotionRecords>(input, arguments.text("--binary") == "tip"
+                                                          ? MotionRecords::Kind::kTip
+                                                          : MotionRecords::Kind::kPress);
+      return;
+    }
+    auto lines = std::make_unique<MotionLines>(input);
+    metadata = lines->metadata();
+    source = std::move(lines);
+  }
+  bool remembers() const { return metadata.find("recovery").value_or("") == "none"; }
+  ToolLoopOptions loop_options() const {
+    ToolLoopOptions options;
+    options.relaxed = source->has_contact_point() || !remembers();
+    return options;
+  }
+
+  Input input;
+  bool binary = false;
+  std::unique_ptr<MotionSource> source;
+  Metadata metadata;  // binary motion has none
+};
+
+// Answers every line until the motion ends.
+inline int answer(const Arguments& arguments, LiveInput& in, const std::string& label,
+                  ToolLoop& loop) {
+  LiveOptions live;
+  if (arguments.has("--rate")) live.rate = arguments.number("--rate");
+  live.remembers = in.remembers();
+  if (live.rate > 0) say(arguments, "hs-simulate", enter_real_time());
+  in.metadata.remove("force_noise");
+  in.metadata.set("simulated", label);
+  Output output(arguments.output());
+  if (!in.binary) CsvWriter(output.stream(), in.metadata, kForceColumns);
+  output.stream().flush();
+  LiveReport report;
+  const auto tell = [&] {
+    std::string text = report.latency.summary();
+    if (live.rate > 0)
+      text += fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
+    say(arguments, "hs-simulate", text);
+  };
+  try {
+    run_live(*in.source, output.stream(), loop, live, report);
+  } catch (const Error&) {
+    output.commit();  // the forces before a bad line stay
+    tell();
+    throw;
+  }
+  output.commit();
+  tell();
+  return 0;
+}
+
+inline int run_live_mode(const Arguments& arguments, const Model& model) {
+  const TetMesh mesh = load_body(arguments);
+  LiveInput in(arguments);
+  PreparedBodyOptions options;
+  options.tool_radius = live_radius(arguments, in.metadata);
+  std::shared_ptr<Progress> progress;
+  const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model, progress);
+  progress.reset();
+  if (fine)
+    options.contacts = [&](const MaterialSpec& material) {
+      fine->body->solve(material);
+      return known_contacts(*fine->body, material);
+    };
+  const std::int64_t start = monotonic_ns();
+  const PreparedBody body(mesh, model, options);
+  say(arguments, "hs-simulate",
+      fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
+                  body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
+                  fine ? fine->dataset.positions.size() : 0));
+  if (body.is_regional())
+    say(arguments, "hs-simulate",
+        fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
+                    "stiffness",
+                    body.terms().size(), body.misfit()));
+  ForceLoop loop(body, in.loop_options());
+  return answer(arguments, in, effects_label(model), loop);
+}
+
+inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
+  if (arguments.given("--contacts"))
+    fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
+  LiveInput in(arguments);
+  std::optional<SignedDistance> surface;
+  if (arguments.given("--body")) surface.emplace(boundary_surface(load_body(arguments)), "body");
+  if (!surface && !in.source->has_contact_point())
+    fail_usage("contacts of a moving tip are to be found, and no body is given",
+               "give --body body.ply, or a motion with contact points");
+  AcfmLoop loop(model, surface ? &*surface : nullptr, in.loop_options());
+  return answer(arguments, in, "acfm", loop);
+}
+
+}  // namespace hapsim
