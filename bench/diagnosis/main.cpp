@@ -2,10 +2,12 @@
 // shape, finer meshes) than the one that is diagnosed (made from the scan), with a random relative
 // error of each position's stiffness on top. See run.sh.
 //   bench_diagnosis DIAGNOSED.ply TRUE.ply MOTION.csv RESULTS.csv FROM:TO LOW:HIGH [TRUTH...]
-// Seeds FROM to TO, each with a level drawn between LOW and HIGH: the error, over the noise, that
-// what is hidden leaves of the model that is diagnosed. A truth `nothing*` means all that begin so.
+// Seeds FROM to TO, each with a level drawn between LOW and HIGH (or the largest that the effect
+// can do): the error, over the noise, that what is hidden leaves of the model that is diagnosed. A
+// truth `nothing*` means all that begin so.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <map>
@@ -132,8 +134,19 @@ struct Drawn {
   Model model;             // no parameters when the truth is none of the catalogue's
 };
 
-Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w, double level,
-           int seed) {
+// From `low` to `high` times the noise, or to the largest that the truth can do, by seed.
+struct Levels {
+  double low = 3, high = 10;
+  double of(const Truth& truth, const Workspace& w, int seed) const {
+    Random random(500 + static_cast<std::uint64_t>(seed));
+    const double most =
+        largest_misfit(truth, w, 1000 + static_cast<std::uint64_t>(seed)) / kNoise / 1.01;
+    return low * std::pow(std::min(high, most) / low, random.uniform());
+  }
+};
+
+Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w,
+           const Levels& levels, int seed) {
   const std::uint64_t own = 1000 + static_cast<std::uint64_t>(seed);
   Drawn drawn;
   const Model base = true_base(truth.base);
@@ -141,7 +154,7 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w
     drawn.model = base;
     for (const std::string& name : truth.parts) {
       const Truth& part = find_truth(all, name);
-      const double strength = strength_for(part, w, level * kNoise, own);
+      const double strength = strength_for(part, w, levels.of(part, w, seed) * kNoise, own);
       if (strength < 0) return {};
       drawn.model = part.model(drawn.model, strength);
     }
@@ -150,7 +163,7 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w
   }
   double strength = truth.effects.empty() ? 0 : 1 + (seed - 1) % std::max(truth.sizes, 1);
   if (!truth.effects.empty() && truth.sizes == 0)
-    strength = strength_for(truth, w, level * kNoise, own);
+    strength = strength_for(truth, w, levels.of(truth, w, seed) * kNoise, own);
   if (strength < 0) return {};
   Random random(own);
   drawn.forces = truth.forces(w, base, strength, random);
@@ -174,25 +187,39 @@ std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, double level, int seed,
-          bool verbose) {
+struct Options {
+  bool verbose = false;
+  std::string keep;  // folder for the recordings; "": not kept
+};
+
+Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const Levels& levels,
+          int seed, const Options& options) {
   Pair& pair = pairs.of(truth);
   Trial trial;
   trial.truth = truth.name;
   trial.effects = joined(truth.effects);
   trial.seed = seed;
-  Drawn drawn = draw(truth, all, pair.truth, level, seed);
+  Drawn drawn = draw(truth, all, pair.truth, levels, seed);
   if (drawn.forces.size() == 0) {
     trial.verdict = "too small";
     return trial;
   }
   trial.level = misfit_of(drawn.forces, truth, pair.truth) / kNoise;
+  if (!truth.effects.empty() && trial.level < 0.9 * levels.low) {
+    trial.verdict = "too small";
+    return trial;
+  }
   measure(truth.noise, pair.truth, seed, drawn.forces);
   Workspace& w = pair.diagnosed;
   const Selection everything = all_episodes(w.dataset);
   const std::vector<int> rows = stacked_rows(w.dataset, everything);
   for (std::size_t i = 0; i < rows.size(); ++i)
     w.dataset.recording.f[rows[i]] = drawn.forces.segment<3>(3 * static_cast<Eigen::Index>(i));
+  if (!options.keep.empty()) {
+    Output output(fmt::format("{}/{}-{}.csv", options.keep, truth.name, seed));
+    write_recording(output.stream(), w.dataset.recording);
+    output.commit();
+  }
   const FitOptions fit_options{w.noise.value, w.floor, true};
   std::vector<Model> starts{elastic_model(w.dataset, everything, *w.body)};
   for (const std::string& effect : truth.base) {
@@ -205,7 +232,7 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, doubl
   trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   trial.verdict = verdict_name(d.verdict);
   for (const Finding& finding : d.findings) {
-    if (verbose)
+    if (options.verbose)
       fmt::print(stderr,
                  "{} {:.2g} {}: {} {}, gain {:.1f}, p {:.3f}, unseen {:.4g} -> {:.4g}; {}\n",
                  truth.name, trial.level, seed, finding.effect, verdict_name(finding.verdict),
@@ -238,7 +265,13 @@ bool chosen(const Truth& truth, const std::vector<std::string>& names) {
 }
 
 int run_all(std::vector<std::string> a) {
-  const bool verbose = std::erase(a, "--verbose") > 0;
+  Options options;
+  options.verbose = std::erase(a, "--verbose") > 0;
+  if (const auto flag = std::find(a.begin(), a.end(), "--keep");
+      flag != a.end() && flag + 1 != a.end()) {
+    options.keep = *(flag + 1);
+    a.erase(flag, flag + 2);
+  }
   const std::string results = a[3];
   const auto [from, to] = range(a[4]);
   const auto [low, high] = range(a[5]);
@@ -251,9 +284,7 @@ int run_all(std::vector<std::string> a) {
   for (int seed = static_cast<int>(from); seed <= static_cast<int>(to); ++seed)
     for (const Truth& truth : truths) {
       if (!chosen(truth, names) || known.count({truth.name, seed}) > 0) continue;
-      Random random(500 + static_cast<std::uint64_t>(seed));
-      const double level = low * std::pow(high / low, random.uniform());
-      trials.push_back(run(truth, truths, pairs, level, seed, verbose));
+      trials.push_back(run(truth, truths, pairs, {low, high}, seed, options));
       append_trial(results, trials.back());
     }
   std::erase_if(trials, [](const Trial& t) { return t.verdict == "too small"; });
@@ -268,7 +299,7 @@ int main(int argc, char** argv) {
   if (argc < 7) {
     fmt::print(stderr,
                "bench_diagnosis DIAGNOSED.ply TRUE.ply MOTION.csv RESULTS.csv FROM:TO LOW:HIGH "
-               "[TRUTH...] [--verbose]\n");
+               "[TRUTH...] [--verbose] [--keep FOLDER]\n");
     return 2;
   }
   try {

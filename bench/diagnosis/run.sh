@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh BUILD OUT [FROM:TO [LOW:HIGH [TRUTH...]]] [--verbose]: trials of the diagnosis on the shipped
+# run.sh BUILD OUT [FROM:TO [LOW:HIGH [TRUTH...]]] [--verbose] [--keep FOLDER]: trials on the shipped
 # phantom, seeds FROM to TO, errors LOW to HIGH times the noise. The results in OUT/trials.csv are
 # gone on with when it is run again; delete the file to begin anew. Two runs at once share nothing:
 # give each an OUT of its own and put the files together.

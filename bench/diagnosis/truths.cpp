@@ -361,6 +361,11 @@ double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Worksp
   return std::sqrt((forces - gain * plain).squaredNorm() / static_cast<double>(plain.size()));
 }
 
+double largest_misfit(const Truth& truth, const Workspace& w, std::uint64_t seed) {
+  Random random(seed);
+  return misfit_of(truth.forces(w, true_base(truth.base), truth.most, random), truth, w);
+}
+
 double strength_for(const Truth& truth, const Workspace& w, double misfit, std::uint64_t seed) {
   const Model base = true_base(truth.base);
   const auto differs = [&](double s) {

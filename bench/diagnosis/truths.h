@@ -40,6 +40,8 @@ Eigen::VectorXd forces_of(const Workspace& w, const Model& model);
 
 // What the base, less a common gain, leaves of the truth's forces [N] rms.
 double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Workspace& w);
+// The largest of that.
+double largest_misfit(const Truth& truth, const Workspace& w, std::uint64_t seed);
 // The strength at which that is `misfit`; negative when even the largest does not reach it.
 double strength_for(const Truth& truth, const Workspace& w, double misfit, std::uint64_t seed);
 
