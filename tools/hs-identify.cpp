@@ -207,6 +207,8 @@ int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspa
 
 int run(const Arguments& arguments) {
   if (arguments.given("--acfm")) return run_acfm(arguments);
+  if (arguments.given("--stiffening"))
+    fail_usage("--stiffening is of analytical models", "add --acfm N, or --add hyperelastic");
   const Plan plan = make_plan(arguments);
   ExtendOptions extend;
   extend.regions = regions_asked(arguments.text("--regions"));

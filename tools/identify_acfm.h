@@ -28,6 +28,7 @@ inline int run_acfm(const Arguments& arguments) {
   for (const Vec3& p : dataset.positions) normals.push_back(surface.at(p).normal);
   AcfmFitOptions options;
   options.terms = static_cast<int>(arguments.integer("--acfm"));
+  options.stiffening = arguments.given("--stiffening");
   options.folds = static_cast<int>(arguments.integer("--folds"));
   options.threads = static_cast<int>(arguments.integer("--threads"));
   options.windows = terms_asked(arguments).windows;

@@ -84,6 +84,9 @@ inline ToolSpec identify_specification() {
                "relaxation times.",
        .minimum = 0,
        .maximum = 8},
+      {.flag = "--stiffening",
+       .kind = OptionKind::kSwitch,
+       .help = "With --acfm: the springs stiffen with the displacement, exponentially."},
       {.flag = "--folds",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -139,7 +142,7 @@ inline ToolSpec identify_specification() {
                     "shortest way that takes z to the normal"},
                    {"parameter",
                     "ks: spring; k1, tau1, k2, tau2, ...: Maxwell elements, whose "
-                    "dashpots are k tau"},
+                    "dashpots are k tau; s: where it stiffens, u (exp(s |u|) - 1)/(s |u|) in place of u"},
                    {"value, unit, std_error", "in SI units; the error empty where not estimated"},
                    {"state", "free, or derived where these data did not move that way"}}},
                  {"--image",

@@ -8,12 +8,11 @@
 
 namespace hapsim {
 
-// N states, scalar observations: x_k+1 = D x_k + w, z = h.x + v, with D and the covariance of w
-// diagonal. An observation is put in at its own time: the filter goes back to the step before it
+// N states, scalar observations: x_k+1 = A x_k + w, z = h.x + v, the covariance of w diagonal. An observation is put in at its own time: the filter goes back to the step before it
 // and runs what it has seen since again, so the result is that of observations in time. The
 // covariance update is Joseph's form P = (I - k h') P (I - k h')' + k r k' (Bucy and Joseph,
 // Filtering for Stochastic Processes, 1968), which keeps P symmetric and positive where (4.32) does
-// not. All memory is taken at the start; a late observation costs the steps since, some 10 ns each.
+// not. All memory is taken at the start; a late observation costs the steps since, some 50 ns each.
 template <int N>
 class DelayedFilter {
  public:
@@ -34,7 +33,7 @@ class DelayedFilter {
   }
 
   // The next step: what happens to the states until t.
-  void predict(double t, const Vector& transition, const Vector& variance) noexcept {
+  void predict(double t, const Matrix& transition, const Vector& variance) noexcept {
     const Step& last = at(next_ - 1);
     Step& s = push();
     s.t = t;
@@ -52,10 +51,11 @@ class DelayedFilter {
   // An observation z = h.x + v of variance r at time t, not after the last step; it belongs to the
   // first step at or after t that has none yet. Not taken when it is older than what is remembered.
   Innovation observe(double t, const Vector& h, double z, double r) noexcept {
+    if (t < at(first_).t) return {};
     std::size_t k = next_;
     while (k > first_ && at(k - 1).t >= t) --k;
     while (k < next_ && at(k).observed) ++k;
-    if (k == next_ || (k == first_ && first_ > 0)) return {};
+    if (k == next_) return {};
     Step& s = at(k);
     Innovation result{true, z - h.dot(s.x), h.dot(s.P * h) + r};
     s.observed = true;
@@ -74,7 +74,8 @@ class DelayedFilter {
  private:
   struct Step {
     double t = 0;
-    Vector transition = Vector::Ones(), variance = Vector::Zero();
+    Matrix transition = Matrix::Identity();
+    Vector variance = Vector::Zero();
     bool observed = false;
     Vector h = Vector::Zero();
     double z = 0, r = 1;
@@ -97,8 +98,8 @@ class DelayedFilter {
     s.P = A * s.P * A.transpose() + s.r * k * k.transpose();
   }
   static void run(const Step& last, Step& s) noexcept {
-    s.x = s.transition.cwiseProduct(last.x);
-    s.P = s.transition.asDiagonal() * last.P * s.transition.asDiagonal();
+    s.x = s.transition * last.x;
+    s.P = s.transition * last.P * s.transition.transpose();
     s.P.diagonal() += s.variance;
     if (s.observed) put_in(s);
   }

@@ -18,7 +18,7 @@ class Simplex {
   Simplex(const std::function<double(const Eigen::VectorXd&)>& function, int most)
       : function_(function), most_(most) {}
 
-  Corner descend(const Eigen::VectorXd& start, double step, double tolerance) {
+  Corner descend(const Eigen::VectorXd& start, double step, const SimplexSearchOptions& options) {
     const Eigen::Index n = start.size();
     corners_.assign(1, {start, evaluate(start)});
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -32,7 +32,8 @@ class Simplex {
       double size = 0;
       for (const Corner& c : corners_)
         size = std::max(size, (c.x - corners_[0].x).cwiseAbs().maxCoeff());
-      small_ = size <= tolerance;
+      small_ = size <= options.tolerance ||
+               corners_.back().value - corners_[0].value <= options.value_tolerance;
       if (small_ || evaluations_ >= most_) return corners_[0];
       Eigen::VectorXd middle = Eigen::VectorXd::Zero(n);
       for (std::size_t k = 0; k + 1 < corners_.size(); ++k) middle += corners_[k].x;
@@ -84,11 +85,11 @@ SimplexSearchResult simplex_search(const Eigen::VectorXd& start,
                                    const std::function<double(const Eigen::VectorXd&)>& function,
                                    const SimplexSearchOptions& options) {
   Simplex simplex(function, options.most_evaluations);
-  Corner best = simplex.descend(start, options.first_step, options.tolerance);
+  Corner best = simplex.descend(start, options.first_step, options);
   SimplexSearchResult result;
   while (simplex.small()) {
-    const Corner again = simplex.descend(best.x, 0.3 * options.first_step, options.tolerance);
-    const bool gained = again.value < best.value - 1e-6 * (1 + std::abs(best.value));
+    const Corner again = simplex.descend(best.x, 0.3 * options.first_step, options);
+    const bool gained = again.value < best.value - std::max(options.value_tolerance, 1e-6 * (1 + std::abs(best.value)));
     if (again.value < best.value) best = again;
     result.converged = simplex.small() && !gained;
     if (!gained) break;

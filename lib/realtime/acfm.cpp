@@ -10,6 +10,13 @@ Eigen::Matrix3d acfm_frame(const Vec3& normal) {
   return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal).toRotationMatrix();
 }
 
+Stiffening stiffening_at(double s, double r) {
+  const double x = s * r;
+  if (std::abs(x) < 1e-4) return {1 + x / 2 + x * x / 6, r * (0.5 + x / 3 + x * x / 8)};
+  const double factor = std::expm1(x) / x;
+  return {factor, r * (std::exp(x) - factor) / x};
+}
+
 SubModel Acfm::at(const Vec3& point) const noexcept {
   assert(!positions.empty());
   // The nearest ones and the next, by insertion.
@@ -57,7 +64,8 @@ SubModel Acfm::at(const Vec3& point) const noexcept {
     model.normal += share * from.normal;
     for (std::size_t a = 0; a < 3; ++a) {
       AcfmAxis& axis = model.axis[a];
-      axis.value[0] += share * from.axis[a].value[0];
+      for (const std::size_t slot : {std::size_t{0}, AcfmAxis::kStiffening})
+        axis.value[slot] += share * from.axis[a].value[slot];
       for (int i = 0; i < terms; ++i) {
         const auto at = static_cast<std::size_t>(2 * i + 1);
         axis.value[at] += share * from.axis[a].value[at];

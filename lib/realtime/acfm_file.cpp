@@ -17,6 +17,7 @@ constexpr std::array<const char*, 3> kAxes{"t1", "t2", "n"};
 // ks 0, k1 1, tau1 2, k2 3, ...; -1: no such name.
 int slot_of(const std::string& name) {
   if (name == "ks") return 0;
+  if (name == "s") return static_cast<int>(AcfmAxis::kStiffening);
   const bool time = name.rfind("tau", 0) == 0;
   double number = 0;
   if (name.empty() || (!time && name[0] != 'k') ||
@@ -28,6 +29,7 @@ int slot_of(const std::string& name) {
 
 std::string name_of(std::size_t slot) {
   if (slot == 0) return "ks";
+  if (slot == AcfmAxis::kStiffening) return "s";
   return (slot % 2 == 0 ? "tau" : "k") + std::to_string((slot + 1) / 2);
 }
 
@@ -86,13 +88,13 @@ Acfm read_acfm(Input& input) {
     const int slot = slot_of(parameter[row]);
     if (slot < 0)
       fail_input(where, "parameter " + shown(parameter[row]) + " is not known",
-                 fmt::format("write ks, or k1, tau1 to k{0}, tau{0}", AcfmAxis::kMostTerms));
+                 fmt::format("write ks, s, or k1, tau1 to k{0}, tau{0}", AcfmAxis::kMostTerms));
     const auto at = static_cast<std::size_t>(slot);
     if (given[p][a][at])
       fail_input(where, parameter[row] + " is given twice for this axis", "remove one of the rows");
     given[p][a][at] = 1;
-    const bool time = slot > 0 && slot % 2 == 0;
-    if (!(value[row] >= 0) || ((slot == 0 || time) && value[row] == 0))
+    const bool stiffens = at == AcfmAxis::kStiffening, time = slot > 0 && slot % 2 == 0;
+    if (!stiffens && (!(value[row] >= 0) || ((slot == 0 || time) && value[row] == 0)))
       fail_input(where, parameter[row] + " = " + format_number(value[row]) + " is not positive",
                  "springs and relaxation times are");
     AcfmAxis& to = model.positions[p].axis[a];
@@ -104,7 +106,7 @@ Acfm read_acfm(Input& input) {
             : std::numeric_limits<double>::quiet_NaN();
     if (states >= 0 && csv.columns[static_cast<std::size_t>(states)][row] == "derived")
       to.derived = true;
-    model.terms = std::max(model.terms, (slot + 1) / 2);
+    if (!stiffens) model.terms = std::max(model.terms, (slot + 1) / 2);
   }
   for (std::size_t p = 0; p < known.size(); ++p)
     for (std::size_t a = 0; a < 3; ++a)
@@ -127,16 +129,23 @@ void write_acfm(std::ostream& out, const Acfm& model) {
     std::vector<std::string> row{std::to_string(p + 1)};
     for (const Vec3* v : {&sub.point, &sub.normal})
       for (int k = 0; k < 3; ++k) row.push_back(format_number((*v)[k]));
-    for (std::size_t a = 0; a < 3; ++a)
-      for (std::size_t slot = 0; slot < static_cast<std::size_t>(1 + 2 * model.terms); ++slot) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      std::vector<std::size_t> slots;
+      for (int slot = 0; slot < 1 + 2 * model.terms; ++slot)
+        slots.push_back(static_cast<std::size_t>(slot));
+      if (sub.axis[a].stiffening() != 0) slots.push_back(AcfmAxis::kStiffening);
+      for (const std::size_t slot : slots) {
         std::vector<std::string> full = row;
         const double error = sub.axis[a].error[slot];
         full.insert(full.end(), {kAxes[a], name_of(slot), format_number(sub.axis[a].value[slot]),
-                                 slot > 0 && slot % 2 == 0 ? "s" : "N/m",
+                                 slot == AcfmAxis::kStiffening ? "1/m"
+                                 : slot > 0 && slot % 2 == 0   ? "s"
+                                                               : "N/m",
                                  std::isfinite(error) ? format_number(error) : "",
                                  sub.axis[a].derived ? "derived" : "free"});
         csv.row(full);
       }
+    }
   }
 }
 

@@ -24,6 +24,7 @@ constexpr double kLeastMotion = 1e-3;
 // What one axis saw: sample by sample, the presses one after the other.
 struct AxisData {
   Eigen::VectorXd u, f;    // [m], [N]
+  Eigen::VectorXd size;    // |u| of the whole displacement [m]
   std::vector<double> dt;  // [s] since the sample before; negative: a press begins
   double moved = 0;        // root of the sum of squares [m]
 };
@@ -34,11 +35,13 @@ AxisData axis_data(const Dataset& dataset, const Episodes& episodes, const Vec3&
   for (const Episode* e : episodes) n += e->rows.size();
   data.u.resize(static_cast<Eigen::Index>(n));
   data.f.resize(static_cast<Eigen::Index>(n));
+  data.size.resize(static_cast<Eigen::Index>(n));
   Eigen::Index at = 0;
   for (const Episode* e : episodes)
     for (std::size_t i = 0; i < e->rows.size(); ++i, ++at) {
       data.u[at] = e->view.in_air[i] ? 0 : direction.dot(e->view.u[i]);
       data.f[at] = e->view.in_air[i] ? 0 : direction.dot(dataset.recording.f[e->rows[i]]);
+      data.size[at] = e->view.u[i].norm();
       const bool timed = i > 0 && !e->view.t.empty();
       data.dt.push_back(timed ? e->view.t[i] - e->view.t[i - 1] : -1);
     }
@@ -46,19 +49,20 @@ AxisData axis_data(const Dataset& dataset, const Episodes& episodes, const Vec3&
   return data;
 }
 
-// The memory of u of one element, and its derivative by tau when asked.
-Eigen::VectorXd memory_of(const AxisData& data, double tau, Eigen::VectorXd* slope = nullptr) {
-  Eigen::VectorXd m(data.u.size());
-  if (slope != nullptr) slope->resize(data.u.size());
+// The memory of x of one element, and its derivative by tau when asked.
+Eigen::VectorXd memory_of(const AxisData& data, const Eigen::VectorXd& x, double tau,
+                          Eigen::VectorXd* slope = nullptr) {
+  Eigen::VectorXd m(x.size());
+  if (slope != nullptr) slope->resize(x.size());
   double h = 0, dh = 0;
   for (Eigen::Index i = 0; i < m.size(); ++i) {
     const double dt = data.dt[static_cast<std::size_t>(i)];
     if (dt < 0) {
-      h = data.u[i];
+      h = x[i];
       dh = 0;
     } else {
       const MemoryStep s = memory_step(dt, tau);
-      const double change = data.u[i] - data.u[i - 1];
+      const double change = x[i] - x[i - 1];
       dh = s.a * dh + s.da_dtau * h + s.dc_dtau * change;
       h = s.a * h + s.c * change;
     }
@@ -75,7 +79,7 @@ std::vector<double> start_at(const AxisData& data, const std::vector<double>& ta
   Eigen::MatrixXd A(data.u.size(), static_cast<Eigen::Index>(tau.size()) + 1);
   A.col(0) = -data.u;
   for (std::size_t i = 0; i < tau.size(); ++i)
-    A.col(static_cast<Eigen::Index>(i) + 1) = -memory_of(data, tau[i]);
+    A.col(static_cast<Eigen::Index>(i) + 1) = -memory_of(data, data.u, tau[i]);
   const Eigen::VectorXd k = A.colPivHouseholderQr().solve(data.f);
   std::vector<double> start{std::max(k[0], 0.05 * typical)};
   for (std::size_t i = 0; i < tau.size(); ++i) {
@@ -105,25 +109,39 @@ struct AxisFit {
 };
 
 AxisFit fit_axis(const AxisData& data, const Windows& windows,
-                 const std::vector<std::vector<double>>& times, bool sorted, double noise) {
+                 const std::vector<std::vector<double>>& times, bool sorted, double noise,
+                 bool stiffening) {
   const auto terms = windows.size();
   const double typical =
       std::max(-data.f.dot(data.u) / data.u.squaredNorm(), 1e-9 * data.f.norm() / data.u.norm());
+  const auto last = static_cast<Eigen::Index>(2 * terms + 1);  // of the stiffening
+  const double deepest = data.size.maxCoeff();
   const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                          Eigen::MatrixXd* J) {
-    r = data.f + x[0] * data.u;
+    Eigen::VectorXd q = data.u, w;
+    if (stiffening) {
+      w.resize(q.size());
+      for (Eigen::Index i = 0; i < q.size(); ++i) {
+        const Stiffening bent = stiffening_at(x[last], data.size[i]);
+        q[i] = data.u[i] * bent.factor;
+        w[i] = data.u[i] * bent.slope;
+      }
+    }
+    r = data.f + x[0] * q;
     if (J != nullptr) {
       J->resize(r.size(), x.size());
-      J->col(0) = data.u;
+      J->col(0) = q;
+      if (stiffening) J->col(last) = x[0] * w;
     }
     Eigen::VectorXd slope;
     for (std::size_t i = 0; i < terms; ++i) {
       const auto k = static_cast<Eigen::Index>(2 * i + 1);
-      const Eigen::VectorXd m = memory_of(data, x[k + 1], J != nullptr ? &slope : nullptr);
+      const Eigen::VectorXd m = memory_of(data, q, x[k + 1], J != nullptr ? &slope : nullptr);
       r += x[k] * m;
       if (J == nullptr) continue;
       J->col(k) = m;
       J->col(k + 1) = x[k] * slope;
+      if (stiffening) J->col(last) += x[k] * memory_of(data, w, x[k + 1]);
     }
     r /= noise;
     if (J != nullptr) *J /= noise;
@@ -145,9 +163,19 @@ AxisFit fit_axis(const AxisData& data, const Windows& windows,
         start[j].scale = typical;
       }
     }
+    if (stiffening) {
+      Unknown bend;
+      bend.value = 0.3 / deepest;
+      bend.lower = -3 / deepest;
+      bend.upper = 12 / deepest;
+      bend.scale = 1 / deepest;
+      start.push_back(bend);
+    }
     starts.push_back(std::move(start));
   }
-  const LeastSquaresResult fit = minimise_from_many(starts, residuals).best;
+  LeastSquaresOptions options;
+  options.max_iterations = 1000;  // valleys of elements that are near one another are long
+  const LeastSquaresResult fit = minimise_from_many(starts, residuals, options).best;
   // A valley that is flat within the noise need not be walked to its end.
   const bool within_noise = fit.sum_of_squares < static_cast<double>(data.u.size());
   if (!fit.converged && !within_noise)
@@ -172,6 +200,7 @@ AxisFit fit_axis(const AxisData& data, const Windows& windows,
     result.undetermined |= fit.undetermined[from];
   };
   copy(0, 0);
+  if (stiffening) copy(AcfmAxis::kStiffening, static_cast<std::size_t>(last));
   for (std::size_t i = 0; i < terms; ++i) {
     copy(2 * i + 1, 2 * order[i] + 1);
     copy(2 * i + 2, 2 * order[i] + 2);
@@ -228,8 +257,7 @@ class Fitter {
       fail_usage("relaxation needs times, and the recording has none",
                  "record a column t, or ask for springs alone (0 elements)");
     if (windows_.empty())
-      windows_.assign(static_cast<std::size_t>(options.terms),
-                      {0.5 * span.step, 10 * span.longest});
+      windows_.assign(static_cast<std::size_t>(options.terms), {0.5 * span.step, 3 * span.longest});
     times_ = time_starts(windows_, 2 * span.step, std::max(8 * span.step, span.longest),
                          !options.windows.empty());
   }
@@ -255,8 +283,8 @@ class Fitter {
     for (std::size_t a = 0; a < 3; ++a) {
       if (data[a].moved < kLeastMotion * whole) continue;
       moved[a] = 1;
-      const AxisFit one =
-          fit_axis(data[a], windows_, times_, options_.windows.empty(), options_.noise);
+      const AxisFit one = fit_axis(data[a], windows_, times_, options_.windows.empty(),
+                                   options_.noise, options_.stiffening);
       sub.axis[a] = one.axis;
       if (one.undetermined)
         remarks.push_back(fmt::format(

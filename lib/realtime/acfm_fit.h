@@ -11,12 +11,13 @@
 namespace hapsim {
 
 struct AcfmFitOptions {
-  int terms = 1;     // Maxwell elements of each direction
-  double noise = 1;  // standard deviation of the force noise [N]
-  int folds = 6;     // parts in which presses and positions are held out; 0: none
-  int threads = 0;   // positions side by side; 0: as many as the machine has
+  int terms = 1;            // Maxwell elements of each direction
+  bool stiffening = false;  // s is a parameter, else 0
+  double noise = 1;         // standard deviation of the force noise [N]
+  int folds = 6;            // parts in which presses and positions are held out; 0: none
+  int threads = 0;          // positions side by side; 0: as many as the machine has
   // Bounds of the relaxation times [s], one a term, short to long; empty: from half a sample step
-  // to ten times the longest press, with starts spread over what the presses show.
+  // to three times the longest press, with starts spread over what the presses show.
   std::vector<std::pair<double, double>> windows;
 };
 
@@ -32,7 +33,8 @@ struct AcfmFit {
 
 // Each direction of each position by itself: residuals (measured - model) / noise, parameters ks >
 // 0, k_i >= 0, tau_i in its window, thesis (5.44)-(5.50), with the derivatives of the exact step in
-// closed form: df/dks = -u, df/dk_i = -m_i, df/dtau_i = -k_i dm_i/dtau_i, m_i the memory of u. An
+// closed form: df/dks = -q, df/dk_i = -m_i, df/dtau_i = -k_i dm_i/dtau_i, m_i the memory of q,
+// df/ds = -(ks w + sum k_i memory of w), w = dq/ds. An
 // axis that was not moved has the stiffness of the normal times that of a bonded disc across over
 // along (disc_compliance, nu = 0.4), or of the tangents' mean, and their relaxation. `normals`: of
 // dataset.positions, outward.

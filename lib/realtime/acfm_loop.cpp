@@ -22,7 +22,10 @@ void AcfmLoop::take_place(const Place& place) noexcept {
 }
 
 Vec3 AcfmLoop::advance(double t, const Vec3& u) noexcept {
-  const Vec3 now = frame_.transpose() * u;
+  Vec3 now = frame_.transpose() * u;
+  const double size = u.norm();
+  for (Eigen::Index a = 0; a < 3; ++a)
+    now[a] *= stiffening_at(sub_.axis[static_cast<std::size_t>(a)].stiffening(), size).factor;
   const bool first = !begun_;
   const double dt = t > t_ ? t - t_ : 0;
   Vec3 force = Vec3::Zero();

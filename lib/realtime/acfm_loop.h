@@ -27,7 +27,7 @@ class AcfmLoop : public ToolLoop {
   SubModel sub_;
   Eigen::Matrix3d frame_ = Eigen::Matrix3d::Identity();
   std::array<Vec3, AcfmAxis::kMostTerms> h_;  // [N] over -1, along the frame's axes
-  Vec3 u_ = Vec3::Zero();                     // of the last sample, in the frame
+  Vec3 u_ = Vec3::Zero();                     // q of the last sample, in the frame
   double t_ = 0;
   bool begun_ = false;
 };

@@ -28,7 +28,8 @@ std::vector<Observation> observations(Random& random, double late) {
   return all;
 }
 
-const Filter::Vector kDecay(0.999, 1), kWalk(1e-3, 4e-4);
+const Filter::Vector kWalk(1e-3, 4e-4);
+const Filter::Matrix kMove = (Filter::Matrix() << 0.999, 0.02, 0, 1).finished();
 
 // Steps of 10 ms with every observation at its arrival.
 Filter run(std::vector<Observation> all) {
@@ -37,7 +38,7 @@ Filter run(std::vector<Observation> all) {
   std::sort(all.begin(), all.end(), [](auto& a, auto& b) { return a.arrives < b.arrives; });
   std::size_t next = 0;
   for (int i = 1; i <= 800; ++i) {
-    filter.predict(0.01 * i, kDecay, kWalk);
+    filter.predict(0.01 * i, kMove, kWalk);
     for (; next < all.size() && all[next].arrives <= 0.01 * i + 1e-9; ++next)
       EXPECT_TRUE(filter.observe(all[next].t - 1e-9, all[next].h, all[next].z, 0.04).taken);
   }
@@ -72,11 +73,11 @@ TEST(DelayedFilter, IsLeastSquaresOverTheWholeHistory) {
   filter.restart(0, start, Filter::Matrix::Identity());
   for (int k = 0; k < 2; ++k) add(Eigen::VectorXd::Unit(size, k), start[k], 1);
   for (int i = 1; i <= steps; ++i) {
-    filter.predict(0.1 * i, kDecay, kWalk);
+    filter.predict(0.1 * i, kMove, kWalk);
     for (int k = 0; k < 2; ++k) {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(size);
       row[2 * i + k] = 1;
-      row[2 * i - 2 + k] = -kDecay[k];
+      row.segment<2>(2 * i - 2) = -kMove.row(k);
       add(row, 0, kWalk[k]);
     }
   }
@@ -105,9 +106,9 @@ TEST(DelayedFilter, InnovationsAreConsistent) {
     Filter::Vector truth(random.normal(), random.normal());
     filter.restart(0, Filter::Vector::Zero(), Filter::Matrix::Identity());
     for (int i = 1; i <= 300; ++i) {
-      for (int k = 0; k < 2; ++k)
-        truth[k] = kDecay[k] * truth[k] + std::sqrt(kWalk[k]) * random.normal();
-      filter.predict(0.1 * i, kDecay, kWalk);
+      truth = kMove * truth;
+      for (int k = 0; k < 2; ++k) truth[k] += std::sqrt(kWalk[k]) * random.normal();
+      filter.predict(0.1 * i, kMove, kWalk);
       if (i % 5 != 0) continue;
       const Filter::Vector h(1, std::cos(0.2 * i));
       nis += filter.observe(0.1 * i, h, h.dot(truth) + 0.2 * random.normal(), 0.04).nis();
@@ -120,7 +121,7 @@ TEST(DelayedFilter, InnovationsAreConsistent) {
 TEST(DelayedFilter, RefusesWhatIsOlderThanItRemembers) {
   Filter filter(20);
   filter.restart(0, Filter::Vector::Zero(), Filter::Matrix::Identity());
-  for (int i = 1; i <= 100; ++i) filter.predict(0.01 * i, kDecay, kWalk);
+  for (int i = 1; i <= 100; ++i) filter.predict(0.01 * i, kMove, kWalk);
   EXPECT_FALSE(filter.observe(0.5, {1, 0}, 1, 1).taken);
   EXPECT_FALSE(filter.observe(1.5, {1, 0}, 1, 1).taken);  // not yet
   EXPECT_TRUE(filter.observe(0.95, {1, 0}, 1, 1).taken);

@@ -167,6 +167,34 @@ TEST(AcfmFit, RecoversTheTruthWithinItsStandardErrors) {
   EXPECT_GT(inside, 0.88 * all);  // 95 % of 180, less three standard deviations
 }
 
+TEST(AcfmFit, FindsTheStiffening) {
+  Acfm truth = one_element({{0, 0, 0.06}});
+  for (AcfmAxis& axis : truth.positions[0].axis) axis.value[AcfmAxis::kStiffening] = 250;
+  // By hand: e^(250 * 0.004) - 1 over 250 m^-1.
+  AcfmLoop loop(truth);
+  loop.begin({0, 0, 0.06});
+  EXPECT_NEAR(loop.press(0, {0, 0, -0.004}).z(), 500 * (std::exp(1.0) - 1) / 250, 1e-12);
+  const Dataset dataset = presses(truth, 0.005, 8);
+  AcfmFitOptions options;
+  options.stiffening = true;
+  options.noise = 0.005;
+  const AcfmFit fit = fit_acfm(dataset, {Vec3::UnitZ()}, options);
+  const AcfmAxis& axis = fit.model.positions[0].axis[2];
+  EXPECT_NEAR(axis.stiffening(), 250, 3 * axis.error[AcfmAxis::kStiffening]);
+  EXPECT_LT(axis.error[AcfmAxis::kStiffening], 5);
+  EXPECT_NEAR(fit.rmse, 0.005, 3e-4);
+}
+
+TEST(Acfm, StiffensSmoothlyAboutZero) {
+  for (const double s : {1e-4 / 0.003 * 0.999, 1e-4 / 0.003 * 1.001, 300.0, -200.0}) {
+    const double step = 1e-4 * std::abs(s) + 1e-6;
+    const double by_difference =
+        (stiffening_at(s + step, 0.003).factor - stiffening_at(s - step, 0.003).factor) /
+        (2 * step);
+    EXPECT_NEAR(stiffening_at(s, 0.003).slope, by_difference, 1e-6 * by_difference) << s;
+  }
+}
+
 TEST(AcfmFit, DerivesWhatDidNotMoveAndHoldsOut) {
   const Acfm truth = one_element({{0, 0, 0.06}, {0.05, 0, 0.06}, {0.1, 0, 0.06}});
   Dataset dataset = presses(truth, 0.002, 7);

@@ -1,0 +1,99 @@
+// Forces of a fast source put right by those of a slow one that come late.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "base/vec3.h"
+#include "estimate/delayed_filter.h"
+
+namespace hapsim {
+
+// What the fast source may err by, and the slow one. Each force component by itself:
+//   slow = fast + b + c f |f| / F + noise,   db = g df + r dt + w,   f the fast force:
+// an offset b that goes on with the fast force by the local gain g and with time by the drift r,
+// and wanders; g wanders along the way that the force goes; r decays; c, a stiffening, stays.
+// In SI and the frame of the forces; every component has its own.
+struct AxisFusion {
+  double offset_walk = 0.1;  // of b at rest [N/s^0.5]
+  double walk_rate = 1;      // rate at which that has fallen to its floor, a tenth [m/s]
+  double drift_walk = 0.1;   // of r at rest, falling with the rate as that of b [N/s^1.5]
+  double drift_time = 0.3;   // in which r decays [s]
+  double gain_walk = 0.1;    // of g along a way of F of the fast force
+  double gain_spread = 0.1;  // standard deviation of g and c at the start
+  double noise = 0.01;       // of the slow source at rest [N]
+  double noise_rise = 0.1;   // and how it grows with the rate [N s/m]
+  double force_scale = 1;    // F [N]
+};
+struct FusionParameters {
+  std::array<AxisFusion, 3> axis;
+  double blend = 0.01;  // time over which a correction is let in [s]; 0: at once
+};
+
+struct FusionReport {
+  long observations = 0, refused = 0;  // refused: before the contact, or too late
+  // Of what was given out for the time of a slow force, when that was not there yet: sum over the
+  // observations and components of (slow - given)^2 / variance, the variance as the filter stated
+  // it and of the slow source's noise.
+  double nis = 0;
+  Vec3 deviance = Vec3::Zero();  // by component: sum of log variance + (slow - given)^2 / variance
+  long within = 0;         // observations whose nis is below the 95 % point of chi-square of three
+  double lag_product = 0;  // sum of products of successive normalised differences: how white
+
+  double mean_nis() const;     // per component: 1 when the filter knows its own error
+  double correlation() const;  // of a difference with the one before it
+  // 95 % of mean_nis() when it does. Forecasts over a delay share what happens in it, so as many
+  // count as independent as the squares' correlation leaves (Bartlett, Suppl. J. R. Statist. Soc.
+  // 8, 1946): (1 - rho^2) / (1 + rho^2) of them.
+  std::array<double, 2> band() const;
+};
+
+// A Kalman filter with the fast force as its input (thesis 4.4 with what is printed wrong put
+// right): the rate's magnitude counts; with it the walk of b falls and the noise of the slow source
+// grows, so the fast source gains weight in fast motion; variances, not densities; Joseph's update;
+// slow forces are put in at their own time. At a new contact b is zero, for there is no force yet,
+// and g and c stay. The noise also has what half a sample of time makes in the fast force. The size
+// of a component's variances, which changes nothing that is given out, follows the differences
+// seen: its logarithm goes up by kScaleStep times what their normalised square is above one, which
+// brings the mean of that to one on any motion. step() and observe() allocate nothing and lock
+// nothing.
+class Fusion {
+ public:
+  static constexpr double kScaleStep = 0.2;
+  // `history`: steps that a slow force may be late.
+  explicit Fusion(const FusionParameters& parameters, std::size_t history = 4096);
+
+  void begin(double t) noexcept;  // a new contact
+  // The next sample: displacement u [m] and fast force [N] at t [s]. The fused force now [N].
+  Vec3 step(double t, const Vec3& u, const Vec3& fast) noexcept;
+  // A slow force of time t that has just come. Taken: whether it was of use.
+  bool observe(double t, const Vec3& slow) noexcept;
+
+  Vec3 deviation() const noexcept;  // standard deviation of the last fused force [N]
+  const FusionReport& report() const { return report_; }
+
+ private:
+  using Filter = DelayedFilter<4>;  // b, g, c, r
+  struct Sample {
+    double t = 0;
+    Vec3 fast = Vec3::Zero();
+    double rate = 0;                                     // [m/s]
+    Vec3 given = Vec3::Zero(), variance = Vec3::Zero();  // as it was given out, before blending
+  };
+  const Sample& sample(std::size_t k) const { return ring_[k % ring_.size()]; }
+  Filter::Vector features(int axis, double force) const noexcept;
+  static std::size_t rate_class(double rate) noexcept;
+  Vec3 estimate() const noexcept;  // of the last sample, before blending
+  Vec3 variance() const noexcept;  // of it
+
+  FusionParameters parameters_;
+  std::array<Filter, 3> filter_;
+  std::vector<Sample> ring_;
+  std::size_t first_ = 0, next_ = 0;
+  std::array<double, 8> scale_{};  // of all variances by what was seen, one a factor 2 of the rate
+  Vec3 u_ = Vec3::Zero(), pending_ = Vec3::Zero(), last_ = Vec3::Zero();
+  FusionReport report_;
+  bool known_ = false;
+};
+
+}  // namespace hapsim

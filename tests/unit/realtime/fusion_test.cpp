@@ -1,0 +1,135 @@
+// Fusing a fast source that errs with a slow one that comes late.
+#include "realtime/fusion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "realtime/fuse_recordings.h"
+
+namespace hapsim {
+namespace {
+
+// Presses whose truth stiffens and drifts, a fast source 20 % off, slow forces every `every`
+// samples.
+struct Case {
+  Recording exact, fast, slow;
+};
+Case presses(double rise, int every, double noise = 0) {
+  Case c;
+  Random random(2);
+  for (Recording* r : {&c.exact, &c.fast, &c.slow}) r->name = "synthetic";
+  for (int press = 1; press <= 4; ++press)
+    for (int i = 0; i <= 3000 * rise; ++i) {
+      const double t = 1e-3 * i;
+      const double depth = (0.003 + 0.0005 * press) * std::pow(std::sin(1.0472 * t / rise), 2);
+      const double f = 500 * depth * (1 + 60 * depth) + 0.05 * std::sin(t) * depth / 0.004;
+      const auto add = [&](Recording& r, double force) {
+        r.line.push_back(static_cast<long>(r.line.size()) + 2);
+        r.press.push_back(press);
+        r.t.push_back(t);
+        r.position.push_back(Vec3::Zero());
+        r.u.push_back({0, 0, -depth});
+        r.f.push_back({0.1 * force, -0.05 * force, force});
+        if (&r == &c.slow)
+          for (int k = 0; k < 3; ++k) r.f.back()[k] += noise * random.normal();
+      };
+      add(c.exact, f);
+      add(c.fast, 400 * depth);
+      if (i % every == 0) add(c.slow, f);
+    }
+  return c;
+}
+
+TEST(Fusion, BeatsItsSourcesAndTheirExtrapolationAtSlowAndFastMotion) {
+  const Case lesson = presses(0.3, 40);
+  const LearnedFusion learned = learn_fusion(lesson.fast, {&lesson.slow, 0.04}, {});
+  EXPECT_TRUE(learned.converged);
+  for (const double rise : {0.1, 2.0}) {
+    const Case c = presses(rise, 40);
+    const FusedForces fused = fuse(c.fast, {&c.slow, 0.04}, learned.parameters);
+    const auto rms = [&](const std::vector<Vec3>& f) {
+      return force_quality(c.fast, f, c.exact.f).rms;
+    };
+    EXPECT_LT(rms(fused.force), rms(c.fast.f)) << rise;
+    EXPECT_LT(rms(fused.force), rms(fused.held)) << rise;
+    EXPECT_LT(rms(fused.force), rms(fused.extrapolated)) << rise;
+    // No steps of the slow source.
+    EXPECT_LT(force_quality(c.fast, fused.force, c.exact.f).largest_step,
+              0.5 * force_quality(c.fast, fused.held, c.exact.f).largest_step);
+  }
+}
+
+TEST(Fusion, StatesItsOwnErrorOnAnyMotion) {
+  const Case lesson = presses(0.3, 20, 0.01);
+  const LearnedFusion learned = learn_fusion(lesson.fast, {&lesson.slow, 0.02}, {});
+  for (const double rise : {0.2, 1.0}) {
+    const Case c = presses(rise, 20, 0.01);
+    const FusionReport report = fuse(c.fast, {&c.slow, 0.02}, learned.parameters).report;
+    EXPECT_GT(report.mean_nis(), report.band()[0]) << rise;
+    EXPECT_LT(report.mean_nis(), report.band()[1]) << rise;
+  }
+}
+
+// The weight of a slow force: what is let in of a difference of one.
+double weight(double rate) {
+  FusionParameters p;
+  p.blend = 0;
+  for (AxisFusion& axis : p.axis) axis.walk_rate = 0.1;
+  Fusion fusion(p);
+  fusion.begin(0);
+  double before = 0;
+  for (int i = 1; i <= 200; ++i) {
+    before = fusion.step(1e-3 * i, {0, 0, -1e-3 * rate * i}, {0, 0, 1}).z();
+    if (i < 200 && i % 20 == 0) fusion.observe(1e-3 * i, {0, 0, before});
+  }
+  fusion.observe(0.2, {0, 0, before + 1});
+  return fusion.step(0.2, {0, 0, -0.2 * rate}, {0, 0, 1}).z() - before;
+}
+
+TEST(Fusion, TheFastSourceGainsWeightWithTheRateOfEitherSign) {
+  EXPECT_GT(weight(0), 1.2 * weight(0.03));
+  EXPECT_GT(weight(0.03), 1.2 * weight(0.1));
+  EXPECT_NEAR(weight(0.03), weight(-0.03), 1e-12);
+  EXPECT_GT(weight(0.1), 0);
+}
+
+TEST(Fusion, KnowsNothingBeforeItIsThere) {
+  const Case c = presses(0.3, 20);
+  const FusedForces late = fuse(c.fast, {&c.slow, 100}, {});
+  for (std::size_t i = 0; i < late.force.size(); ++i) EXPECT_EQ(late.force[i], c.fast.f[i]);
+  EXPECT_EQ(late.report.observations, 0);
+}
+
+TEST(Fusion, RefusesWhatBelongsToNoSample) {
+  Fusion fusion({}, 64);
+  fusion.begin(1);
+  for (int i = 1; i <= 200; ++i) fusion.step(1 + 1e-3 * i, Vec3::Zero(), {0, 0, 1});
+  EXPECT_FALSE(fusion.observe(0.5, {0, 0, 1}));    // before the contact
+  EXPECT_FALSE(fusion.observe(1.001, {0, 0, 1}));  // forgotten
+  EXPECT_FALSE(fusion.observe(3, {0, 0, 1}));      // to come
+  EXPECT_FALSE(fusion.observe(1.19, {0, 0, std::nan("")}));
+  EXPECT_TRUE(fusion.observe(1.19, {0, 0, 1}));
+  EXPECT_EQ(fusion.report().refused, 4);
+}
+
+TEST(FusionParameters, AreReadAsTheyAreWritten) {
+  FusionParameters p;
+  p.axis[1].noise = 0.123;
+  p.blend = 0.02;
+  std::ostringstream out;
+  write_fusion(out, p);
+  Input in = Input::from_bytes(out.str(), "filter.csv");
+  const FusionParameters back = read_fusion(in);
+  EXPECT_EQ(back.axis[1].noise, 0.123);
+  EXPECT_EQ(back.axis[2].noise, p.axis[2].noise);
+  EXPECT_EQ(back.blend, 0.02);
+  Input bad = Input::from_bytes("parameter,axis,value\nnoise,x,-1\n", "filter.csv");
+  EXPECT_THROW(read_fusion(bad), Error);
+}
+
+}  // namespace
+}  // namespace hapsim

@@ -1,0 +1,170 @@
+// hs-fuse: smooth forces at a high rate from a fast source and a slow one that comes late.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "io/csv.h"
+#include "realtime/fuse_recordings.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-fuse";
+  spec.summary = "forces of a fast source put right by those of a slow one";
+  spec.input = "recording with the fast forces (of an analytical model, hs-simulate)";
+  spec.description = {
+      "A fast source (an analytical or condensed linear model) answers every sample but errs; a "
+      "slow one (finite elements, delayed measurements) is right but comes seldom and late. A "
+      "Kalman filter follows what the fast source lacks: in each force component an offset, a "
+      "drift, a "
+      "gain and a stiffening. A slow force is put in at its own time, however late it comes; "
+      "nothing is "
+      "known before it is there.",
+      "At rest the slow source leads; with the rate of the displacement the offset's walk falls "
+      "and "
+      "the slow source's noise grows, so that the fast source gains weight in fast motion. A "
+      "correction is let in over a short time, so that no step is felt.",
+      "--learn finds the filter's parameters under which the slow forces, as they differ from what "
+      "was predicted, are most likely. The consistency of the filter is told as NIS, the mean of "
+      "those differences squared over their variances: 1 when the filter knows its own error, with "
+      "the band that it should lie in.",
+      "With --exact the error and the largest step per millisecond are told, beside those of the "
+      "fast source alone, of the last slow force held, and of the last two drawn on."};
+  spec.options = {
+      {.flag = "--slow",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Slow forces: a recording of the same presses at times of its own; a column arrives "
+               "[s] tells when each row is there.",
+       .required = true},
+      {.flag = "--delay",
+       .kind = OptionKind::kNumber,
+       .value = "S",
+       .help = "How late the rows of --slow are where they have no column arrives [s].",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 100},
+      {.flag = "--parameters",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "The filter's parameters (CSV), as --learn writes them."},
+      {.flag = "--learn",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Learns the parameters from these recordings, writes them to FILE and uses them."},
+      {.flag = "--exact",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Recording of the same rows with exact forces to compare with."}};
+  spec.tables = {{"Output",
+                  {{"...", "the columns of the fast recording, its forces replaced"},
+                   {"sdx, sdy, sdz", "standard deviation that the filter states [N]"}}},
+                 {"Parameters",
+                  {{"axis", "x, y or z: every component has its own"},
+                   {"offset_walk", "of the offset at rest [N/s^0.5]"},
+                   {"walk_rate", "rate at which that has fallen to a tenth, its floor [m/s]"},
+                   {"drift_walk", "of the drift at rest [N/s^1.5]"},
+                   {"drift_time", "in which the drift decays [s]"},
+                   {"gain_walk", "of the gain along a way of force_scale of the fast force"},
+                   {"gain_spread", "standard deviation of gain and stiffening at the start"},
+                   {"noise", "of the slow source at rest [N]"},
+                   {"noise_rise", "its growth with the rate [N s/m]"},
+                   {"force_scale", "force at which the stiffening is one of the force [N]"},
+                   {"blend", "time over which a correction is let in [s]"}}}};
+  spec.examples = {
+      {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --learn filter.csv -o fused.csv",
+       "Learns the filter and fuses."},
+      {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --parameters filter.csv --exact fine.csv -o "
+       "fused.csv",
+       "Another motion with it, compared with the exact forces."}};
+  spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};
+  return spec;
+}
+
+void compare_with(const Arguments& arguments, const Recording& fast, const FusedForces& fused) {
+  Input input(arguments.text("--exact"));
+  const Recording exact = read_recording(input);
+  if (exact.rows() != fast.rows())
+    fail_input(exact.name, fmt::format("it has {} rows, not {}", exact.rows(), fast.rows()),
+               "give the exact forces of the same motion");
+  double squares = 0;
+  for (const Vec3& f : exact.f) squares += f.squaredNorm();
+  const double force = std::sqrt(squares / (3 * static_cast<double>(exact.rows())));
+  const auto line = [&](const char* name, const std::vector<Vec3>& forces) {
+    const ForceQuality q = force_quality(fast, forces, exact.f);
+    say(arguments, "hs-fuse",
+        fmt::format("  {:<18} error {:8.4f} N = {:6.2f} % of the force, largest step {:.4f} N in a "
+                    "millisecond",
+                    name, q.rms, 100 * q.rms / force, q.largest_step));
+  };
+  line("fused", fused.force);
+  line("fast alone", fast.f);
+  line("slow held", fused.held);
+  line("slow extrapolated", fused.extrapolated);
+  line("exact", exact.f);
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.given("--learn") && arguments.given("--parameters"))
+    fail_usage("--learn finds what --parameters gives", "leave one of them out");
+  Input input(arguments.input());
+  Recording fast = read_recording(input);
+  Input slow_input(arguments.text("--slow"));
+  const Recording slow = read_recording(slow_input);
+  const SlowSource source{&slow, arguments.number("--delay")};
+  FusionParameters parameters;
+  if (arguments.given("--parameters")) {
+    Input file(arguments.text("--parameters"));
+    parameters = read_fusion(file);
+  }
+  if (arguments.given("--learn")) {
+    const LearnedFusion learned = learn_fusion(fast, source, parameters);
+    parameters = learned.parameters;
+    if (!learned.converged)
+      fail_numerics(slow.name,
+                    fmt::format("the parameters did not settle in {} runs", learned.runs),
+                    "give more of the motion that is to be fused");
+    Output file(arguments.text("--learn"));
+    write_fusion(file.stream(), parameters);
+    file.commit();
+    say(arguments, "hs-fuse", fmt::format("parameters learned in {} runs", learned.runs));
+  }
+  const FusedForces fused = fuse(fast, source, parameters);
+  const FusionReport& report = fused.report;
+  const auto band = report.band();
+  const double mean = report.mean_nis();
+  say(arguments, "hs-fuse",
+      fmt::format(
+          "{} slow forces taken, {} refused; NIS {:.3g}, {} its 95 % band {:.3g} to {:.3g}; "
+          "{:.1f} % of them single below their 95 % point; correlation with the one before "
+          "{:.2f}",
+          report.observations, report.refused, mean,
+          mean >= band[0] && mean <= band[1] ? "within" : "outside", band[0], band[1],
+          100.0 * static_cast<double>(report.within) /
+              static_cast<double>(std::max(report.observations, 1L)),
+          report.correlation()));
+  if (arguments.given("--exact")) compare_with(arguments, fast, fused);
+  fast.f = fused.force;
+  for (int k = 0; k < 3; ++k) {
+    fast.extra_header.push_back(fmt::format("sd{}", "xyz"[k]));
+    fast.extra.emplace_back();
+    for (const Vec3& sd : fused.deviation) fast.extra.back().push_back(format_number(sd[k]));
+  }
+  fast.metadata.set("simulated",
+                    fast.metadata.find("simulated").value_or("fast") + ", fused with " + slow.name);
+  Output output(arguments.output());
+  write_recording(output.stream(), fast);
+  output.commit();
+  return 0;
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
