@@ -1,0 +1,58 @@
+#!/bin/sh
+# telepresence.sh [FOLDER]: a soft hemisphere pressed over a network with a delay of 300 ms there and
+# back, jitter of 50 ms and 5 % of packets lost. The operator feels late forces, identifies the body
+# from them while it runs, and from then on feels the identified body at once. Needs the hs- tools on
+# the PATH; writes into FOLDER (telepresence).
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+out=${1:-telepresence}
+mkdir -p "$out"
+cd "$out"
+
+# A hemisphere of radius 50 mm, held at its base.
+awk 'BEGIN {
+  pi = 3.14159265358979; n = 28; m = 9
+  for (i = 1; i <= m; ++i) for (j = 0; j < n; ++j) {
+    a = pi / 2 * (1 - i / m); b = 2 * pi * j / n
+    v = v sprintf("%.6f %.6f %.6f\n", 0.05 * cos(a) * cos(b), 0.05 * cos(a) * sin(b), 0.05 * sin(a))
+  }
+  last = 1 + m * n
+  for (j = 0; j < n; ++j) {
+    k = (j + 1) % n
+    f = f sprintf("3 0 %d %d\n", 1 + j, 1 + k); ++faces
+    for (i = 0; i < m - 1; ++i) {
+      p = 1 + i * n + j; q = 1 + i * n + k
+      f = f sprintf("3 %d %d %d\n3 %d %d %d\n", p, p + n, q, q, p + n, q + n); faces += 2
+    }
+    f = f sprintf("3 %d %d %d\n", 1 + (m - 1) * n + j, last, 1 + (m - 1) * n + k); ++faces
+  }
+  printf "OFF\n%d %d 0\n0 0 0.05\n%s0 0 0\n%s", last + 1, faces, v, f
+}' >ball.off
+hs-tetmesh ball.off --edge 0.011 -q -o real.ply  # what is pressed is meshed finer than
+hs-tetmesh ball.off --edge 0.02 -q -o ball.ply   # what is identified
+cat >hidden.csv <<'END'
+effect,region,parameter,value,unit
+elastic,0,E,22000,Pa
+elastic,0,nu,0.45,1
+viscoelastic,0,E1,6000,Pa
+viscoelastic,0,tau1,0.15,s
+END
+# 25 s of a hand that presses, 1 kHz.
+awk 'BEGIN {
+  print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
+  for (i = 0; i <= 25000; ++i) {
+    t = i / 1000; d = 0.002 * (1 - cos(3.6 * t)) * (1 + 0.35 * sin(1.3 * t)); s = 0.25 * d * sin(2.3 * t)
+    printf "1,%.3f,0.004,0.002,0.0496,%.9g,0,%.9g\n", t, s, -d
+  }
+}' >motion.csv
+
+port=${PORT:-9123}
+bad='--delay 0.15 --jitter 0.05 --loss 0.05 --duplicate 0.02 --reorder 0.02'
+hs-link --listen "$port" --body real.ply --model hidden.csv --tool-radius 0.004 --add-noise 0.01 --idle 3 $bad &
+sleep 1
+hs-link motion.csv --peer "$port" --body ball.ply --times 0.15 --samples 6000 $bad \
+  --identified identified.csv -o felt.csv
+wait
+grep -E '^(elastic|viscoelastic)' identified.csv
+awk -f "$here/plot.awk" -v title='Telepresence: 300 ms delay, the body identified while it runs' felt.csv >felt.svg
+echo "$out: felt.csv identified.csv felt.svg"

@@ -1,0 +1,388 @@
+// hs-link: an operator and a teleoperator, two processes over UDP.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <atomic>
+#include <random>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "common_options.h"
+#include "effects/catalogue.h"
+#include "io/csv.h"
+#include "io/udp.h"
+#include "model/edit.h"
+#include "realtime/force_loop.h"
+#include "realtime/impaired_channel.h"
+#include "realtime/latency.h"
+#include "realtime/motion_lines.h"
+#include "realtime/real_time.h"
+#include "realtime/telepresence.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-link";
+  spec.summary = "telepresence: an operator and a teleoperator over UDP";
+  spec.input = "operator: motion (press,t,x,y,z,ux,uy,uz[,contact]), a line a sample";
+  spec.description = {
+      "Two processes. The teleoperator (--listen) presses a body, --body with --model, by the "
+      "motions that come and answers each with the force. The operator (--peer) sends its motion "
+      "at "
+      "--rate by the clock and feels the newest force that has come back, late by what the network "
+      "takes.",
+      "From the answers the operator identifies the modulus of its own --body, and moduli of "
+      "relaxation at the times of --times, while it runs: unit forces are computed beforehand, so "
+      "that costs microseconds. Once --samples answers are there the identified body is felt, at "
+      "once, without a jump; later answers go on improving it.",
+      "A network as bad as wished is put before the real one on the sending side of each process: "
+      "--delay, --jitter, --loss, --duplicate, --reorder. Packets carry sender, number and time "
+      "and "
+      "a check; old, foreign and damaged ones are counted and dropped. A peer that dies and comes "
+      "back is served again.",
+      "Every line of the operator goes out at once: on standard output nothing but the last one "
+      "can be "
+      "lost, however it ends."};
+  spec.options = {
+      {.flag = "--listen",
+       .kind = OptionKind::kText,
+       .value = "HOST:PORT",
+       .help = "Teleoperator: where motions come to. Port 0 takes a free one and says which."},
+      {.flag = "--peer",
+       .kind = OptionKind::kText,
+       .value = "HOST:PORT",
+       .help = "Operator: where the teleoperator listens."},
+      {.flag = "--body",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Body: the one that is pressed, or the one that is identified.",
+       .required = true},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Teleoperator: the body's model."},
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "Radius of the flat tool [m]; the operator's otherwise from its motion.",
+       .minimum = 1e-6,
+       .maximum = 1},
+      {.flag = "--nu",
+       .kind = OptionKind::kNumber,
+       .value = "NU",
+       .help = "Operator: Poisson's ratio of the body that is identified.",
+       .default_text = "0.45",
+       .minimum = 0,
+       .maximum = 0.499},
+      {.flag = "--times",
+       .value = "LIST",
+       .help = "Operator: relaxation times whose moduli are identified too [s], at most five.",
+       .repeatable = true},
+      {.flag = "--samples",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Operator: answers in contact before the identified body is felt; 0: never.",
+       .default_text = "500",
+       .minimum = 0,
+       .maximum = 1e9},
+      {.flag = "--rate",
+       .kind = OptionKind::kNumber,
+       .value = "HZ",
+       .help = "Operator: motion lines a second.",
+       .default_text = "1000",
+       .minimum = 1,
+       .maximum = 20000},
+      {.flag = "--identified",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Operator: writes the identified model."},
+      {.flag = "--delay",
+       .kind = OptionKind::kNumber,
+       .value = "S",
+       .help = "Least time of a packet on its way there [s].",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 3},
+      {.flag = "--jitter",
+       .kind = OptionKind::kNumber,
+       .value = "S",
+       .help = "Size of what comes on top of it, changing within a tenth of a second [s].",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 1},
+      {.flag = "--loss",
+       .kind = OptionKind::kNumber,
+       .value = "SHARE",
+       .help = "Share of packets that are lost.",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 1},
+      {.flag = "--duplicate",
+       .kind = OptionKind::kNumber,
+       .value = "SHARE",
+       .help = "Share of packets that come twice.",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 1},
+      {.flag = "--reorder",
+       .kind = OptionKind::kNumber,
+       .value = "SHARE",
+       .help = "Share of packets with a jitter of their own, that overtake or are overtaken.",
+       .default_text = "0",
+       .minimum = 0,
+       .maximum = 1},
+      {.flag = "--add-noise",
+       .kind = OptionKind::kNumber,
+       .value = "N",
+       .help = "Teleoperator: adds Gaussian noise of this standard deviation [N] to every force "
+               "component.",
+       .default_text = "0",
+       .minimum = 0},
+      {.flag = "--seed",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Seed of the network's chance and of the noise.",
+       .default_text = "1",
+       .minimum = 0},
+      {.flag = "--idle",
+       .kind = OptionKind::kNumber,
+       .value = "S",
+       .help = "Teleoperator: ends when nothing has come for so long; 0: only by a signal.",
+       .default_text = "5",
+       .minimum = 0,
+       .maximum = 1e6}};
+  spec.tables = {{"Output of the operator",
+                  {{"press, t, x, y, z, ux, uy, uz", "the motion"},
+                   {"fx, fy, fz", "what is felt [N]"},
+                   {"contact", "1 in contact, 0 in the air"},
+                   {"mx, my, mz", "the newest force that has come [N]"},
+                   {"predicted", "1 where the identified body is felt"}}}};
+  spec.examples = {
+      {"hs-link --listen 9000 --body real.ply --model hidden.csv --tool-radius 0.004 --delay 0.15",
+       "The far side, with half of the delay."},
+      {"hs-link motion.csv --peer 9000 --body body.ply --delay 0.15 --jitter 0.05 --loss 0.05 -o "
+       "felt.csv",
+       "The near side."}};
+  spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};
+  return spec;
+}
+
+std::atomic<bool> stopped{false};
+void on_signal(int) {
+  stopped = true;
+}
+
+Impairment impairment(const Arguments& a) {
+  return {a.number("--delay"), a.number("--jitter"), a.number("--loss"), a.number("--duplicate"),
+          a.number("--reorder")};
+}
+
+// Of this process: another after a restart.
+std::uint64_t draw_sender() {
+  std::random_device device;
+  return (static_cast<std::uint64_t>(device()) << 32) ^ device();
+}
+
+int run_teleoperator(const Arguments& arguments) {
+  for (const char* flag : {"--model", "--tool-radius"})
+    if (!arguments.given(flag))
+      fail_usage(std::string("a teleoperator needs ") + flag, "give it: it has a body to press");
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  PreparedBodyOptions options;
+  options.tool_radius = arguments.number("--tool-radius");
+  const PreparedBody body(load_body(arguments), model, options);
+  ForceLoop loop(body);
+  UdpSocket socket(parse_address(arguments.text("--listen")));
+  say(arguments, "hs-link", "listening at " + to_text(socket.address()));
+  Teleoperator far(loop, draw_sender());
+  ImpairedChannel channel(impairment(arguments),
+                          static_cast<std::uint64_t>(arguments.integer("--seed")) + 1000);
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
+  const double noise = arguments.number("--add-noise");
+  const double idle = arguments.number("--idle");
+  std::array<unsigned char, 2048> buffer{};
+  UdpAddress from, peer;
+  Packet answer;
+  PacketBytes bytes;
+  for (std::int64_t heard = monotonic_ns(); !stopped;) {
+    std::int64_t now = monotonic_ns();
+    if (idle > 0 && now - heard > std::llround(1e9 * idle)) break;
+    socket.wait(std::min(channel.next_due(), now + 100'000'000));
+    now = monotonic_ns();
+    while (const std::size_t size = socket.receive(buffer, from)) {
+      if (!far.receive(now, {buffer.data(), size}, answer)) continue;
+      heard = now;
+      peer = from;
+      for (int k = 0; k < 3; ++k) answer.first[k] += noise * random.normal();
+      channel.push(now, write_packet(answer));
+    }
+    while (channel.pop(now, bytes)) socket.send(peer, bytes);
+  }
+  say(arguments, "hs-link", "teleoperator: " + far.counts().summary());
+  return 0;
+}
+
+void write_identified(const std::string& path, const OnlineEstimate& found, double nu,
+                      const std::vector<double>& times) {
+  Model model;
+  const auto add = [&](const char* effect, const std::vector<double>& values, int terms) {
+    const auto rows = effect_rows(*find_effect(effect), terms, values);
+    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+  };
+  add("elastic", {found.moduli[0], nu}, 1);
+  model.parameters[0].std_error = found.error[0];
+  model.parameters[1].state = ParameterState::kFixed;
+  if (!times.empty()) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < times.size(); ++i)
+      values.insert(values.end(), {found.moduli[static_cast<Eigen::Index>(i + 1)], times[i]});
+    add("viscoelastic", values, static_cast<int>(times.size()));
+  }
+  model.metadata.set("rmse", format_number(found.rmse));
+  Output output(path);
+  write_model(output.stream(), model);
+  output.commit();
+}
+
+void append(std::string& text, double value) {
+  text += ',';
+  text += format_number(value == 0 ? 0.0 : value);
+}
+
+int run_operator(const Arguments& arguments) {
+  Input input(arguments.input());
+  MotionLines motion(input);
+  if (!motion.has_contact_point())
+    fail_input(input.name(), "there are no contact points", "give press,t,x,y,z,ux,uy,uz");
+  PreparedBodyOptions options;
+  if (arguments.given("--tool-radius"))
+    options.tool_radius = arguments.number("--tool-radius");
+  else
+    options.tool_radius = motion.metadata().number("tool_radius", input.name()).value_or(0);
+  if (!(options.tool_radius > 0))
+    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+  std::vector<double> times;
+  for (const std::string& text : arguments.list("--times")) {
+    double tau = 0;
+    if (!parse_number(text, tau) || !(tau > 0) || times.size() + 1 >= kMostUnknowns)
+      fail_usage("--times " + shown(text) + " is no relaxation time, or one too many",
+                 "give at most five [s]: 0.05,0.5");
+    times.push_back(tau);
+  }
+  const double nu = arguments.number("--nu"), rate = arguments.number("--rate");
+  Model unit;
+  unit.parameters = effect_rows(*find_effect("elastic"), 1, {1, nu});
+  const PreparedBody body(load_body(arguments), unit, options);
+  UnitResponse response(body, times);
+  OperatorOptions operator_options;
+  operator_options.rate = rate;
+  operator_options.samples = arguments.integer("--samples") > 0 ? arguments.integer("--samples")
+                                                                : std::numeric_limits<long>::max();
+  std::vector<MotionLine> lines;  // read beforehand: a file must not hold up the clock
+  for (MotionLine line; motion.next(line);) lines.push_back(line);
+  Operator near(response, draw_sender(), operator_options, lines.size());
+  const UdpAddress peer = parse_address(arguments.text("--peer"));
+  UdpSocket socket({peer.host == 0x7F000001 ? peer.host : 0, 0});
+  ImpairedChannel channel(impairment(arguments),
+                          static_cast<std::uint64_t>(arguments.integer("--seed")));
+  Metadata metadata = motion.metadata();
+  metadata.set("felt", "forces over a network");
+  Output output(arguments.output());
+  std::vector<std::string> header = kForceColumns;
+  header.insert(header.end(), {"mx", "my", "mz", "predicted"});
+  CsvWriter(output.stream(), metadata, header);
+  say(arguments, "hs-link", enter_real_time());
+
+  std::array<unsigned char, 2048> buffer{};
+  PacketBytes bytes;
+  UdpAddress from;
+  long strangers = 0;
+  const auto exchange = [&](std::int64_t now) {
+    while (channel.pop(now, bytes)) socket.send(peer, bytes);
+    while (const std::size_t size = socket.receive(buffer, from)) {
+      if (from == peer)
+        near.receive({buffer.data(), size});
+      else
+        ++strangers;
+    }
+  };
+  Pacer pacer(rate);
+  LatencyHistogram latency;
+  long misses = 0;
+  std::string text;
+  for (const MotionLine& line : lines) {
+    const std::int64_t due = pacer.wait();
+    exchange(monotonic_ns());
+    channel.push(monotonic_ns(), write_packet(near.move(line)));
+    write_force_line(text, line, near.felt());
+    text.pop_back();
+    for (int k = 0; k < 3; ++k) append(text, near.measured()[k]);
+    text += near.predicts() ? ",1\n" : ",0\n";
+    output.stream() << text;
+    output.stream().flush();
+    exchange(monotonic_ns());
+    const std::int64_t took = monotonic_ns() - due;
+    latency.add(took);
+    if (took > pacer.period()) ++misses;
+  }
+  // What is still on its way.
+  const std::int64_t end =
+      monotonic_ns() + std::llround(1e9 * (2 * arguments.number("--delay") + 0.5));
+  while (monotonic_ns() < end) {
+    socket.wait(std::min(channel.next_due(), monotonic_ns() + 10'000'000));
+    exchange(monotonic_ns());
+  }
+  leave_real_time();
+  output.commit();
+
+  const auto line = [&](const std::string& said) { say(arguments, "hs-link", said); };
+  line("operator: " + near.counts().summary() +
+       (strangers > 0 ? fmt::format(", {} from elsewhere", strangers) : ""));
+  line(latency.summary() + fmt::format("; {} later than a period", misses));
+  const auto quality = [&](const char* when, std::size_t first, std::size_t last) {
+    const FeltQuality q = felt_quality(near.record(), first, last, rate);
+    line(fmt::format(
+        "{}: felt {:.1f} ms behind the displacement, {:.1f} ms behind the body's "
+        "force; error {:.3g} N rms = {:.2f} % of the peak {:.3g} N ({} answers)",
+        when, 1e3 * q.lag, 1e3 * q.force_lag, q.rms, 100 * q.rms / q.peak, q.peak, q.samples));
+  };
+  const std::size_t all = near.record().size();
+  if (!near.predicts()) {
+    quality("never identified", 0, all);
+    return 0;
+  }
+  const auto at = static_cast<std::size_t>(near.identified_at());
+  const auto settled = at + static_cast<std::size_t>(5 * operator_options.blend * rate);
+  quality("before identification", 0, at);
+  if (settled < all) quality("after it", settled, all);
+  const OnlineEstimate& found = near.estimate();
+  std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", found.moduli[0], found.error[0]);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    words += fmt::format(", {:.3g} Pa at {:g} s", found.moduli[static_cast<Eigen::Index>(i + 1)],
+                         times[i]);
+  line(fmt::format("identified after {:.2f} s in at most {:.3g} ms: {}",
+                   static_cast<double>(at) / rate, 1e3 * near.longest_identification(), words));
+  if (arguments.given("--identified"))
+    write_identified(arguments.text("--identified"), found, nu, times);
+  return 0;
+}
+
+int run(const Arguments& arguments) {
+  if (arguments.given("--listen") == arguments.given("--peer"))
+    fail_usage("it is either a teleoperator or an operator", "give --listen or --peer");
+  return arguments.given("--listen") ? run_teleoperator(arguments) : run_operator(arguments);
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
