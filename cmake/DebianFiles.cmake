@@ -23,10 +23,18 @@ License: AGPL-3.0-or-later
  warranty of MERCHANTABILITY or FITNESS FOR A PARTICULAR PURPOSE. See the GNU Affero General Public License
  for more details: <https://www.gnu.org/licenses/agpl-3.0>.
 ")
+  execute_process(COMMAND date -R -u -d ${CPACK_HAPSIM_DATE} OUTPUT_VARIABLE date
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  file(WRITE ${doc}/changelog.Debian "hapsim (${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}) unstable; urgency=medium
+
+  * The release of hapsim; changelog.gz says what is in it.
+
+ -- ${CPACK_PACKAGE_CONTACT}  ${date}
+")
   file(READ ${CPACK_HAPSIM_SOURCE}/CHANGELOG.md changes)
   file(WRITE ${doc}/changelog ${changes})
   file(GLOB pages ${root}/usr/share/man/man*/*.[1-9])
-  execute_process(COMMAND gzip -9nf ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND gzip -9nf ${doc}/changelog ${doc}/changelog.Debian ${pages} COMMAND_ERROR_IS_FATAL ANY)
   file(GLOB archives ${root}/usr/lib/*.a ${root}/usr/lib/*/*.a)
   if(archives)
     execute_process(COMMAND strip --strip-debug --remove-section=.comment --remove-section=.note ${archives}

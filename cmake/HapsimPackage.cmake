@@ -19,7 +19,14 @@ get_property(layers GLOBAL PROPERTY hapsim_layers)
 list(REVERSE layers)
 list(TRANSFORM layers PREPEND -lhapsim_)
 list(JOIN layers " " HAPSIM_PC_LAYERS)
-list(JOIN GDCM_LIBRARIES " " HAPSIM_PC_GDCM)
+# Foreign libraries without a description of their own for pkg-config, by name.
+set(HAPSIM_PC_FOREIGN "")
+foreach(path ${TET_LIBRARY} ${CHOLMOD_LIBRARY} ${LAPACK_LIBRARY} ${BLAS_LIBRARY} ${TEEM_LIBRARY}
+    ${NIFTI_LIBRARY} ${GDCM_LIBRARIES})
+  get_filename_component(library ${path} NAME_WE)
+  string(REGEX REPLACE "^lib" " -l" library ${library})
+  string(APPEND HAPSIM_PC_FOREIGN ${library})
+endforeach()
 file(RELATIVE_PATH HAPSIM_PC_UP /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/hapsim.pc.in ${PROJECT_BINARY_DIR}/hapsim.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/hapsim.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
@@ -33,6 +40,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DATADI
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME hapsim)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "models of soft objects from scans and presses")
 set(CPACK_PACKAGE_CONTACT "hapsim maintainers <maintainers@hapsim.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_COMPONENTS_ALL tools dev)
@@ -42,6 +50,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS OFF)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/DebianFiles.cmake)
 set(CPACK_HAPSIM_SOURCE ${PROJECT_SOURCE_DIR})
+set(CPACK_HAPSIM_DATE ${HAPSIM_RELEASE_DATE})
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME hapsim)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
@@ -49,14 +59,12 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 # The reference BLAS makes factorisation 2 to 6 times slower.
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS libopenblas0-pthread)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS make)
-set(CPACK_DEBIAN_TOOLS_DESCRIPTION "models of soft objects from scans and presses
- From a scan of a soft object and recordings of presses to a model that gives
+set(CPACK_DEBIAN_TOOLS_DESCRIPTION "From a scan of a soft object and recordings of presses to a model that gives
  contact forces in real time, and that says which physical effect it lacks.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhapsim-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What HapsimDependencies.cmake looks for.
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libcgal-dev, libtet1.5-dev, libsuitesparse-dev, libopenblas0-pthread, libblas-dev, liblapack-dev, coinor-libipopt-dev, libcli11-dev, nlohmann-json3-dev, liborocos-kdl-dev, liburdfdom-dev, libconsole-bridge-dev, libgdcm-dev, libnifti2-dev, libteem-dev, zlib1g-dev, pkg-config")
-set(CPACK_DEBIAN_DEV_DESCRIPTION "models of soft objects from scans and presses (library)
- Headers and static libraries of hapsim, for C++ programs that read its bodies
+set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers and static libraries of hapsim, for C++ programs that read its bodies
  and models, identify, simulate and diagnose. For CMake and pkg-config.")
 include(CPack)

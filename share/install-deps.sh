@@ -16,8 +16,8 @@ packages=(
   libsqlite3-dev
   libgtest-dev libbenchmark-dev mandoc
 )
-dev_packages=(clang-format clang-tidy ccache chromium debootstrap calculix-ccx gmsh tetgen
-  python3-scipy)
+dev_packages=(clang-format clang-tidy clang libclang-rt-14-dev ccache chromium debootstrap
+  calculix-ccx gmsh tetgen python3-scipy lintian zsh fish)
 
 say() { printf 'install-deps: %s\n' "$*"; }
 fail() { printf 'install-deps: %s\n' "$*" >&2; exit 1; }

@@ -2,19 +2,32 @@
 # Tries the commands of README.md as a newcomer would: on a fresh, minimal Debian 12 made by
 # debootstrap, from a clone of this repository's last commit. Needs root. Prints how long each took.
 #
-#   tests/fresh-debian.sh [--keep] [FOLDER] [COMMAND...]
+#   tests/fresh-debian.sh [--keep] [--package FILE.deb] [FOLDER] [COMMAND...]
 #
+# With --package the Debian package is installed and tried instead: nothing is cloned, and the COMMANDs,
+# by default tests/package-check.sh, run in an empty folder.
 # FOLDER (default: a new one under /tmp) receives the system and is removed unless --keep is given; an
 # existing system in it is used again. COMMANDs default to ./run-example.sh and ./run-tests.sh.
 # The mirror, proxies and certificates are taken from this machine's apt configuration.
 set -euo pipefail
 
-keep=no
-[[ ${1:-} == --keep ]] && { keep=yes; shift; }
+keep=no package=
+while [[ ${1:-} == --* ]]; do
+  case $1 in
+    --keep) keep=yes ;;
+    --package) package=$(realpath "$2"); shift ;;
+    *) echo "fresh-debian: unknown flag $1" >&2; exit 2 ;;
+  esac
+  shift
+done
 root=${1:-$(mktemp -d /tmp/fresh-debian.XXXXXX)}
 (($#)) && shift
 commands=("$@")
-((${#commands[@]})) || commands=(./run-example.sh ./run-tests.sh)
+if [[ -z $package ]]; then
+  ((${#commands[@]})) || commands=(./run-example.sh ./run-tests.sh)
+else
+  ((${#commands[@]})) || commands=("bash /root/package-check.sh")
+fi
 repository=$(git -C "$(dirname "${BASH_SOURCE[0]}")" rev-parse --show-toplevel)
 
 fail() { echo "fresh-debian: $*" >&2; exit 1; }
@@ -72,10 +85,17 @@ for at in proc sys dev; do
     mounted=("$root/$at" "${mounted[@]}") || echo "fresh-debian: cannot mount /$at; going on without"
 done
 rm -rf "$root/root/hapsim"
-git clone -q --no-hardlinks "$repository" "$root/root/hapsim"
+if [[ -z $package ]]; then
+  git clone -q --no-hardlinks "$repository" "$root/root/hapsim"
+else
+  mkdir "$root/root/hapsim"
+  cp "$package" "$root/root/hapsim.deb"
+  cp "$repository/tests/package-check.sh" "$root/root/"
+  commands=("apt-get -qq update && apt-get -qq -y install --no-install-recommends make man-db /root/hapsim.deb >/root/apt.log 2>&1 || { tail /root/apt.log; exit 1; }" "${commands[@]}")
+fi
 
 # Only what a login sets, and this machine's proxies.
-environment=(HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8)
+environment=(HOME=/root DEBIAN_FRONTEND=noninteractive PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8)
 for name in http_proxy https_proxy no_proxy; do
   [[ -n ${!name:-} ]] && environment+=("$name=${!name}")
 done

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# package.sh BUILD: cpack makes both Debian packages, their dependencies are declared, and lintian finds
+# no error in them. tests/fresh-debian.sh --package installs one on a fresh system.
+set -euo pipefail
+build=$1
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+fail() { echo "package: $*"; exit 1; }
+for needed in dpkg-shlibdeps lintian; do
+  command -v $needed >/dev/null || { echo "SKIPPED: $needed is not installed (share/install-deps.sh --dev)"; exit 77; }
+done
+cpack --config "$build/CPackConfig.cmake" -B "$out" >"$out/log" 2>&1 || { cat "$out/log"; fail "cpack"; }
+packages=("$out"/*.deb)
+((${#packages[@]} == 2)) || fail "there are not two packages"
+for package in "${packages[@]}"; do
+  lintian --tag-display-limit 0 "$package" >"$out/tags" 2>"$out/log" || true
+  ! grep '^E:' "$out/tags" || fail "lintian finds errors"
+done
+for library in coinor-libipopt1v5 libcholmod3 libtet1.5 libopenblas0-pthread; do
+  dpkg-deb -f "$out"/hapsim_*.deb Depends | grep -q "$library" ||
+    fail "the package does not depend on $library"
+done
+echo "$(basename -a "${packages[@]}" | tr '\n' ' ')without errors"

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# package-check.sh: on a system with the package hapsim installed: every tool's help, man page and
+# completion are there, and the main job of the README runs from the installed tools.
+set -euo pipefail
+fail() { echo "package-check: $*" >&2; exit 1; }
+version=$(dpkg-query -W -f '${Version}' hapsim)
+count=0
+for tool in /usr/bin/hs-*; do
+  name=$(basename "$tool")
+  count=$((count + 1))
+  "$name" --help | grep -q "^ *$name" || "$name" --help | grep -q Usage || fail "$name --help"
+  [[ $("$name" --version) == "$name (hapsim) ${version%-*}" ]] || fail "$name --version"
+  # A minimal system excludes man pages when it unpacks; the package has them all the same.
+  dpkg -L hapsim | grep -q "/man1/$name.1.gz$" || fail "$name has no man page"
+  for file in bash-completion/completions/$name zsh/vendor-completions/_$name fish/vendor_completions.d/$name.fish; do
+    [[ -s /usr/share/$file ]] || fail "/usr/share/$file is missing"
+  done
+done
+[[ ! -e /usr/share/man/man1/hs-identify.1.gz ]] || man hs-identify >/dev/null || fail "man hs-identify"
+out=$(mktemp -d)
+make --no-print-directory -s -f /usr/share/hapsim/Makefile.pipeline OUT="$out" report 2>"$out/log" ||
+  { tail "$out/log"; fail "the pipeline"; }
+grep -q '</html>' "$out/report.html" || fail "there is no report"
+grep -q '^1,viscoelastic,missing' "$out/effects0.csv" || fail "the hidden effect is not named"
+printf 'name,scan,scan_unit,data\nphantom,%s/scan.csv,mm,%s/plain.csv\n' \
+  /usr/share/hapsim/examples/phantom /usr/share/hapsim/examples/phantom >"$out/all.csv"
+make --no-print-directory -s -f /usr/share/hapsim/Makefile.pipeline batch MANIFEST="$out/all.csv" OUT="$out/batch" ||
+  fail "the batch"
+rm -rf "$out"
+echo "package-check: $count tools of hapsim $version, the pipeline and a batch: passed"
