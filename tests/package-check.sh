@@ -8,10 +8,10 @@ count=0
 for tool in /usr/bin/hs-*; do
   name=$(basename "$tool")
   count=$((count + 1))
-  "$name" --help | grep -q "^ *$name" || "$name" --help | grep -q Usage || fail "$name --help"
+  [[ $("$name" --help) == *"$name"* ]] || fail "$name --help"
   [[ $("$name" --version) == "$name (hapsim) ${version%-*}" ]] || fail "$name --version"
   # A minimal system excludes man pages when it unpacks; the package has them all the same.
-  dpkg -L hapsim | grep -q "/man1/$name.1.gz$" || fail "$name has no man page"
+  dpkg -L hapsim | grep "/man1/$name.1.gz$" >/dev/null || fail "$name has no man page"
   for file in bash-completion/completions/$name zsh/vendor-completions/_$name fish/vendor_completions.d/$name.fish; do
     [[ -s /usr/share/$file ]] || fail "/usr/share/$file is missing"
   done
