@@ -16,7 +16,8 @@ inline std::vector<Option> workspace_flags() {
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Body from hs-tetmesh (PLY with tetrahedra and fixed nodes).",
+       .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: VTU, "
+               "Gmsh.",
        .required = true},
       {.flag = "--tool-radius",
        .kind = OptionKind::kNumber,

@@ -25,9 +25,10 @@ constexpr int kSide[4] = {3, 4, 2, 1};
 
 void write_mesh_abaqus(std::ostream& out, const TetMesh& mesh) {
   out << "** hapsim mesh, metres\n*NODE, NSET=NALL\n";
+  // A field has 20 characters at most; what stands behind them is lost, the exponent too.
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    out << fmt::format("{}, {}, {}, {}\n", n + 1, mesh.nodes[n].x(), mesh.nodes[n].y(),
-                       mesh.nodes[n].z());
+    out << fmt::format("{}, {:.12e}, {:.12e}, {:.12e}\n", n + 1, mesh.nodes[n].x(),
+                       mesh.nodes[n].y(), mesh.nodes[n].z());
   std::map<int, std::vector<std::size_t>> regions;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) regions[mesh.region[t]].push_back(t);
   const int width = mesh.order == 1 ? 4 : 10;

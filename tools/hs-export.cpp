@@ -1,0 +1,138 @@
+// hs-export: a model, its body and a press as the input of other solvers.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "geometry/field_vtu.h"
+#include "geometry/mesh_file.h"
+#include "model/scene.h"
+
+namespace hapsim {
+namespace {
+
+ToolSpec specification() {
+  ToolSpec spec;
+  spec.name = "hs-export";
+  spec.summary = "a model, its body and a press as input of CalculiX, FEBio or SOFA";
+  spec.input = "model CSV from hs-identify";
+  spec.description = {
+      "Writes the body with the model's materials, its support, and a flat bonded tool that makes "
+      "one "
+      "press of the recording, so that another program solves what hapsim solves: elastic bodies, "
+      "regions, neo-Hookean finite strain (hyperelastic with s = 0), and for FEBio relaxation. The "
+      "forces are those of the body's own mesh, hs-simulate --own-mesh; the finer contact meshes, "
+      "from "
+      "which hs-identify works, are not part of the body. An effect that the other program cannot "
+      "have "
+      "is refused by its name.",
+      "vtu and gmsh hold the mesh alone, its regions by the model's, and for vtu the moduli; "
+      "hs-tetmesh reads both back, and so does every tool that takes --body."};
+  spec.options = {
+      {.flag = "--format",
+       .kind = OptionKind::kChoice,
+       .value = "PROGRAM",
+       .help =
+           "calculix (.inp, also Abaqus), febio (.feb, febio_spec 4.0), sofa (.scn, from 23.12), "
+           "vtu (ParaView), gmsh (2.2).",
+       .choices = {"calculix", "febio", "sofa", "vtu", "gmsh"},
+       .required = true},
+      {.flag = "--body",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (VTU, Gmsh).",
+       .required = true},
+      {.flag = "--data",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help =
+           "Recording or motion whose press is exported; without it, body and materials alone."},
+      {.flag = "--press",
+       .kind = OptionKind::kInteger,
+       .value = "ID",
+       .help = "Which press of it; otherwise the first."},
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
+       .minimum = 1e-6,
+       .maximum = 1},
+      {.flag = "--steps",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Rows of the press that are kept, evenly, the deepest among them.",
+       .default_text = "20",
+       .minimum = 1,
+       .maximum = 100000},
+      {.flag = "--bare",
+       .kind = OptionKind::kSwitch,
+       .help = "Leaves out effects on the motion and of the sensor instead of refusing them."}};
+  spec.examples = {
+      {"hs-export model.csv --body body.ply --data data.csv --format calculix -o press.inp && ccx "
+       "press",
+       "The force of each step stands in press.dat, as that of the tool on the body."},
+      {"hs-export model.csv --body body.ply --data data.csv --press 3 --format febio -o press.feb",
+       "Press 3, with its relaxation."},
+      {"hs-export model.csv --body body.ply --format vtu -o body.vtu",
+       "Regions and moduli for ParaView."}};
+  spec.see_also = {"hs-simulate(1)", "hs-tetmesh(1)", "hs-effects(7)"};
+  return spec;
+}
+
+std::vector<int> asked_press(const Arguments& arguments, const Recording& recording) {
+  const std::vector<Press> presses = recording.presses();
+  if (!arguments.given("--press")) return presses.front().rows;
+  for (const Press& press : presses)
+    if (press.id == arguments.integer("--press")) return press.rows;
+  fail_usage("--press: the recording has no press " + arguments.text("--press"),
+             fmt::format("its presses are {} to {}", presses.front().id, presses.back().id));
+}
+
+void write_vtu(std::ostream& out, const Scene& scene) {
+  VtuArray modulus{"E", 1, {}}, nu{"nu", 1, {}};
+  for (const int region : scene.mesh.region) {
+    modulus.values.push_back(scene.modulus[static_cast<std::size_t>(region)]);
+    nu.values.push_back(scene.nu);
+  }
+  write_field_vtu(out, scene.mesh, {}, {modulus, nu});
+}
+
+int run(const Arguments& arguments) {
+  const std::string format = arguments.text("--format");
+  for (const char* flag : {"--press", "--tool-radius"})
+    if (arguments.given(flag) && !arguments.given("--data"))
+      fail_usage(std::string(flag) + " is of a press, and there is none", "add --data FILE");
+  Input model_input(arguments.input());
+  const Model model = read_model(model_input);
+  const TetMesh body = load_body(arguments);
+  Recording recording;
+  std::vector<int> press;
+  if (arguments.given("--data")) {
+    recording = load_recording(arguments, arguments.text("--data"), false);
+    press = asked_press(arguments, recording);
+  }
+  const Scene scene = make_scene(body, model, recording, press,
+                                 {.steps = static_cast<std::size_t>(arguments.integer("--steps")),
+                                  .bare = arguments.given("--bare")});
+  Output output(arguments.output());
+  if (format == "calculix") write_calculix(output.stream(), scene);
+  if (format == "febio") write_febio(output.stream(), scene);
+  if (format == "sofa") write_sofa(output.stream(), scene);
+  if (format == "vtu") write_vtu(output.stream(), scene);
+  if (format == "gmsh") write_mesh_gmsh(output.stream(), scene.mesh);
+  output.commit();
+  say(arguments, "hs-export",
+      fmt::format("{} tetrahedra of order {}{}", scene.mesh.tets.size(), scene.mesh.order,
+                  scene.tool.empty() ? ""
+                                     : fmt::format(", {} nodes under the tool, {} steps",
+                                                   scene.tool.size(), scene.t.size())));
+  return 0;
+}
+
+}  // namespace
+}  // namespace hapsim
+
+int main(int argc, char** argv) {
+  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+}
