@@ -1,0 +1,155 @@
+#include "fuzz/readers.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "base/error.h"
+#include "batch/manifest.h"
+#include "geometry/body_input.h"
+#include "geometry/mesh_file.h"
+#include "geometry/surface.h"
+#include "io/csv.h"
+#include "io/ply.h"
+#include "io/recording.h"
+#include "io/stl.h"
+#include "io/vtu.h"
+#include "model/model.h"
+#include "realtime/motion_lines.h"
+#include "realtime/motion_records.h"
+#include "scan/pcd.h"
+#include "scan/robot.h"
+#include "scan/scan_file.h"
+#include "scan/volume.h"
+
+namespace hapsim::fuzz {
+namespace {
+
+constexpr const char* kName = "input";
+
+Input input_of(const std::string& bytes) {
+  return Input::from_bytes(bytes, kName);
+}
+
+void csv(const std::string& bytes) {
+  Input input = input_of(bytes);
+  const CsvTable table = read_csv(input);
+  if (!table.header.empty()) table.numbers(table.header[0]);
+}
+
+// What was read is written, and that must be read again.
+void recording(const std::string& bytes) {
+  Input input = input_of(bytes);
+  std::ostringstream out;
+  write_recording(out, read_recording(input, false));
+  Input again = input_of(out.str());
+  read_recording(again, false);
+}
+
+void model(const std::string& bytes) {
+  Input input = input_of(bytes);
+  std::ostringstream out;
+  write_model(out, read_model(input));
+  Input again = input_of(out.str());
+  read_model(again);
+}
+
+void manifest(const std::string& bytes) {
+  Input input = input_of(bytes);
+  read_manifest(input);
+}
+
+void ply(const std::string& bytes) {
+  std::ostringstream out;
+  write_ply(out, parse_ply(bytes, kName));
+}
+
+void stl(const std::string& bytes) {
+  parse_stl(bytes, kName);
+}
+
+void off(const std::string& bytes) {
+  parse_off(bytes, kName);
+}
+
+// PLY, VTU, Gmsh and TetGen by content; mended where that is possible.
+void mesh(const std::string& bytes) {
+  std::ostringstream out;
+  write_mesh_gmsh(out, parse_mesh(bytes, kName, true).mesh);
+}
+
+void vtu(const std::string& bytes) {
+  parse_vtu(bytes, kName);
+}
+
+void pcd(const std::string& bytes) {
+  std::size_t lost = 0;
+  read_pcd(bytes, kName, lost);
+}
+
+void urdf(const std::string& bytes) {
+  const Robot robot(bytes, kName, "", "");
+  robot.forward(robot.middle());
+}
+
+void scan(const std::string& bytes) {
+  Input input = input_of(bytes);
+  read_scan(input, {});
+}
+
+void volume(const std::string& bytes) {
+  if (looks_like_volume(bytes)) read_volume(bytes, kName);
+}
+
+void follow(MotionSource& source) {
+  MotionLine line;
+  while (source.next(line)) {
+  }
+}
+
+void motion(const std::string& bytes) {
+  Input input = input_of(bytes);
+  MotionLines lines(input);
+  follow(lines);
+}
+
+void records(const std::string& bytes) {
+  for (const auto kind : {MotionRecords::Kind::kTip, MotionRecords::Kind::kPress}) {
+    Input input = input_of(bytes);
+    MotionRecords source(input, kind);
+    follow(source);
+  }
+}
+
+}  // namespace
+
+const std::vector<Reader>& readers() {
+  static const std::vector<Reader> all{{"csv", csv},        {"recording", recording},
+                                       {"model", model},    {"manifest", manifest},
+                                       {"ply", ply},        {"stl", stl},
+                                       {"off", off},        {"mesh", mesh},
+                                       {"vtu", vtu},        {"pcd", pcd},
+                                       {"urdf", urdf},      {"scan", scan},
+                                       {"volume", volume},  {"motion", motion},
+                                       {"records", records}};
+  return all;
+}
+
+const Reader* find_reader(const std::string& name) {
+  for (const Reader& reader : readers())
+    if (name == reader.name) return &reader;
+  return nullptr;
+}
+
+bool read_or_refuse(const Reader& reader, const std::string& bytes) {
+  try {
+    reader.read(bytes);
+    return true;
+  } catch (const Error& error) {
+    if (std::string(error.what()).find('\n') == std::string::npos) return false;
+    std::fprintf(stderr, "%s: more than one line: %s\n", reader.name, error.what());
+    std::abort();
+  }
+}
+
+}  // namespace hapsim::fuzz
