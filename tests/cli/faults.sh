@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# faults.sh BIN: what each tool does when the machine fails: a full disk, a reader that goes away, an
+# unreadable input, two writers of one file, a kill at any moment. Prints a table of fault, tool, outcome.
+# After any of it an output is whole or as it was before, and nothing temporary is left.
+. "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
+PATH=$bin:$PATH
+
+# What every tool reads and makes.
+hs-tetmesh -q box.off --max-volume 1e-8 -o body.ply || exit 1
+awk 'BEGIN { print "# tool_radius: 0.004\n# force_noise: 0.002\npress,t,x,y,z,ux,uy,uz"
+  for (p = 0; p < 3; ++p) for (i = 0; i <= 40; ++i)
+    printf "%d,%.2f,%.3f,0.025,0.04,0,0,%.6f\n", p, 0.05 * i, 0.02 + 0.01 * p, -i * 4e-5 }' >motion.csv
+printf 'effect,region,parameter,value\nelastic,0,E,8000\nelastic,0,nu,0.4\n' >model.csv
+hs-simulate -q motion.csv --body body.ply --model model.csv --rim-edge 0.3 --add-noise 0.002 -o data.csv || exit 1
+cp data.csv forces.csv
+awk 'BEGIN { OFS = ","; print "x,y,z"; for (i = 0; i < 4000; ++i) print 0.06 * rand(), 0.05 * rand(), 0.04 }' >scan.csv
+awk 'BEGIN { print "time [s],force [N],displacement [mm]"; for (i = 0; i < 400; ++i) print i * 0.01 "," (i > 100 ? (i - 100) * 0.01 : 0) "," i * 0.02 }' >machine.csv
+printf 'name,body,data,options,common_options\na,body.ply,data.csv,--folds 0,--rim-edge 0.3\n' >manifest.csv
+declare -A command=(
+  [hs-tetmesh]='hs-tetmesh box.off --max-volume 1e-8'
+  [hs-scan2ply]='hs-scan2ply scan.csv'
+  [hs-import]='hs-import machine.csv --block 60x50x40mm --tool-radius 4mm'
+  [hs-simulate]='hs-simulate data.csv --body body.ply --model model.csv --rim-edge 0.3 --threads 1'
+  [hs-identify]='hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1'
+  [hs-diagnose]='hs-diagnose data.csv --body body.ply --model model.csv --rim-edge 0.3 --flips 99'
+  [hs-compare]='hs-compare data.csv --simulated forces.csv'
+  [hs-check]='hs-check model.csv --golden model.csv'
+  [hs-export]='hs-export model.csv --body body.ply --data data.csv --format calculix'
+  [hs-batch]='hs-batch manifest.csv --out batch'
+)
+tools=($(printf '%s\n' "${!command[@]}" | sort))
+declare -A input=([hs-tetmesh]=box.off [hs-scan2ply]=scan.csv [hs-import]=machine.csv [hs-simulate]=data.csv
+  [hs-identify]=data.csv [hs-diagnose]=data.csv [hs-compare]=data.csv [hs-check]=model.csv [hs-export]=model.csv
+  [hs-batch]=manifest.csv)
+
+row() { printf '%-28s %-12s %s\n' "$1" "$2" "$3"; }
+temporaries() { find . -name '.hapsim-*.tmp' | wc -l; }
+# told FAULT TOOL CODES: the exit code is one of CODES, and an error is one line
+told() {
+  [[ " $3 " == *" $code "* ]] || complain "$1: $2 ends with $code, not with $3"
+  [[ $code == [0134] || $(grep -c "^$2: " err) == 1 ]] || complain "$1: $2 says it in one line"
+  [[ $(temporaries) == 0 ]] || complain "$1: $2 leaves a temporary file"
+}
+fault=disk-full
+for tool in "${tools[@]}"; do
+  ${command[$tool]} -q -o /dev/full >/dev/null 2>err; code=$?
+  told '/dev/full' $tool 5
+  row 'output to a full device' $tool "exit $code, $(cut -c1-60 err | head -n 1)"
+done
+# A small file system of its own, full but for 4 kB; an old output there must survive.
+mkdir full
+if mount -t tmpfs -o size=64k tmpfs full 2>/dev/null; then
+  trap 'umount "$work/full"; rm -rf "$work"' EXIT
+  for tool in hs-tetmesh hs-simulate hs-compare hs-export; do
+    echo old >full/out; head -c 200000 /dev/zero >full/filler 2>/dev/null
+    ${command[$tool]} -q -o full/out >/dev/null 2>err; code=$?
+    told 'full disk' $tool 5
+    [[ $(cat full/out) == old && $(ls -A full | tr '\n' ' ') == 'filler out ' ]] || complain "full disk: $tool touches the old file"
+    rm -f full/filler full/out
+    row 'disk full on the way' $tool "exit $code, the old file is whole"
+  done
+else
+  echo 'SKIPPED: no file system can be mounted here, so no disk is full'
+fi
+for tool in "${tools[@]}"; do
+  ${command[$tool]} -q 2>err | head -c 0; code=${PIPESTATUS[0]}
+  [[ ! -s err ]] || complain "closed pipe: $tool is not silent"
+  [[ $code == 0 || $code == 1 || $code == 141 ]] || complain "closed pipe: $tool ends with $code"
+  row 'reader of the pipe is gone' $tool "exit $code, silent"
+done
+# Inputs that cannot be read: a folder in their place (root reads everything else), and nothing at all.
+for tool in "${tools[@]}"; do
+  mkdir -p folder
+  echo old >out
+  ${command[$tool]/${input[$tool]}/folder} -q -o out >/dev/null 2>err; code=$?
+  [[ $tool == hs-scan2ply ]] || told 'folder as input' $tool 5  # a folder holds DICOM slices
+  [[ $(cat out) == old ]] || complain "unreadable: $tool touches the old file"
+  ${command[$tool]/${input[$tool]}/missing} -q -o out >/dev/null 2>err; code=$?
+  told 'missing input' $tool 5
+  row 'input missing or unreadable' $tool "exit $code, the old file is whole"
+done
+# Two that write one file: it is one of both, whole.
+for tool in hs-tetmesh hs-simulate hs-export; do
+  ${command[$tool]} -q -o alone 2>/dev/null
+  for try in 1 2 3; do
+    ${command[$tool]} -q -o both 2>err & ${command[$tool]} -q -o both 2>err2 & wait
+    cmp -s alone both || complain "two writers: $tool"
+  done
+  [[ $(temporaries) == 0 ]] || complain "two writers: $tool leaves a temporary file"
+  row 'two writers of one file' $tool 'one of both, whole'
+done
+# Killed at any moment: by SIGTERM nothing is left; by SIGKILL what was there is whole.
+for tool in hs-tetmesh hs-simulate hs-identify; do
+  XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o whole 2>/dev/null
+  cut=0
+  for delay in 0.005 0.02 0.05 0.1 0.2; do
+    for signal in TERM KILL; do
+      rm -rf fresh
+      echo old >out
+      XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o out 2>err &
+      sleep $delay; kill -$signal $! 2>/dev/null; wait $! 2>/dev/null; code=$?
+      ((code < 128)) || cut=$((cut + 1))
+      [[ $(head -c 4 out) == "old" ]] || cmp -s out whole || complain "SIG$signal: $tool leaves half a file"
+      [[ $signal == KILL || $(temporaries) == 0 ]] || complain "SIGTERM: $tool leaves a temporary file"
+      rm -f .hapsim-*.tmp
+    done
+  done
+  # The cache that a killed process was writing does no harm.
+  XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o after 2>/dev/null && cmp -s after whole || complain "$tool after kills"
+  row "killed ($cut of 10 in time)" $tool 'old or new, whole; the cache serves on'
+done
+((failures == 0)) && echo 'faults: passed'
+exit $((failures > 0))
