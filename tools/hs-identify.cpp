@@ -10,6 +10,7 @@
 #include "effects/catalogue.h"
 #include "estimate/identifiability.h"
 #include "identify_acfm.h"
+#include "identify_boundary.h"
 #include "identify_library.h"
 #include "identify_plan.h"
 #include "identify_search.h"
@@ -264,6 +265,8 @@ int run(const Arguments& arguments) {
     require_enough_data(starts.front(), w.dataset, all);
     if (plan.start.parameters.empty()) library.add_start(starts);
     result = fit_best(starts, w.dataset, all, *w.body, final_options);
+    if (arguments.given("--boundary") && result.converged)
+      result = with_refined_boundaries(arguments, result, w, body, fit_options);
   }
   if (result.stopped) return write_unfinished(arguments, plan, w, std::move(result), search);
   if (!result.converged)

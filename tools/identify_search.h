@@ -58,13 +58,14 @@ class SearchWatch {
   std::function<bool(const FitProgress&)> watch() {
     return [this](const FitProgress& p) {
       const std::string error = std::isnan(p.rmse) ? "" : fmt::format("error {:.4g} N", p.rmse);
-      progress_->show(p.starts > 1 ? fmt::format("start {} of {}, {}", p.start + 1, p.starts, error)
-                                   : error);
+      if (progress_)
+        progress_->show(
+            p.starts > 1 ? fmt::format("start {} of {}, {}", p.start + 1, p.starts, error) : error);
       return !interrupt_.asked();
     };
   }
   bool interrupted() const { return interrupt_.asked(); }
-  void clear() { progress_.reset(); }  // the line on the terminal; no watching after it
+  void clear() { progress_.reset(); }  // the line on the terminal
 
  private:
   Interrupt interrupt_;

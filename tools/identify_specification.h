@@ -3,6 +3,7 @@
 
 #include "common_options.h"
 #include "effects/catalogue.h"
+#include "identify_boundary.h"
 #include "identify_library.h"
 #include "identify_search.h"
 
@@ -76,6 +77,7 @@ inline ToolSpec identify_specification() {
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
                "moduli ask for) or sites (each position its own stiffness).",
        .default_text = "auto"},
+      boundary_flag(),
       {.flag = "--acfm",
        .kind = OptionKind::kInteger,
        .value = "N",

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cases.h"
+#include "model/boundary_fit.h"
 #include "model/extend.h"
 #include "model/location_fit.h"
 #include "model/region_map.h"
@@ -101,10 +102,18 @@ std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   if (count != wanted) return results;
   const PlaneClassifier classify = region_classifier(table, regions.label, count, RegionRule::kQda);
   const auto lines = region_boundaries(classify, table, s.object.meshed, 20000);
-  results.push_back({name, draw, "boundary mm", 0, 1e3 * boundary_error(lines, s.truth), none, 6});
+  results.push_back({name, draw, "QDA mm", 0, 1e3 * boundary_error(lines, s.truth), none, 6});
   Model refined = region_model(table, regions, classify, lines, 8);
   refined.find("elastic", 0, "nu")->state = ParameterState::kFixed;
-  const FitResult fitted = fit(refined, data, all, *s.w.body, options);
+  const FitResult first = fit(refined, data, all, *s.w.body, options);
+  results.push_back({name, draw, "QDA rmse N", 0, first.rmse, none, 0.1});
+  BoundaryOptions boundary;
+  boundary.threads = 1;
+  boundary.fit = options;
+  const BoundaryFit moved = refine_boundaries(first, data, *s.w.body, s.object.meshed, boundary);
+  results.push_back(
+      {name, draw, "refined mm", 0, 1e3 * boundary_error(moved.lines, s.truth), none, 6});
+  const FitResult& fitted = moved.fitted;
   results.push_back({name, draw, "rmse N", 0, fitted.rmse, none, 0.1});
   results.push_back({name, draw, "noise N", 0, s.noise, none, 0});
   for (int r = 0; r < count; ++r) {

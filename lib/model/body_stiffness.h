@@ -37,6 +37,7 @@ class BodyStiffness {
 
   int threads() const { return library_.threads(); }
   const std::vector<PreparedContact>& contacts() const { return contacts_; }
+  const std::vector<Vec3>& positions() const { return positions_; }
   std::vector<Vec3> normals() const;
   double mesh_uncertainty() const;  // median over the positions, relative
   // The move that the contact points' distances from the surface show.

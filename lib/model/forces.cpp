@@ -149,11 +149,12 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
 }
 
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const StiffnessAt& stiffness_at, bool derivatives, int threads) {
+                    const StiffnessAt& stiffness_at, bool derivatives, int threads,
+                    Eigen::Index more) {
   std::vector<EffectInstance> effects = effect_instances(model, derivatives);
   const MaterialSpec material = material_of(model);
   const Eigen::Index columns =
-      derivatives ? static_cast<Eigen::Index>(model.free_parameters().size()) : 0;
+      derivatives ? static_cast<Eigen::Index>(model.free_parameters().size()) + more : 0;
   Eigen::Index total = 0;
   std::vector<Eigen::Index> begin;  // of each episode in the stacked vectors
   std::vector<PositionStiffness> stiffness(dataset.positions.size());

@@ -36,10 +36,12 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
                     const BodyStiffness& body, bool derivatives);
 
 // The same with stiffnesses by position from elsewhere, on so many threads (0: as many as there
-// are); the threads change nothing in the result.
+// are); the threads change nothing in the result. Derivatives by `more` parameters of the
+// stiffness alone come after those of the model.
 using StiffnessAt = std::function<PositionStiffness(std::size_t position)>;
 Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const StiffnessAt& stiffness_at, bool derivatives, int threads = 1);
+                    const StiffnessAt& stiffness_at, bool derivatives, int threads = 1,
+                    Eigen::Index more = 0);
 
 // The measured forces in the same order.
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);

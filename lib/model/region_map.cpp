@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -68,7 +69,7 @@ class Shadow {
   std::vector<char> covered_;
 };
 
-void add_key_point(Model& model, const Plan& p, int region, std::vector<int>& number) {
+void add_key_point(Model& model, const Plan& p, int region, std::map<int, int>& number) {
   std::vector<Parameter> rows = effect_rows(require_effect("regions"), 1, {p.x(), p.y(), 0});
   rows.pop_back();  // `local` stands once for the model, and here not at all
   ++number[region];
@@ -133,24 +134,9 @@ void label_body(TetMesh& body, const PlaneClassifier& classify) {
   }
 }
 
-Model region_model(const LocationTable& table, const RegionEstimate& regions,
-                   const PlaneClassifier& classify, const std::vector<BoundaryLine>& lines,
-                   int keys) {
-  double nu = 0;
-  for (const double v : table.nu) nu += v / static_cast<double>(table.size());
-  Model model;
-  model.parameters = effect_rows(require_effect("elastic"), 1, {regions.value.front().E, nu});
-  model.find("elastic", 0, "E")->std_error = regions.value.front().E_std;
-  const Parameter modulus = *model.find("elastic", 0, "E");
-  const int count = static_cast<int>(regions.value.size());
-  for (int r = 1; r < count; ++r) {
-    Parameter row = modulus;
-    row.region = r;
-    row.value = regions.value[r].E;
-    row.std_error = regions.value[r].E_std;
-    model.parameters.insert(model.parameters.begin() + r, row);
-  }
-  std::vector<int> number(count, 0);
+void place_key_points(Model& model, const PlaneClassifier& classify,
+                      const std::vector<BoundaryLine>& lines, int keys) {
+  std::map<int, int> number;  // of key points by region
   for (const BoundaryLine& line : lines) {
     const std::vector<Plan> points = key_points(line, keys);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -169,6 +155,26 @@ Model region_model(const LocationTable& table, const RegionEstimate& regions,
       }
     }
   }
+}
+
+Model region_model(const LocationTable& table, const RegionEstimate& regions,
+                   const PlaneClassifier& classify, const std::vector<BoundaryLine>& lines,
+                   int keys) {
+  double nu = 0;
+  for (const double v : table.nu) nu += v / static_cast<double>(table.size());
+  Model model;
+  model.parameters = effect_rows(require_effect("elastic"), 1, {regions.value.front().E, nu});
+  model.find("elastic", 0, "E")->std_error = regions.value.front().E_std;
+  const Parameter modulus = *model.find("elastic", 0, "E");
+  const int count = static_cast<int>(regions.value.size());
+  for (int r = 1; r < count; ++r) {
+    Parameter row = modulus;
+    row.region = r;
+    row.value = regions.value[r].E;
+    row.std_error = regions.value[r].E_std;
+    model.parameters.insert(model.parameters.begin() + r, row);
+  }
+  place_key_points(model, classify, lines, keys);
   return model;
 }
 

@@ -30,8 +30,12 @@ std::vector<BoundaryLine> region_boundaries(const PlaneClassifier& classify,
 // Each tetrahedron's region from its centre's plan position.
 void label_body(TetMesh& body, const PlaneClassifier& classify);
 
-// A model with one E a region, one nu and, for each of `keys` points along a boundary, a key point
-// on either side, so that "nearest key point" (the effect `regions`) has that boundary. A start for
+// Key points of the effect `regions` (fixed rows) for each of `keys` points along every line: one
+// on either side, so that "nearest key point" has that boundary.
+void place_key_points(Model& model, const PlaneClassifier& classify,
+                      const std::vector<BoundaryLine>& lines, int keys);
+
+// A model with one E a region, one nu and the key points of the boundaries. A start for
 // hs-identify --model.
 Model region_model(const LocationTable& table, const RegionEstimate& regions,
                    const PlaneClassifier& classify, const std::vector<BoundaryLine>& lines,
