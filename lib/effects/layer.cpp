@@ -29,6 +29,12 @@ class Layer : public Effect {
   void describe(const Values& values, MaterialSpec& material) const override {
     add_feature(Feature::kLayer, values, card(), material);
   }
+  std::string implausible(const Values& values, const std::vector<Vec3>&) const override {
+    constexpr double kSoftest = 0.05;
+    if (find_value(values, "ratio").value < kSoftest)
+      return "a skin that soft carries nothing: something else makes the first depth easy";
+    return "";
+  }
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
     const double t = 0.6 * data.tool_radius;
     return {{t, 1.6}, {t, 0.6}};

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -181,40 +182,68 @@ TEST_F(CalculiX, OgdenReactionsAreTheSame) {
             "Ogden C3D" + std::to_string(order == 1 ? 4 : 10));
 }
 
-// The whole way of hs-simulate --full: a bonded flat tool on the body's own mesh, pressed and
-// sheared to finite strain.
-TEST_F(CalculiX, FullSimulationsForceIsTheSame) {
-  for (const int order : {1, 2}) {
-    const TetMesh mesh = block(order, 4);
+// The whole way of hs-simulate --full: bonded flat tools on the body's own mesh, pressed and
+// sheared to finite strain, one alone and two at once.
+class CalculiXFull : public CalculiX {
+ protected:
+  struct Tool {
+    Vec3 at, u;
+  };
+  static constexpr double kTool = 0.0085;
+  static bool under(const Vec3& p, const Tool& tool) {
+    return p.z() > kSize.z() - 1e-9 && (p - tool.at).norm() <= kTool * (1 + 1e-6);
+  }
+  // mu = 6000, K = 28000.
+  static void compare_tools(int order, const std::vector<Tool>& tools) {
+    const TetMesh mesh = block(order, 6);
     Model model;
     for (const auto& [effect, values] : std::vector<std::pair<std::string, std::vector<double>>>{
              {"elastic", {16800, 0.4}}, {"hyperelastic", {0, 1}}})
       for (const Parameter& p : effect_rows(*find_effect(effect), 1, values))
         model.parameters.push_back(p);
     Recording r;
-    r.metadata.set("tool_radius", "0.0125");
-    const Vec3 at(0.02, 0.025, 0.03), u(0.001, -0.0005, -0.004);
-    for (const double share : {0.5, 1.0}) {
-      r.line.push_back(1);
-      r.press.push_back(1);
-      r.position.push_back(at);
-      r.u.push_back(share * u);
-    }
+    r.metadata.set("tool_radius", std::to_string(kTool));
+    r.extra_header = {"tool_id"};
+    r.extra.resize(1);
+    for (const double share : {0.5, 1.0})
+      for (std::size_t k = 0; k < tools.size(); ++k) {
+        r.line.push_back(1);
+        r.press.push_back(1);
+        r.position.push_back(tools[k].at);
+        r.u.push_back(share * tools[k].u);
+        r.extra[0].push_back(std::to_string(k));
+      }
     const FullOptions options{.own_mesh = true, .averaged = false};
-    const Vec3 mine = simulate_full(mesh, model, r, options).force.back();
-    const auto under = [&](const Vec3& p) {
-      return p.z() > kSize.z() - 1e-9 && (p - at).norm() <= 0.0125 * (1 + 1e-6);
+    const std::vector<Vec3> mine = simulate_full(mesh, model, r, options).force;
+    const auto tool_of = [&](const Vec3& p) {
+      return std::find_if(tools.begin(), tools.end(), [&](const Tool& t) { return under(p, t); });
     };
-    // mu = 6000, K = 28000.
-    const VectorXd theirs = reactions(mesh, "*HYPERELASTIC, NEO HOOKE\n3000.,7.142857142857e-5",
-                                      true, "full", under, [&](const Vec3&) { return u; });
-    Vec3 force = Vec3::Zero();
-    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-      if (under(mesh.nodes[n])) force -= theirs.segment<3>(3 * static_cast<Eigen::Index>(n));
-    std::printf("full simulation C3D%d: force differs by %.1e\n", order == 1 ? 4 : 10,
-                (mine - force).norm() / force.norm());
-    EXPECT_LT((mine - force).norm(), kFinite * force.norm());
+    const VectorXd theirs = reactions(
+        mesh, "*HYPERELASTIC, NEO HOOKE\n3000.,7.142857142857e-5", true, "full",
+        [&](const Vec3& p) { return tool_of(p) != tools.end(); },
+        [&](const Vec3& p) { return tool_of(p)->u; });
+    for (std::size_t k = 0; k < tools.size(); ++k) {
+      Vec3 force = Vec3::Zero();
+      for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+        if (under(mesh.nodes[n], tools[k]))
+          force -= theirs.segment<3>(3 * static_cast<Eigen::Index>(n));
+      const double off = (mine[mine.size() - tools.size() + k] - force).norm() / force.norm();
+      std::printf("full simulation C3D%d, tool %zu of %zu: force differs by %.1e\n",
+                  order == 1 ? 4 : 10, k + 1, tools.size(), off);
+      EXPECT_LT(off, kFinite);
+    }
   }
+};
+
+TEST_F(CalculiXFull, OneToolsForceIsTheSame) {
+  for (const int order : {1, 2})
+    compare_tools(order, {{{0.02, 0.025, 0.03}, {0.001, -0.0005, -0.004}}});
+}
+
+TEST_F(CalculiXFull, TwoToolsForcesAreTheSame) {
+  for (const int order : {1, 2})
+    compare_tools(order, {{{0.01, 0.0125, 0.03}, {0.001, -0.0005, -0.003}},
+                          {{0.03, 0.0375, 0.03}, {-0.0005, 0.001, -0.002}}});
 }
 
 // Engineering constants E1, E2, E3, nu12, nu13, nu23, G12, G13, G23; axis z: nu13 = nua Ep/Ea.
