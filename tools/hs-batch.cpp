@@ -38,6 +38,11 @@ ToolSpec specification() {
       "disk, out of memory).",
       "Each step runs with one thread; -j of make says how many run side by side, and bounds the "
       "memory.",
+      "On a cluster: DIR/targets lists the recordings, and `sbatch --array=1-N DIR/array.sh` makes "
+      "them "
+      "as a job array of Slurm (Makefile.pipeline does so with CLUSTER=slurm); any other engine "
+      "that "
+      "runs `make -C DIR -f batch.mk TARGET` on a shared file system does as well.",
       "Exit code 1 when a recording failed or was not run. Each failed recording is told in a line "
       "of its own."};
   spec.options = {

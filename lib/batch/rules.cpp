@@ -78,6 +78,15 @@ esac
 mv -f "$log.$$" "$log"
 )";
 
+// One task of a job array of Slurm, which sets the two numbers; without them, all recordings.
+constexpr const char* kArrayScript = R"(#!/bin/sh
+# array.sh [TARGET]: makes every COUNT-th recording of the file targets, or TARGET.
+cd {} || exit 1
+if [ $# -gt 0 ]; then exec make --no-print-directory -k -f batch.mk "$1"; fi
+awk -v count="${{SLURM_ARRAY_TASK_COUNT:-1}}" -v id="${{SLURM_ARRAY_TASK_ID:-1}}" \
+  'NR % count == id % count' targets | xargs make --no-print-directory -k -f batch.mk
+)";
+
 // Whether the chain failed for a reason that stays, and after all that the failed step builds on.
 bool fails_again(const Batch& batch, const std::vector<int>& chain, const StepFailure& failure) {
   if (failure.code < 2 || failure.code > 4) return false;
@@ -110,14 +119,15 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
   const fs::path folder = batch.options.folder;
   make_folder(folder);
   const std::string here = fs::current_path().string();
+  const std::string absolute = shell_quoted(fs::absolute(folder).lexically_normal().string());
   write_if_changed(
       folder / "step.sh",
-      fmt::format(kStepScript, shell_quoted(fs::absolute(folder).lexically_normal().string()),
-                  shell_quoted(here),
+      fmt::format(kStepScript, absolute, shell_quoted(here),
                   bin.empty()
                       ? ""
                       : "PATH=" + shell_quoted(fs::absolute(bin).lexically_normal().string()) +
                             ":$PATH\n"));
+  write_if_changed(folder / "array.sh", fmt::format(kArrayScript, absolute));
   for (const BatchStep& step : batch.steps) {
     make_folder(folder / step.folder);
     write_if_changed(folder / step.folder / (step.name + ".sh"),
@@ -125,7 +135,7 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
   }
 
   PrepareReport report;
-  std::string all, rules;
+  std::string all, bodies, targets, rules;
   std::set<int> written;
   for (std::size_t r = 0; r < batch.chain.size(); ++r) {
     const ManifestRow& row = batch.manifest.rows[r];
@@ -141,10 +151,12 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
     ++report.ready;
     const std::string target = "recording-" + row.folder;
     all += " " + target;
+    targets += target + "\n";
     for (const int s : batch.chain[r]) {
       if (!written.insert(s).second) continue;
       const BatchStep& step = batch.steps[static_cast<std::size_t>(s)];
       std::string made, given;
+      if (step.name == "body") bodies += " " + step.output;
       for (const std::string& input : step.made) made += " " + input;
       for (const std::string& input : step.given) given += " " + prerequisite(folder, input);
       rules += fmt::format("{0}: {1}/{2}.sh{3}{4}\n\t@$(STEP) step.sh {1} {2} {0}{4}\n",
@@ -155,9 +167,12 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
                          row.folder);
   }
   Output output((folder / "batch.mk").string());
-  output.write("# Written by hs-batch.\nSTEP := sh\nall:" + all + "\n.PHONY: all" + all +
-               "\nMAKEFLAGS += -rR\n" + rules);
+  output.write("# Written by hs-batch.\nSTEP := sh\nall:" + all + "\nbodies:" + bodies +
+               "\n.PHONY: all bodies" + all + "\nMAKEFLAGS += -rR\n" + rules);
   output.commit();
+  Output list((folder / "targets").string());
+  list.write(targets);
+  list.commit();
   return report;
 }
 

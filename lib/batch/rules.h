@@ -16,6 +16,7 @@ struct PrepareReport {
 // Writes below the batch's folder
 //   batch.mk            rules for `make -C FOLDER -f batch.mk`; the command STEP runs a step, by
 //                       default in a shell of its own
+//   targets, array.sh   the recordings, and a task of a job array of Slurm that makes its share
 //   step.sh             runs one step: keeps what it says in STEP.log beside the output, and in
 //                       `failure` the step, exit code and line of a failure
 //   .../STEP.sh         the step's command; written only when it has changed, so that what is made
