@@ -88,6 +88,7 @@ class VtuReader {
       if (tag_ == "VTKFile") {
         read_head();
       } else if (tag_ == "Piece") {
+        section = nullptr;  // one that was left open is of another piece
         VtuPiece& piece = pieces_.emplace_back();
         piece.points = count("NumberOfPoints");
         piece.cells = count("NumberOfCells");
