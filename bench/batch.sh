@@ -63,7 +63,7 @@ batch() { # OUT JOBS
 seconds() { local from=$EPOCHREALTIME; "$@"; awk -v a="$from" -v b="$EPOCHREALTIME" 'BEGIN { print b - a }'; }
 one=$(seconds batch one 1)
 two=$(seconds batch two 2)
-tail -n 2 two.log | head -n 1
+grep "recordings done\|median" two.log
 awk -v a="$one" -v b="$two" 'BEGIN { printf "-j1 %.1f s, -j2 %.1f s: parallel efficiency %.0f %%\n", a, b, 50 * a / b }'
 for part in 1 2 3; do
   setsid env XDG_CACHE_HOME="$work/cache-killed" make -s -j2 -f "$root/Makefile.pipeline" batch BIN="$bin" \

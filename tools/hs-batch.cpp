@@ -156,7 +156,9 @@ Overview overview_of(const Arguments& arguments, const Batch& batch,
   page.verdict = verdict;
   page.provenance = {
       {"manifest", batch.manifest.name}, {"folder", batch.options.folder}, {"hapsim", version()}};
-  const fs::path beside = fs::absolute(arguments.text("--html")).parent_path();
+  const fs::path beside = arguments.given("--html")
+                              ? fs::absolute(arguments.text("--html")).parent_path()
+                              : fs::current_path();
   for (std::size_t r = 0; r < outcomes.size(); ++r) {
     const RecordingOutcome& o = outcomes[r];
     const std::string& name = batch.manifest.rows[r].name;
@@ -202,11 +204,12 @@ int summarise(const Arguments& arguments, const Batch& batch) {
   if (failed > 0) verdict += fmt::format(", {} failed", failed);
   if (open > 0) verdict += fmt::format(", {} not run", open);
 
+  const Overview overview = overview_of(arguments, batch, outcomes, verdict);
   Output summary(arguments.output());
   write_summary(summary.stream(), batch, outcomes);
   if (arguments.given("--html")) {
     Output html(arguments.text("--html"));
-    write_overview(html.stream(), overview_of(arguments, batch, outcomes, verdict));
+    write_overview(html.stream(), overview);
     html.commit();
   }
   if (arguments.given("--junit")) write_cases(arguments.text("--junit"), batch, outcomes);
@@ -216,6 +219,8 @@ int summarise(const Arguments& arguments, const Batch& batch) {
       say(arguments, "hs-batch",
           fmt::format("failed: {}: {}", batch.manifest.rows[r].name, outcomes[r].message));
   say(arguments, "hs-batch", verdict);
+  if (const std::string errors = overview_line(overview); !errors.empty())
+    say(arguments, "hs-batch", errors);
   return static_cast<int>(failed + open > 0 ? ExitCode::kCheckFailed : ExitCode::kDone);
 }
 

@@ -59,13 +59,17 @@ constexpr const char* kStepScript = R"(#!/bin/sh
 # FOLDER/failure then says; with another code when it was stopped from outside.
 batch={}
 cd {} || exit 1
-{}folder=$batch/$1 step=$2 output=$batch/$3
+{}folder=$batch/$1 step=$2 output=$batch/$3 stopped=
 shift 3
 for input; do [ -e "$batch/$input" ] || exit 0; done
 echo "step ${{folder##*/}}"
 log=$folder/$step.log
+trap stopped=yes HUP INT TERM
 sh "$folder/$step.sh" </dev/null >/dev/null 2>"$log.$$"
 code=$?
+# An identification that is interrupted ends with 4, and leaves the best model so far.
+[ $code != 4 ] || case $(tail -n 1 "$log.$$") in *": the fit was interrupted"* | *": interrupted while"*) stopped=yes ;; esac
+[ $code = 0 ] || [ -z "$stopped" ] || {{ rm -f "$log.$$" "$output"; exit 143; }}
 case $code in
   0) rm -f "$folder/failure" ;;
   129 | 130 | 131 | 143) rm -f "$log.$$"; exit $code ;;

@@ -25,12 +25,14 @@ std::string number(double value) {
   return std::isfinite(value) ? fmt::format("{:.3g}", value) : "";
 }
 
-Report header_of(const Overview& o) {
-  Report report;
-  report.title = o.title;
-  report.verdict = o.verdict;
-  report.good = o.failures.empty() && o.not_run.empty();
-  report.provenance = o.provenance;
+// What the recordings have in common.
+struct Common {
+  double rmse, ratio, held_out;  // medians
+  std::string verdicts;          // "20 complete, 3 incomplete"
+  int complete = 0;
+};
+
+Common common_of(const Overview& o) {
   std::vector<double> rmse, ratio, held_out;
   std::map<std::string, int> verdicts;
   for (const OverviewRow& row : o.rows) {
@@ -39,23 +41,30 @@ Report header_of(const Overview& o) {
     held_out.push_back(row.held_out);
     if (!row.verdict.empty()) ++verdicts[row.verdict];
   }
+  Common c{median(rmse), median(ratio), median(held_out), "", 0};
+  for (const auto& [verdict, count] : verdicts)
+    c.verdicts += fmt::format("{}{} {}", c.verdicts.empty() ? "" : ", ", count, verdict);
+  if (verdicts.count("complete") != 0) c.complete = verdicts["complete"];
+  return c;
+}
+
+Report header_of(const Overview& o) {
+  const Common c = common_of(o);
+  Report report;
+  report.title = o.title;
+  report.verdict = o.verdict;
+  report.good = o.failures.empty() && o.not_run.empty();
+  report.provenance = o.provenance;
   report.numbers = {{"recordings done", std::to_string(o.rows.size()),
                      fmt::format("{} failed, {} not run", o.failures.size(), o.not_run.size())}};
   const auto add = [&](const char* label, double value, const char* unit, const char* note) {
     if (std::isfinite(value)) report.numbers.push_back({label, number(value) + unit, note});
   };
-  add("median error", median(rmse), " N", "rmse of the fit, components pooled");
-  add("median error over noise", median(ratio), " ×", "1 × when nothing but noise is left");
-  add("median error, unseen", median(held_out), " N", "on positions left out of the fit");
-  std::string counts;
-  for (const auto& [verdict, count] : verdicts)
-    counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, verdict);
-  if (!counts.empty()) {
-    const auto complete = verdicts.find("complete");
-    report.numbers.push_back({"models complete",
-                              std::to_string(complete == verdicts.end() ? 0 : complete->second),
-                              counts});
-  }
+  add("median error", c.rmse, " N", "rmse of the fit, components pooled");
+  add("median error over noise", c.ratio, " ×", "1 × when nothing but noise is left");
+  add("median error, unseen", c.held_out, " N", "on positions left out of the fit");
+  if (!c.verdicts.empty())
+    report.numbers.push_back({"models complete", std::to_string(c.complete), c.verdicts});
   return report;
 }
 
@@ -110,6 +119,15 @@ std::string page_failures(const Overview& o) {
 }
 
 }  // namespace
+
+std::string overview_line(const Overview& overview) {
+  const Common c = common_of(overview);
+  if (!std::isfinite(c.rmse)) return "";
+  return fmt::format(
+      "median error {} N{}{}", number(c.rmse),
+      std::isfinite(c.ratio) ? fmt::format(", {} times the noise", number(c.ratio)) : "",
+      c.verdicts.empty() ? "" : "; models: " + c.verdicts);
+}
 
 void write_overview(std::ostream& out, const Overview& overview) {
   const Report header = header_of(overview);

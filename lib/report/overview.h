@@ -36,6 +36,9 @@ struct Overview {
   std::vector<std::pair<std::string, std::string>> provenance;
 };
 
+// "median error 0.021 N, 1.1 times the noise; models: 20 complete, 3 incomplete"; "" without any.
+std::string overview_line(const Overview& overview);
+
 // One HTML file that needs no network: key numbers, how often each verdict, failures, and the
 // recordings with the largest error first (a click on a column's head sorts by it).
 void write_overview(std::ostream& out, const Overview& overview);

@@ -76,6 +76,9 @@ command=$(field "$summary" text command)
   complain 'the command repeats the failure'
 
 # Nothing is made twice, neither what is done nor what would fail again.
+"$bin/hs-batch" all.csv --out out --stages model -q --junit cases.xml >again.csv && complain "the summary alone tells of failures"
+cmp -s again.csv "$summary" || complain "the summary alone is the same"
+grep -q 'tests="14" failures="10"' cases.xml || complain "a test a recording"
 touch before
 batch out all.csv
 [[ -z $(find out/recordings -newer before -type f) ]] || complain 'a second run makes nothing'
@@ -90,12 +93,14 @@ grep -q '5 of 14 recordings done, 9 failed' err || complain 'a mended recording 
 
 # Killed at any moment and begun again, the result is the same.
 batch whole all.csv
-for delay in 0.1 0.3 0.5 0.8; do
+for delay in 0.1 0.2 0.3 0.5 0.6 0.8; do
   setsid make --no-print-directory -s -j2 -f "$root/Makefile.pipeline" batch BIN="$bin" MANIFEST=all.csv \
     OUT=killed BATCH_FLAGS='--stages model' >log 2>&1 &
   sleep $delay
   [[ $delay == *[15] ]] && victim=-$! || victim=$!  # everything, or make alone
-  kill -KILL -- $victim 2>/dev/null
+  signal=KILL
+  [[ $delay != *[26] ]] || signal=TERM victim=-$!     # an identification then leaves the best so far
+  kill -$signal -- $victim 2>/dev/null
   wait $! 2>/dev/null
 done
 batch killed all.csv
@@ -103,6 +108,18 @@ sed 's/killed/whole/g' killed/summary.csv | cmp - whole/summary.csv || complain 
 [[ -z $(find killed -name '.hapsim-*' -newer log) ]] || complain 'nothing temporary is left by the last run'
 grep -q 'all.csv' killed/overview.html && grep -q '</html>' killed/overview.html || complain 'there is an overview'
 ! grep -q '"it' killed/overview.html || complain 'names are escaped'
+
+# What was interrupted is no failure of the recording, what did not converge is one.
+mkdir fake
+printf 'name,body,data\none,box.ply,8000.csv\n' >one.csv
+for words in 'the fit was interrupted after 3 of 9 starts' 'the fit did not converge'; do
+  printf '#!/bin/sh\necho "hs-identify: 8000.csv: %s; what to do" >&2\nexit 4\n' "$words" >fake/hs-identify
+  chmod +x fake/hs-identify
+  "$bin/hs-batch" one.csv --prepare --stages model --out faked --bin fake -q
+  make --no-print-directory -s -k -C faked -f batch.mk >log 2>err
+  [[ $words == *interrupted* && -e faked/recordings/one/failure ]] && complain 'an interruption is no failure'
+  [[ $words == *converge* && ! -e faked/recordings/one/failure ]] && complain 'no convergence is a failure'
+done
 
 # Manifests that cannot be read at all.
 refused() { # TEXT
