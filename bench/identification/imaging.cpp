@@ -96,17 +96,17 @@ std::vector<Result> trial(const std::string& name, const Setting& s, bool seen, 
       stiffness_image(model, data, *s.w.body, s.object.meshed, noise, options);
   const double none = std::nan("");
   std::vector<Result> results{
-      {name, draw, "balls", seen ? 1.0 : 0.0, double(image.balls.size()), none, 0.5},
+      {name, draw, "balls", seen ? 1.0 : 0.0, double(image.found.balls.size()), none, 0.5},
       {name, draw, "cpu s", 0, static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, none,
        30},
-      {name, draw, "error %", 0, 100 * image.error, none, 0},
-      {name, draw, "field left", 0, 100 * image.held_out, none, 0}};
-  for (const Sight& sight : image.sight)
+      {name, draw, "error %", 0, 100 * image.found.error, none, 0},
+      {name, draw, "field left", 0, 100 * image.field.held_out, none, 0}};
+  for (const Sight& sight : image.found.sight)
     if (sight.radius == kRadius && sight.ratio == kRatio)
       results.push_back({name, draw, "sight mm", 0, 1e3 * sight.depth, none, 0});
   if (draw == 1) results.push_back({name, draw, "gradient", 1, cost_of_gradient(s), none, 0.5});
-  if (image.balls.empty()) return results;
-  const FoundBall& ball = image.balls.front();
+  if (image.found.balls.empty()) return results;
+  const FoundBall& ball = image.found.balls.front();
   const Vec3 off = ball.centre - s.centre;
   results.push_back({name, draw, "sideways mm", 0, 1e3 * off.head<2>().norm(), none, 4});
   results.push_back({name, draw, "depth mm", 1e3 * (0.06 - s.centre.z()),

@@ -20,6 +20,7 @@ namespace {
 using Plan = Eigen::Vector2d;
 
 constexpr int kScanPoints = 20000;
+constexpr std::size_t kKept = 24;  // meshes, some 40 MB each
 
 // Mean distance of the positions from their nearest neighbour.
 double spacing_of(const std::vector<Vec3>& positions) {
@@ -57,7 +58,7 @@ class BoundaryProblem {
         spacing_(spacing),
         options_(options),
         contacts_(mesh, stiffness, dataset.recording.tool_radius(), material_of(model_).nu,
-                  plan_nodes(mesh, dataset.recording.tool_radius())),
+                  plan_nodes(mesh, dataset.recording.tool_radius()), kKept),
         measured_(measured_forces(dataset, selection_)),
         weights_(dataset, selection_, model_forces(model_, dataset, selection_, stiffness, false).f,
                  options.fit.noise, options.fit.floor) {

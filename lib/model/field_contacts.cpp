@@ -6,38 +6,42 @@
 namespace hapsim {
 
 FieldContacts::FieldContacts(const TetMesh& body, const BodyStiffness& stiffness,
-                             double tool_radius, double nu, const FieldGrid& grid)
+                             double tool_radius, double nu, const FieldGrid& grid, std::size_t keep)
     : stiffness_(stiffness),
       base_(make_contact_base(body)),
       tool_radius_(tool_radius),
       nu_(nu),
-      grid_(grid) {}
+      grid_(grid),
+      keep_(keep) {}
 
-FieldContacts::Prepared FieldContacts::prepare(std::size_t position) const {
+FieldContacts::Prepared FieldContacts::take(std::size_t position) const {
   {
     const std::lock_guard lock(mutex_);
     if (auto node = kept_.extract(position); !node.empty()) return std::move(node.mapped());
   }
-  Prepared prepared{
-      std::make_unique<FieldBody>(base_, stiffness_.positions()[position], tool_radius_,
-                                  kFieldRim * tool_radius_, kGrowth, grid_),
-      {}};
-  const Eigen::VectorXd homogeneous =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid_.size()));
-  const Eigen::Matrix3d coarse = prepared.body->solve(nu_, homogeneous, false).K;
+  return {std::make_unique<FieldBody>(base_, stiffness_.positions()[position], tool_radius_,
+                                      kFieldRim * tool_radius_, kGrowth, grid_),
+          {},
+          false};
+}
+
+Eigen::Matrix3d FieldContacts::scale(std::size_t position, const Eigen::Matrix3d& K_coarse) const {
   Eigen::Matrix3d fine, by_nu;
   stiffness_.contacts()[position].stiffness.evaluate(nu_, fine, by_nu);
-  prepared.S =
-      fine.llt().matrixL().toDenseMatrix() * coarse.llt().matrixL().toDenseMatrix().inverse();
-  return prepared;
+  return fine.llt().matrixL().toDenseMatrix() * K_coarse.llt().matrixL().toDenseMatrix().inverse();
 }
 
 FieldContacts::Contact FieldContacts::at(std::size_t position, const Eigen::VectorXd& field) const {
-  Prepared prepared = prepare(position);
+  Prepared prepared = take(position);
+  const Eigen::VectorXd homogeneous = Eigen::VectorXd::Zero(field.size());
+  if (!prepared.has_S && field != homogeneous)
+    prepared.S = scale(position, prepared.body->solve(nu_, homogeneous, false).K);
   const FieldBody::Solution solution = prepared.body->solve(nu_, field, true);
+  if (!prepared.has_S && field == homogeneous) prepared.S = scale(position, solution.K);
+  prepared.has_S = true;
   Contact contact{prepared.S, solution.K, prepared.body->by_node(solution)};
   const std::lock_guard lock(mutex_);
-  if (kept_.size() < kKept) kept_.emplace(position, std::move(prepared));
+  if (kept_.size() < keep_) kept_.emplace(position, std::move(prepared));
   return contact;
 }
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "estimate/regularised.h"
-#include "fem/field_stiffness.h"
+#include "model/ball_search.h"
 #include "model/forces.h"
+#include "model/image_field.h"
 
 namespace hapsim {
 
@@ -27,31 +27,9 @@ struct ImageOptions {
   std::function<void()> progress;  // once a position is done
 };
 
-// One ball of another modulus that explains the presses better than no ball: its centre with the
-// standard errors along x, y, z, its radius and the ratio of its modulus, which trade for each
-// other.
-struct FoundBall {
-  Vec3 centre = Vec3::Zero(), error = Vec3::Zero();
-  double depth = 0, depth_error = 0;  // of the centre below the surface [m]
-  double radius = 0, ratio = 1;
-  double drop = 0;  // of chi^2
-};
-
-// Down to which depth of its centre a ball changes the gains by kSeen standard errors.
-struct Sight {
-  double radius = 0, ratio = 1, depth = 0;  // [m]; depth 0: nowhere
-};
-constexpr double kSeen = 4;
-
 struct StiffnessImage {
-  FieldGrid grid;             // of the field
-  Eigen::VectorXd log_ratio;  // log of the modulus over the model's, at the grid's nodes
-  double error = 0;           // relative standard error of a gain, with what the fit leaves
-  double misfit_before = 0, misfit = 0;      // root mean square of the log gains: none, field
-  double held_out_before = 0, held_out = 0;  // the same for positions left out
-  double weight = 0;                         // of the penalty
-  std::vector<FoundBall> balls;              // strongest first; none: nothing compact is seen
-  std::vector<Sight> sight;
+  ImageField field;
+  BallSearch found;
   std::size_t views = 0;
 };
 
@@ -61,14 +39,8 @@ std::vector<ImageView> image_views(const Model& model, const Dataset& dataset,
                                    const BodyStiffness& body, double noise);
 
 // The sensitivities of all gains are the energies of the unit fields in every element: one solution
-// a position on the body of `model` with its modulus alone, linear from there on. A ball of ratio q
-// counts as (q - 1) / (1 + 0.4 (q - 1)) of its volume, for inside a stiff ball the strain falls
-// (Eshelby, Proc. R. Soc. A 241, 1957, nearly incompressible). The field is regularised by
-// solve_field(), its penalty drawn down with the sensitivity so that depth is not punished; balls
-// are looked for one after the other on the finer grid, each must drop chi^2 by 30 (a further
-// one also by what the linear signal of the first may miss) at errors that grow until the best ball
-// leaves no misfit, and lies wholly inside the body.
-// `noise` [N].
+// a position on the body of `model` with its modulus alone, linear from there on. From them come
+// the field (image_field.h) and the balls (ball_search.h). `noise` [N].
 StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
                                const BodyStiffness& stiffness, const TetMesh& body, double noise,
                                const ImageOptions& options);

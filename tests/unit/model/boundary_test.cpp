@@ -84,7 +84,7 @@ TEST(FieldContacts, AHomogeneousFieldIsTheModelsOwnBody) {
   FieldGrid grid;
   grid.step = 0.004;
   grid.count = {21, 21, 1};
-  const FieldContacts contacts(body, *w.body, 0.004, 0.4, grid);
+  const FieldContacts contacts(body, *w.body, 0.004, 0.4, grid, 1);
   const auto nodes = static_cast<Eigen::Index>(grid.size());
   Eigen::Matrix3d fine, by_nu;
   w.body->contacts()[1].stiffness.evaluate(0.4, fine, by_nu);
