@@ -11,6 +11,7 @@
 #include "estimate/identifiability.h"
 #include "identify_acfm.h"
 #include "identify_boundary.h"
+#include "identify_image.h"
 #include "identify_library.h"
 #include "identify_plan.h"
 #include "identify_search.h"
@@ -21,7 +22,6 @@
 #include "model/history.h"
 #include "model/location_fit.h"
 #include "model/plausible.h"
-#include "model/stiffness_image.h"
 #include "model/terms.h"
 
 namespace hapsim {
@@ -154,30 +154,6 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   return improvement;
 }
 
-// The modulus of every tetrahedron as all presses ask for it; in words on standard error.
-void write_image(const Arguments& arguments, const Model& model, const Workspace& w,
-                 const TetMesh& body) {
-  const MaterialSpec material = material_of(model);
-  if (material.modulus.size() > 1 || !material.features.empty())
-    fail_usage("--image starts from a body of one modulus",
-               "remove regions, layers, inclusions and anisotropy from the model (--remove)");
-  ImageOptions options;
-  options.threads = static_cast<int>(arguments.integer("--threads"));
-  Progress progress(arguments, "sensitivities", w.dataset.positions.size());
-  options.progress = [&progress] { progress.step(); };
-  const StiffnessImage image =
-      stiffness_image(model, w.dataset, *w.body, body, w.noise.value, options);
-  Output output(arguments.text("--image"));
-  CsvWriter writer(output.stream(), {}, {"x", "y", "z", "E"});
-  for (const auto& n : body.tets) {
-    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
-    writer.row({format_number(p.x()), format_number(p.y()), format_number(p.z()),
-                format_number(material.modulus[0] * modulus_ratio(image, p))});
-  }
-  output.commit();
-  for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
-}
-
 void describe_fit(Model& model, const Plan& plan, const Workspace& w, double rmse) {
   model.metadata = plan.start.metadata;
   unmark(model);
@@ -216,7 +192,7 @@ int run(const Arguments& arguments) {
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
   const TetMesh body = load_body(arguments);
-  Recording recording = load_recording(arguments, arguments.input(), true);
+  Recording recording = load_recordings(arguments);
   IdentifyLibrary library(arguments, recording, body);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
@@ -309,7 +285,7 @@ int run(const Arguments& arguments) {
     write_locations(locations.stream(), fit_locations(model, w.dataset, *w.body, fit_options));
     locations.commit();
   }
-  if (arguments.given("--image") && cut_short.empty()) write_image(arguments, model, w, body);
+  if (arguments.given("--image") && cut_short.empty()) write_asked_image(arguments, model, w, body);
   library.store(model, [&] { output.commit(); });
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),

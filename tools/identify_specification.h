@@ -4,6 +4,7 @@
 #include "common_options.h"
 #include "effects/catalogue.h"
 #include "identify_boundary.h"
+#include "identify_image.h"
 #include "identify_library.h"
 #include "identify_search.h"
 
@@ -77,6 +78,12 @@ inline ToolSpec identify_specification() {
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
                "moduli ask for) or sites (each position its own stiffness).",
        .default_text = "auto"},
+      {.flag = "--data",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "One more recording of the same body by the same tool, fitted together with the "
+               "first; may be given several times.",
+       .repeatable = true},
       boundary_flag(),
       {.flag = "--acfm",
        .kind = OptionKind::kInteger,
@@ -106,12 +113,7 @@ inline ToolSpec identify_specification() {
        .help =
            "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
            "position by itself, the model's other parameters held; input of hs-cluster."},
-      {.flag = "--image",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "Stiffness imaging: writes the modulus at each tetrahedron's centre (CSV) that all "
-               "presses together ask for about the fitted model, and says what is seen inside the "
-               "body, where, and how deep these presses see."},
+      image_flag(),
       {.flag = "--robust",
        .kind = OptionKind::kChoice,
        .value = "LOSS",
@@ -147,7 +149,7 @@ inline ToolSpec identify_specification() {
                     "dashpots are k tau; s: where it stiffens, u (exp(s |u|) - 1)/(s |u|) in place of u"},
                    {"value, unit, std_error", "in SI units; the error empty where not estimated"},
                    {"state", "free, or derived where these data did not move that way"}}},
-                 {"--image",
+                 {"--image (CSV)",
                   {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
                    {"E", "Young's modulus there [Pa]"}}}};
   spec.examples = {

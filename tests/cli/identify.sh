@@ -16,6 +16,19 @@ expect 2 'the windows of the relaxation times overlap' data.csv "${common[@]}" -
 expect 2 '--terms many is not a number of terms' data.csv "${common[@]}" --terms many
 expect 2 '--windows 3 is no window' data.csv "${common[@]}" --windows 3
 
+# Two recordings of one body fitted together are the one that they were cut from.
+awk -F, '/^[#p]/ || $1 < 2' data.csv >first.csv
+awk -F, '/^[#p]/ || $1 >= 2' data.csv | sed 's/^2,/0,/; s/^3,/1,/' >second.csv
+both=(--body block.ply --rim-edge 0.3 --folds 0 --noise 0.002 --add viscoelastic)
+"$tool" -q data.csv "${both[@]}" -o whole.csv && "$tool" -q first.csv --data second.csv "${both[@]}" \
+  -o joined.csv || complain 'recordings are fitted together'
+paste -d, whole.csv joined.csv | awk -F, '/^(el|vis)/ { d = $4 / $13 - 1; if (d > 1e-6 || d < -1e-6) exit 1 }' ||
+  complain 'two recordings give what the whole gives'
+sed 's/tool_radius: 0.004/tool_radius: 0.005/' second.csv >other.csv
+expect 3 'other.csv: another tool_radius than in first.csv' first.csv --data other.csv "${common[@]}"
+awk -F, -v OFS=, '/^[0-9]/ && n++ == 30 { $3 += 0.01 } 1' second.csv >moving.csv
+expect 3 'moving.csv:' first.csv --data moving.csv "${common[@]}"
+
 rm -f out.csv
 awk '/^#/ || !n++ || n == 22' data.csv >one-row.csv # three components
 expect 3 '3 force components cannot tell 4 free parameters' one-row.csv "${common[@]}" --noise 0.01 \
@@ -32,6 +45,7 @@ awk -F, -v OFS=, '/^[0-9]/ { $5 = 0.09 } 1' data.csv >outside.csv
 expect 3 'surface' outside.csv "${common[@]}"
 awk -F, '/^[0-9]/ { if ($1 > 1) next } 1' data.csv >place.csv
 expect 2 'too few contact positions' place.csv "${common[@]}" --add regions
+expect 2 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
 [[ ! -e out.csv ]] || complain 'a refused run leaves nothing behind'
 
 ((failures == 0)) && echo 'all as expected'

@@ -1,0 +1,17 @@
+// Several recordings of one body by one tool as one.
+#pragma once
+
+#include <vector>
+
+#include "io/recording.h"
+
+namespace hapsim {
+
+// Presses are numbered on, times go on 1 s after the last (each press is relaxed anyway), metadata
+// and name are those of the first; unknown columns are left out. Error(kBadInput) names the file
+// that does not fit the first: another tool or tool radius, another set of columns, another
+// `recovery`; or `recovery: none`, for what the body remembers from one file to the next is not
+// known.
+Recording join_recordings(const std::vector<Recording>& recordings);
+
+}  // namespace hapsim

@@ -1,0 +1,49 @@
+// hs-identify --image.
+#pragma once
+
+#include "base/error.h"
+#include "cli/tool.h"
+#include "model/image_file.h"
+#include "model/stiffness_image.h"
+#include "model/workspace.h"
+
+namespace hapsim {
+
+inline Option image_flag() {
+  return {.flag = "--image",
+          .kind = OptionKind::kFile,
+          .value = "FILE",
+          .help =
+              "Stiffness imaging: writes the modulus of each tetrahedron that all presses "
+              "together ask for about the fitted model, and says what is seen inside the "
+              "body, where, and how deep these presses see. CSV of the centres, or by the "
+              "file's name the body with its moduli: .vtu, .ply."};
+}
+
+// The modulus of every tetrahedron as all presses ask for it; in words on standard error.
+inline void write_asked_image(const Arguments& arguments, const Model& model, const Workspace& w,
+                              const TetMesh& body) {
+  const MaterialSpec material = material_of(model);
+  if (material.modulus.size() > 1 || !material.features.empty())
+    fail_usage("--image starts from a body of one modulus",
+               "remove regions, layers, inclusions and anisotropy from the model (--remove)");
+  if (w.dataset.positions.size() < 4)
+    fail_usage("--image needs presses at four places or more", "press at more places");
+  ImageOptions options;
+  options.threads = static_cast<int>(arguments.integer("--threads"));
+  Progress progress(arguments, "sensitivities", w.dataset.positions.size());
+  options.progress = [&progress] { progress.step(); };
+  const StiffnessImage image =
+      stiffness_image(model, w.dataset, *w.body, body, w.noise.value, options);
+  std::vector<double> modulus;
+  for (const auto& n : body.tets) {
+    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+    modulus.push_back(material.modulus[0] * modulus_ratio(image, p));
+  }
+  Output output(arguments.text("--image"));
+  write_image(output.stream(), body, modulus, image_format(arguments.text("--image")));
+  output.commit();
+  for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
+}
+
+}  // namespace hapsim
