@@ -8,7 +8,8 @@
 
 namespace hapsim {
 
-// N states, scalar observations: x_k+1 = A x_k + w, z = h.x + v, the covariance of w diagonal. An observation is put in at its own time: the filter goes back to the step before it
+// N states, scalar observations: x_k+1 = A x_k + w, z = h.x + v, the covariance of w diagonal. An
+// observation is put in at its own time: the filter goes back to the step before it
 // and runs what it has seen since again, so the result is that of observations in time. The
 // covariance update is Joseph's form P = (I - k h') P (I - k h')' + k r k' (Bucy and Joseph,
 // Filtering for Stochastic Processes, 1968), which keeps P symmetric and positive where (4.32) does
