@@ -91,7 +91,8 @@ inline void add_diagnosis(const CsvTable& table, const std::string& version, Rep
     change("error on unseen positions", "heldout_now", "heldout_after");
     const double p = number_or_nan(table, "p_value", r);
     if (std::isfinite(p))
-      row.facts.emplace_back("chance of a false alarm", fmt::format("{:.2g}", p));
+      row.facts.emplace_back("chance of a false alarm",
+                             p < 1e-3 ? "below 0.001" : fmt::format("{:.2g}", p));
     if (!cell("confused_with", r).empty())
       row.facts.emplace_back(
           row.verdict == "indistinguishable" ? "cannot be told from" : "alone nearly as good",

@@ -10,6 +10,7 @@
 #include "compare_report.h"
 #include "geometry/tetmesh.h"
 #include "io/ply.h"
+#include "report/figures.h"
 #include "report/junit.h"
 #include "report/palette.h"
 
@@ -52,6 +53,11 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the report: one file that needs no network."},
+      {.flag = "--figures",
+       .kind = OptionKind::kFile,
+       .value = "PREFIX",
+       .help = "Writes the plots as SVG files for papers: PREFIXversions.svg, PREFIXresidual-1.svg "
+               "..., PREFIXpress-ID.svg of the six presses with the largest error."},
       {.flag = "--json",
        .kind = OptionKind::kFile,
        .value = "FILE",
@@ -356,9 +362,13 @@ int run(const Arguments& arguments) {
     outputs.push_back(std::make_unique<Output>(path));
     return outputs.back()->stream();
   };
-  if (arguments.given("--html"))
-    write_report(open(arguments.text("--html")),
-                 make_report(arguments, measured, versions, c, map));
+  if (arguments.given("--html") || arguments.given("--figures")) {
+    const Report report = make_report(arguments, measured, versions, c, map);
+    if (arguments.given("--html")) write_report(open(arguments.text("--html")), report);
+    if (arguments.given("--figures"))
+      for (const auto& [name, text] : report_figures(report))
+        open(arguments.text("--figures") + name) << text;
+  }
   if (arguments.given("--json"))
     open(arguments.text("--json")) << comparison_json(c, measured.name, simulated.name);
   if (arguments.given("--ply")) {

@@ -90,7 +90,7 @@ std::string scale_bar(const BodyLayer& layer, std::size_t number, int height) {
     const double y = y_of(layer.mark);
     out += fmt::format(
         "<path d='M-3 {0:.1f}h26' stroke='#1b2733' stroke-width='2'/>"
-        "<text x='60' y='{1:.1f}'>{2}</text><path d='M57 {0:.1f}h-4' "
+        "<text x='68' y='{1:.1f}'>{2}</text><path d='M65 {0:.1f}h-4' "
         "class='zero' stroke-dasharray='2 2'/>",
         y, y + 4, escape_html(layer.mark_name));
   }

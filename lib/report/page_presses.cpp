@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "report/figures.h"
 #include "report/html.h"
 #include "report/page.h"
-#include "report/palette.h"
-#include "report/plot.h"
 
 namespace hapsim {
 namespace {
@@ -16,35 +14,11 @@ namespace {
 constexpr std::size_t kWorst = 6;
 constexpr std::size_t kBest = 2;
 
-// Indices of the presses, largest error first.
-std::vector<std::size_t> by_error(const std::vector<ReportPress>& presses) {
-  std::vector<std::size_t> order(presses.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return presses[a].rmse > presses[b].rmse; });
-  return order;
-}
-
-// The compared version is the last; it always gets the first colour.
-std::string colour_of(const Report& report, std::size_t version) {
-  return version_colour(report.curves.size() - 1 - version);
-}
-
 std::string small_plot(const Report& report, std::size_t index) {
   const ReportPress& press = report.presses[index];
-  Plot plot(362, 190, report.time_label, "force [N]");
-  plot.title(fmt::format("press {}, error {:.3g} N", press.id, press.rmse));
-  plot.include_y(0);
-  const auto along = [&](const std::vector<Vec3>& f) {
-    std::vector<double> y;
-    for (const Vec3& v : f) y.push_back(press.direction.dot(v));
-    return y;
-  };
-  plot.line(press.t, along(press.measured), {"#1b2733", 1.6});
-  for (std::size_t v = 0; v < press.simulated.size(); ++v)
-    plot.line(press.t, along(press.simulated[v]), {colour_of(report, v), 1.5});
-  return fmt::format("<figure data-press='{}' title='show all of it below'>", index) + plot.svg() +
-         "<div class='note'>" + escape_html(press.place) + "</div></figure>";
+  return fmt::format("<figure data-press='{}' title='show all of it below'>", index) +
+         press_plot(report, press).svg() + "<div class='note'>" + escape_html(press.place) +
+         "</div></figure>";
 }
 
 // Forces as integers of a common unit: short, and exact to a 20,000th of the largest.
@@ -71,7 +45,7 @@ std::string press_data(const Report& report) {
   for (const std::string& name : report.curves) out += script_string(name) + ",";
   out += "],colours:[";
   for (std::size_t v = 0; v < report.curves.size(); ++v)
-    out += script_string(colour_of(report, v)) + ",";
+    out += script_string(version_line_colour(report, v)) + ",";
   out += "],presses:[\n";
   for (const ReportPress& p : report.presses) {
     out += fmt::format("{{p:{},t:[", p.position);
@@ -93,12 +67,12 @@ std::string page_presses(const Report& report) {
       "<span><i style='border-color:#1b2733'></i>measured</span>";
   for (std::size_t v = 0; v < report.curves.size(); ++v)
     out +=
-        fmt::format("<span><i style='border-color:{}'></i>{}{}</span>", colour_of(report, v),
-                    escape_html(report.curves[v]),
+        fmt::format("<span><i style='border-color:{}'></i>{}{}</span>",
+                    version_line_colour(report, v), escape_html(report.curves[v]),
                     report.curves.size() > 1 && v + 1 == report.curves.size() ? " (compared)" : "");
   out += "</div><p class='note'>The part of the force along its own direction at the peak. " +
          escape_html(report.presses_note) + "</p>";
-  const std::vector<std::size_t> order = by_error(report.presses);
+  const std::vector<std::size_t> order = presses_by_error(report);
   const std::size_t worst = std::min(kWorst, order.size());
   out += fmt::format("<h3>{} largest errors</h3><div class='multiples'>", worst);
   for (std::size_t i = 0; i < worst; ++i) out += small_plot(report, order[i]);

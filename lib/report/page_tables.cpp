@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "io/number.h"
+#include "report/figures.h"
 #include "report/html.h"
 #include "report/page.h"
-#include "report/plot.h"
 
 namespace hapsim {
 namespace {
@@ -53,34 +53,10 @@ std::string table(const ReportTable& t, const std::string& caption) {
 std::string page_versions(const Report& report) {
   if (report.history.rows.empty()) return "";
   std::string out = "<section><h2>Model versions and their errors</h2>" + table(report.history, "");
-  std::vector<double> step, rmse, held_out, noise;
-  for (std::size_t i = 0; i < report.versions.size(); ++i) {
-    step.push_back(static_cast<double>(i));
-    rmse.push_back(report.versions[i].rmse);
-    held_out.push_back(report.versions[i].held_out);
-    noise.push_back(report.versions[i].noise);
-  }
-  const auto any = [](const std::vector<double>& v) {
-    return std::any_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
-  };
-  if (step.size() < 2 || !any(rmse)) return out + "</section>\n";
-  Plot plot(620, 220, "model version", "typical error [N]");
-  plot.include_y(0);
-  plot.include_x(-0.2);
-  plot.include_x(static_cast<double>(step.size()) - 0.8);
-  const auto series = [&](const std::vector<double>& y, const char* colour, const char* name) {
-    if (!any(y)) return;
-    plot.line(step, y, {colour, 2}, name);
-    plot.points(step, y, {colour, 7});
-  };
-  if (any(noise)) plot.line(step, noise, {"#5b6876", 1.5, 1, "5 4"}, "sensor noise");
-  if (std::isfinite(report.mesh_uncertainty))
-    plot.line(step, std::vector<double>(step.size(), report.mesh_uncertainty),
-              {"#8a6d3b", 1.5, 1, "2 3"}, "what the meshes leave open");
-  series(rmse, "#d55e00", "error of the fit");
-  series(held_out, "#0072b2", "error on unseen positions");
-  plot.integer_x();
-  return out + "<figure>" + plot.svg() + "</figure></section>\n";
+  const bool any = std::any_of(report.versions.begin(), report.versions.end(),
+                               [](const ReportVersion& v) { return std::isfinite(v.rmse); });
+  if (report.versions.size() < 2 || !any) return out + "</section>\n";
+  return out + "<figure>" + versions_plot(report).svg() + "</figure></section>\n";
 }
 
 std::string page_parameters(const Report& report) {
@@ -147,24 +123,8 @@ std::string page_residuals(const Report& report) {
       "above zero the body pushes harder than the model. Points: rows (thinned). Line and band: "
       "mean of a group and two standard errors to each side, from press to press. All four share "
       "one force scale.</p><div class='two'>";
-  double low = 0, high = 0;
-  for (const ResidualPlot& r : report.residuals)
-    for (const double y : r.y) low = std::min(low, y), high = std::max(high, y);
-  for (const ResidualPlot& r : report.residuals) {
-    Plot plot(545, 300, r.x_label, "residual [N]");
-    plot.include_y(low);
-    plot.include_y(high);
-    plot.points(r.x, r.y, {"#6f88a0", 2.6, 0.45}, "rows");
-    std::vector<double> below, above;
-    for (std::size_t i = 0; i < r.mean.size(); ++i) {
-      below.push_back(r.mean[i] - 2 * r.error[i]);
-      above.push_back(r.mean[i] + 2 * r.error[i]);
-    }
-    plot.band(r.centre, below, above, {"#d55e00", 0, 0.28}, "mean, 2 standard errors");
-    plot.line(r.centre, r.mean, {"#d55e00", 2});
-    plot.points(r.centre, r.mean, {"#d55e00", 5.5});
-    out += "<figure>" + plot.svg() + "</figure>";
-  }
+  for (std::size_t k = 0; k < report.residuals.size(); ++k)
+    out += "<figure>" + residual_plot(report, k).svg() + "</figure>";
   return out + "</div></section>\n";
 }
 

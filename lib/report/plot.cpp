@@ -196,4 +196,15 @@ std::string Plot::svg() const {
   return out + legend(f) + "</svg>";
 }
 
+std::string Plot::file() const {
+  static constexpr const char* kStyle =
+      "<style>text{font:11px sans-serif;fill:#1b2733}.title{font-weight:600;font-size:12px}"
+      ".name{fill:#5b6876}.grid{stroke:#e4e8ec;fill:none}.axis,.zero{stroke:#8a96a3;fill:none}"
+      "</style><rect width='100%' height='100%' fill='#fff'/>";
+  std::string text = svg();
+  text.insert(text.find('>') + 1, kStyle);
+  text.insert(4, " xmlns='http://www.w3.org/2000/svg'");
+  return "<?xml version='1.0' encoding='UTF-8'?>\n" + text + "\n";
+}
+
 }  // namespace hapsim

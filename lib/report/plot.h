@@ -32,7 +32,8 @@ class Plot {
   void integer_x() { integer_x_ = true; }  // ticks at whole numbers only
   void include_y(double y);
   void include_x(double x);
-  std::string svg() const;
+  std::string svg() const;   // for a page with the report's style
+  std::string file() const;  // an SVG file with its own style
 
  private:
   struct Element {

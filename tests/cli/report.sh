@@ -36,7 +36,8 @@ recording 1 >data.csv
 recording 1.2 >simulated.csv
 "$bin/hs-tetmesh" box.off -q -o body.ply 2>err || complain 'no body'
 "$bin/hs-compare" data.csv --simulated simulated.csv --body body.ply --model model.csv -q \
-  --html report.html -o residuals.csv 2>err || complain 'no report'
+  --html report.html --figures figure- -o residuals.csv 2>err || complain 'no report'
+[[ $(ls figure-*.svg | wc -l) -ge 8 ]] || complain "figures: $(ls figure-*)"
 [[ $(stat -c %s report.html) -lt 5000000 ]] || complain 'the report is larger than 5 MB'
 
 # What a reader does, and what is to be seen then, written into the page as text.

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "report/report.h"
+#include "report/figures.h"
 
 namespace hapsim {
 namespace {
@@ -49,6 +49,18 @@ TEST(Page, NoWordFromAFileBecomesMarkup) {
   const std::string text = page(full_report("</script><img src=x onerror=alert(1)>'\"&"));
   EXPECT_EQ(text.find("<img"), std::string::npos);
   EXPECT_NE(text.find("&lt;img"), std::string::npos);
+}
+
+TEST(Figures, AreFilesOfTheirOwn) {
+  const auto figures = report_figures(full_report("</text><script>"));
+  std::string names;
+  for (const auto& [name, text] : figures) {
+    names += name + " ";
+    EXPECT_EQ(text.find("<?xml"), 0u) << name;
+    EXPECT_NE(text.find("xmlns='http://www.w3.org/2000/svg'"), std::string::npos) << name;
+    EXPECT_EQ(text.find("<script>"), std::string::npos) << name;
+  }
+  EXPECT_EQ(names, "versions.svg residual-1.svg press-1.svg ");
 }
 
 TEST(Page, NeedsNoNetwork) {
