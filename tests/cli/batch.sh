@@ -121,6 +121,19 @@ for words in 'the fit was interrupted after 3 of 9 starts' 'the fit did not conv
   [[ $words == *converge* && ! -e faked/recordings/one/failure ]] && complain 'no convergence is a failure'
 done
 
+# With -j2 two recordings are under way at once: each waits for the other.
+printf 'name,body,data\none,box.ply,8000.csv\ntwo,box.ply,8000.csv\n' >two.csv
+cat >fake/hs-identify <<'SH'
+#!/bin/sh
+touch "running-$$"
+n=0
+until [ "$(ls running-* | wc -l)" = 2 ]; do n=$((n + 1)); [ $n -lt 600 ] || exit 5; sleep 0.05; done
+while [ "$1" != -o ]; do shift; done
+printf '# rmse: 1\neffect,region,parameter,value\nelastic,0,E,1\n' >"$2"
+SH
+ln -s "$bin/hs-batch" fake/
+(bin=fake; batch together two.csv; exit $code) || complain 'two recordings at once'
+
 # Manifests that cannot be read at all.
 refused() { # TEXT
   local text=$1

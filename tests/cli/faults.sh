@@ -15,10 +15,12 @@ hs-simulate -q motion.csv --body body.ply --model model.csv --rim-edge 0.3 --add
 cp data.csv forces.csv
 awk 'BEGIN { OFS = ","; print "x,y,z"; for (i = 0; i < 4000; ++i) print 0.06 * rand(), 0.05 * rand(), 0.04 }' >scan.csv
 awk 'BEGIN { print "time [s],force [N],displacement [mm]"; for (i = 0; i < 400; ++i) print i * 0.01 "," (i > 100 ? (i - 100) * 0.01 : 0) "," i * 0.02 }' >machine.csv
+hs-scan2ply -q scan.csv -o points.ply || exit 1
 printf 'name,body,data,options,common_options\na,body.ply,data.csv,--folds 0,--rim-edge 0.3\n' >manifest.csv
 declare -A command=(
   [hs-tetmesh]='hs-tetmesh box.off --max-volume 1e-8'
   [hs-scan2ply]='hs-scan2ply scan.csv'
+  [hs-reconstruct]='hs-reconstruct points.ply'
   [hs-import]='hs-import machine.csv --block 60x50x40mm --tool-radius 4mm'
   [hs-simulate]='hs-simulate data.csv --body body.ply --model model.csv --rim-edge 0.3 --threads 1'
   [hs-identify]='hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1'
@@ -29,11 +31,11 @@ declare -A command=(
   [hs-batch]='hs-batch manifest.csv --out batch'
 )
 tools=($(printf '%s\n' "${!command[@]}" | sort))
-declare -A input=([hs-tetmesh]=box.off [hs-scan2ply]=scan.csv [hs-import]=machine.csv [hs-simulate]=data.csv
+declare -A input=([hs-tetmesh]=box.off [hs-scan2ply]=scan.csv [hs-reconstruct]=points.ply [hs-import]=machine.csv [hs-simulate]=data.csv
   [hs-identify]=data.csv [hs-diagnose]=data.csv [hs-compare]=data.csv [hs-check]=model.csv [hs-export]=model.csv
   [hs-batch]=manifest.csv)
 
-row() { printf '%-28s %-12s %s\n' "$1" "$2" "$3"; }
+row() { printf '%-28s %-14s %s\n' "$1" "$2" "$3"; }
 temporaries() { find . -name '.hapsim-*.tmp' | wc -l; }
 # told FAULT TOOL CODES: the exit code is one of CODES, and an error is one line
 told() {
@@ -50,7 +52,7 @@ done
 # A small file system of its own, full but for 4 kB; an old output there must survive.
 mkdir full
 if mount -t tmpfs -o size=64k tmpfs full 2>/dev/null; then
-  trap 'umount "$work/full"; rm -rf "$work"' EXIT
+  trap '[[ $BASHPID != "$$" ]] || { umount "$work/full"; rm -rf "$work"; }' EXIT
   for tool in hs-tetmesh hs-simulate hs-compare hs-export; do
     echo old >full/out; head -c 200000 /dev/zero >full/filler 2>/dev/null
     ${command[$tool]} -q -o full/out >/dev/null 2>err; code=$?

@@ -51,6 +51,7 @@ PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
 export SLURM_CONF=$work/slurm.conf
 stop() { # by the ids that the daemons wrote down
+  [[ $BASHPID == "$$" ]] || return 0
   local name
   for name in slurmd slurmctld munged; do
     [[ ! -s $work/$name.pid ]] || kill -KILL "$(cat "$work/$name.pid")" 2>/dev/null

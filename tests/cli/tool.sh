@@ -3,7 +3,7 @@
 tool=$1
 name=${tool##*/}
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+trap '[[ $BASHPID != "$$" ]] || rm -rf "$work"' EXIT # not in a child that is killed early
 cd "$work" || exit 1
 failures=0
 

@@ -1,5 +1,6 @@
 // libFuzzer on one reader, the one that the environment variable HAPSIM_READER names:
-//   HAPSIM_READER=ply fuzz_readers -max_total_time=60 -rss_limit_mb=1024 found tests/fuzz/cases/ply
+//   LSAN_OPTIONS=suppressions=tests/fuzz/leaks.supp HAPSIM_READER=ply \
+//     fuzz_readers -max_total_time=60 -rss_limit_mb=1500 found tests/fuzz/cases/ply
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
