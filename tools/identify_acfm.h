@@ -15,15 +15,16 @@
 namespace hapsim {
 
 inline int run_acfm(const Arguments& arguments) {
-  for (const char* flag :
-       {"--effects", "--model", "--add", "--remove", "--diagnosis", "--fix", "--free", "--regions",
-        "--locations", "--image", "--profile", "--robust", "--history", "--terms"})
+  for (const char* flag : {"--effects", "--model",    "--add",     "--remove",    "--diagnosis",
+                           "--fix",     "--free",     "--regions", "--locations", "--image",
+                           "--profile", "--robust",   "--history", "--terms",     "--boundary",
+                           "--library", "--material", "--object",  "--starts",    "--resume"})
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of models with effects, and --acfm has none",
                  "leave one of them out");
   const TetMesh body = load_body(arguments);
   const SignedDistance surface(boundary_surface(body), "body");
-  const Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), true));
+  const Dataset dataset = make_dataset(load_recordings(arguments));
   std::vector<Vec3> normals;
   for (const Vec3& p : dataset.positions) normals.push_back(surface.at(p).normal);
   AcfmFitOptions options;

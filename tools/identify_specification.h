@@ -128,30 +128,31 @@ inline ToolSpec identify_specification() {
            "need not be symmetric."}};
   for (const auto& more : {own, search_flags(), library_flags()})
     spec.options.insert(spec.options.end(), more.begin(), more.end());
-  spec.tables = {{"Model (output)",
-                  {{"effect", "name in the catalogue, see hs-effects(7)"},
-                   {"region", "region that the parameter belongs to, from 0"},
-                   {"parameter", "name of the parameter"},
-                   {"value", "in SI units"},
-                   {"unit", "SI unit"},
-                   {"std_error", "standard error, empty when not estimated"},
-                   {"lower, upper", "bounds"},
-                   {"state", "free, fixed or derived"}}},
-                 {"Model of --acfm (output)",
-                  {{"position", "number of the position"},
-                   {"x, y, z", "where it is [m]"},
-                   {"nx, ny, nz", "outward normal there, unit"},
-                   {"axis",
-                    "n: along the normal; t1, t2: the global x and y, turned by the "
-                    "shortest way that takes z to the normal"},
-                   {"parameter",
-                    "ks: spring; k1, tau1, k2, tau2, ...: Maxwell elements, whose "
-                    "dashpots are k tau; s: where it stiffens, u (exp(s |u|) - 1)/(s |u|) in place of u"},
-                   {"value, unit, std_error", "in SI units; the error empty where not estimated"},
-                   {"state", "free, or derived where these data did not move that way"}}},
-                 {"--image (CSV)",
-                  {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
-                   {"E", "Young's modulus there [Pa]"}}}};
+  spec.tables = {
+      {"Model (output)",
+       {{"effect", "name in the catalogue, see hs-effects(7)"},
+        {"region", "region that the parameter belongs to, from 0"},
+        {"parameter", "name of the parameter"},
+        {"value", "in SI units"},
+        {"unit", "SI unit"},
+        {"std_error", "standard error, empty when not estimated"},
+        {"lower, upper", "bounds"},
+        {"state", "free, fixed or derived"}}},
+      {"Model of --acfm (output)",
+       {{"position", "number of the position"},
+        {"x, y, z", "where it is [m]"},
+        {"nx, ny, nz", "outward normal there, unit"},
+        {"axis",
+         "n: along the normal; t1, t2: the global x and y, turned by the "
+         "shortest way that takes z to the normal"},
+        {"parameter",
+         "ks: spring; k1, tau1, k2, tau2, ...: Maxwell elements, whose "
+         "dashpots are k tau; s: where it stiffens, u (exp(s |u|) - 1)/(s |u|) in place of u"},
+        {"value, unit, std_error", "in SI units; the error empty where not estimated"},
+        {"state", "free, or derived where these data did not move that way"}}},
+      {"--image (CSV)",
+       {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
+        {"E", "Young's modulus there [Pa]"}}}};
   spec.examples = {
       {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
       {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",

@@ -33,7 +33,8 @@ struct Regions {
 struct Setting {
   Regions truth;
   Object object;
-  Workspace w;
+  Recording recording;
+  WorkspaceOptions options;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
   double noise = 0;
@@ -56,11 +57,11 @@ std::shared_ptr<Setting> make_setting(const Regions& truth, const std::string& o
   Recording r = record(positions, s->presses, 0, 25);  // 500 samples
   s->forces = true_forces(r, s->presses, K, kModulus, {});
   s->noise = 0.01 * peak(s->forces);
-  WorkspaceOptions options;
-  options.cache = out + "/cache";
-  options.noise = s->noise;
-  options.nu_low = options.nu_high = kPoisson;  // normal presses do not tell it: known
-  s->w = make_workspace(s->object.meshed, std::move(r), options);
+  s->options.cache = out + "/cache";
+  s->options.threads = 1;
+  s->options.noise = s->noise;
+  s->options.nu_low = s->options.nu_high = kPoisson;  // normal presses do not tell it: known
+  s->recording = std::move(r);
   return s;
 }
 
@@ -77,17 +78,19 @@ double boundary_error(const std::vector<BoundaryLine>& lines, const Regions& tru
 }
 
 std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
-  Dataset data = s.w.dataset;
+  // Its own: a body is solved for one material at a time.
+  Workspace w = make_workspace(s.object.meshed, s.recording, s.options);
+  Dataset& data = w.dataset;
   Random random(static_cast<std::uint64_t>(draw));
   measure(data.recording, s.presses, s.forces, 0, s.noise, random);
   const Selection all = all_episodes(data);
-  const FitOptions options{s.noise, s.w.floor, true};
-  Model start = elastic_model(data, all, *s.w.body);
+  const FitOptions options{s.noise, w.floor, true};
+  Model start = elastic_model(data, all, *w.body);
   Parameter& nu = *start.find("elastic", 0, "nu");
   nu.value = kPoisson;
   nu.state = ParameterState::kFixed;
-  const FitResult plain = fit(start, data, all, *s.w.body, options);
-  const LocationTable table = fit_locations(plain.model, data, *s.w.body, options);
+  const FitResult plain = fit(start, data, all, *w.body, options);
+  const LocationTable table = fit_locations(plain.model, data, *w.body, options);
   const RegionEstimate regions = estimate_regions(table, {});
   const int count = static_cast<int>(regions.value.size());
   const double none = std::nan("");
@@ -105,12 +108,12 @@ std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   results.push_back({name, draw, "QDA mm", 0, 1e3 * boundary_error(lines, s.truth), none, 6});
   Model refined = region_model(table, regions, classify, lines, 8);
   refined.find("elastic", 0, "nu")->state = ParameterState::kFixed;
-  const FitResult first = fit(refined, data, all, *s.w.body, options);
+  const FitResult first = fit(refined, data, all, *w.body, options);
   results.push_back({name, draw, "QDA rmse N", 0, first.rmse, none, 0.1});
   BoundaryOptions boundary;
   boundary.threads = 1;
   boundary.fit = options;
-  const BoundaryFit moved = refine_boundaries(first, data, *s.w.body, s.object.meshed, boundary);
+  const BoundaryFit moved = refine_boundaries(first, data, *w.body, s.object.meshed, boundary);
   results.push_back(
       {name, draw, "refined mm", 0, 1e3 * boundary_error(moved.lines, s.truth), none, 6});
   const FitResult& fitted = moved.fitted;
