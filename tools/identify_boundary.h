@@ -33,6 +33,8 @@ inline FitResult with_refined_boundaries(const Arguments& arguments, const FitRe
   options.key_points = static_cast<int>(arguments.integer("--boundary"));
   options.threads = static_cast<int>(arguments.integer("--threads"));
   options.fit = fit_options;
+  Progress progress(arguments, "boundaries, positions solved", 0);
+  options.progress = [&progress] { progress.step(); };
   const BoundaryFit refined = refine_boundaries(fitted, w.dataset, *w.body, body, options);
   if (!refined.better) {
     say(arguments, "hs-identify", "the boundaries stay: moving them does not lower the error");

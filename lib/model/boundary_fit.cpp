@@ -218,7 +218,13 @@ BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, Bo
     place_key_points(
         moved, [&](const Plan& p) { return graph.region(p, shift); }, lines, options.key_points);
     FitResult fitted = fit(moved, dataset, all_episodes(dataset), body, options.fit);
-    if (fitted.rmse >= result.fitted.rmse && !fitted.stopped) break;
+    if (fitted.rmse >= result.fitted.rmse) {
+      if (!fitted.stopped) break;
+      result.fitted.stopped = true;
+      result.fitted.converged = false;
+      result.fitted.message = fitted.message;
+      break;
+    }
     result.fitted = std::move(fitted);
     result.lines = lines;
     result.better = true;
