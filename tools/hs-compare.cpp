@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "compare_follow.h"
 #include "compare_report.h"
 #include "geometry/tetmesh.h"
 #include "io/ply.h"
@@ -40,14 +41,22 @@ ToolSpec specification() {
       "the largest is told first and taken off before the next is sought.",
       "The simulated file must have the rows of the measured one in the same order: presses, "
       "contact points and displacements are checked to 0.01 mm.",
-      "On a terminal the residuals themselves are not printed unless asked for with -o."};
+      "On a terminal the residuals themselves are not printed unless asked for with -o.",
+      "With --follow a stream of rows is compared with a model as they come. The usual error is "
+      "learned at the beginning; then a cumulative sum of it raises an alarm, tuned to the false "
+      "alarms an hour that are put up with. What follows the alarm tells whether the body has "
+      "moved "
+      "or is gone, its stiffness has changed or the sensor's zero has; the model goes on with "
+      "that, "
+      "without a jump in the force. A shift is told by three presses; where other sides are "
+      "pressed "
+      "later it is told better, by another alarm."};
   spec.options = {
       {.flag = "--simulated",
        .kind = OptionKind::kFile,
        .value = "[NAME=]FILE",
        .help = "Simulated forces of the same rows, from hs-simulate ('-': standard input). Given "
                "several times, the last is compared and the others are drawn beside it.",
-       .required = true,
        .repeatable = true},
       {.flag = "--html",
        .kind = OptionKind::kFile,
@@ -95,7 +104,8 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "model.csv of the compared version: the report shows its parameters with their "
-               "intervals, and its regions on the body."},
+               "intervals, and its regions on the body. With --follow the model that the stream is "
+               "compared with."},
       {.flag = "--junit",
        .kind = OptionKind::kFile,
        .value = "FILE",
@@ -109,6 +119,7 @@ ToolSpec specification() {
        .value = "X",
        .help = "Exit code 1 when the typical error exceeds X: 0.05N, 5% (of the force's rms), or "
                "1.5noise."}};
+  for (const Option& option : follow_flags()) spec.options.push_back(option);
   spec.tables = {{"Residuals (output)",
                   {{"...", "the columns of the measured recording"},
                    {"sx, sy, sz", "simulated force [N]"},
@@ -123,6 +134,9 @@ ToolSpec specification() {
        "Two model versions in one report."},
       {"hs-compare data.csv --simulated forces.csv --fail-above 1.5noise -q -o residuals.csv",
        "A check in CI."}};
+  spec.examples.push_back(
+      {"hs-compare --follow - --body body.ply --model m.csv --events changes.csv",
+       "Watches a robot's stream."});
   spec.see_also = {"hs-simulate(1)", "hs-diagnose(1)", "hs-identify(1)"};
   return spec;
 }
@@ -336,6 +350,12 @@ void write_verdict(const Arguments& arguments, const Recording& measured, const 
 }
 
 int run(const Arguments& arguments) {
+  if (arguments.given("--follow")) return run_follow(arguments);
+  for (const Option& option : follow_flags())
+    if (arguments.given(option.flag))
+      fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
+  if (!arguments.given("--simulated"))
+    fail_usage("--simulated is required", "give forces from hs-simulate, or --follow");
   Limit limit;
   if (arguments.given("--fail-above")) limit = parse_limit(arguments.text("--fail-above"));
   if (arguments.given("--junit") && !arguments.given("--fail-above"))

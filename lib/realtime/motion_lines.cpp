@@ -11,8 +11,8 @@
 namespace hapsim {
 namespace {
 
-constexpr std::array<const char*, 9> kNames{"press", "t",  "x",  "y",      "z",
-                                            "ux",    "uy", "uz", "contact"};
+constexpr std::array<const char*, 12> kNames{"press", "t",  "x",       "y",  "z",  "ux",
+                                             "uy",    "uz", "contact", "fx", "fy", "fz"};
 
 void append(std::string& buffer, double value) {
   char text[32];
@@ -22,17 +22,19 @@ void append(std::string& buffer, double value) {
 
 }  // namespace
 
-MotionLines::MotionLines(Input& input) : csv_(input) {
+MotionLines::MotionLines(Input& input, bool forces) : csv_(input) {
   const auto& header = csv_.header();
   std::array<bool, kColumns> present{};
   for (const std::string& name : header) {
-    const auto found = std::find(kNames.begin(), kNames.end(), name);
-    meaning_.push_back(static_cast<int>(found - kNames.begin()));
-    if (found != kNames.end()) present[static_cast<std::size_t>(meaning_.back())] = true;
+    const auto known = forces ? kNames.end() : kNames.begin() + kFx;
+    const auto found = std::find(kNames.begin(), known, name);
+    meaning_.push_back(found == known ? kColumns : static_cast<int>(found - kNames.begin()));
+    if (found != known) present[static_cast<std::size_t>(meaning_.back())] = true;
   }
   known_ = present[kUx] || present[kUy] || present[kUz] || present[kPress];
   for (std::size_t k = 0; k < kColumns; ++k) {
-    const bool needed = known_ ? k != kContact : k >= kT && k <= kZ;
+    const bool force = k >= kFx;
+    const bool needed = force ? forces : known_ ? k != kContact : k >= kT && k <= kZ;
     if (needed && !present[k])
       fail_missing_column(input.name(), kNames[k], header, {kNames.begin(), kNames.end()});
   }

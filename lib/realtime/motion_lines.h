@@ -15,15 +15,17 @@ namespace hapsim {
 class MotionLines : public MotionSource {
  public:
   // Reads up to the header. Error(kBadInput): a column is missing (nearest named).
-  explicit MotionLines(Input& input);
+  // `forces`: each line has a measured one, fx,fy,fz.
+  explicit MotionLines(Input& input, bool forces = false);
   bool has_contact_point() const override { return known_; }
   const Metadata& metadata() const { return csv_.metadata(); }
   bool next(MotionLine& line) override;
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override;
   long line() const { return csv_.line(); }
+  Vec3 force() const { return {value_[kFx], value_[kFy], value_[kFz]}; }  // of the last line [N]
 
  private:
-  enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kContact, kColumns };
+  enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kContact, kFx, kFy, kFz, kColumns };
   CsvReader csv_;
   std::vector<int> meaning_;  // column of the file -> Column, kColumns: passed over
   std::array<double, kColumns> value_{};

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# follow.sh BIN: hs-compare --follow answers row by row, notices a changed stiffness and a changed
+# zero of the sensor, names them and goes on with them.
+. "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
+
+"$bin/hs-tetmesh" box.off --edge 0.015 -q -o body.ply || complain 'no body'
+printf 'effect,region,parameter,value,unit\nelastic,0,E,20000,Pa\nelastic,0,nu,0.45,1\n' >model.csv
+awk 'BEGIN { # presses of a second at 200 Hz, with air between them
+  print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz,contact"
+  for (p = 1; p <= 24; ++p) for (i = 0; i < 200; ++i) {
+    s = sin(3.14159 * i / 160) ^ 2; air = i >= 160
+    printf "%d,%.3f,%g,%g,0.04,%.9g,0,%.9g,%d\n", p, p + i / 200, 0.02 + 0.005 * (p % 5), 0.02 + 0.003 * (p % 4), air ? 0 : 0.0006 * s, air ? 0.01 : -0.003 * s, !air
+  }
+}' >motion.csv
+"$bin/hs-simulate" --live motion.csv --body body.ply --model model.csv -q -o clean.csv 2>err || complain 'no forces'
+stream() { # KIND: noise, and after 14 s the change
+  awk -F, -v OFS=, -v kind="$1" 'BEGIN { srand(3) } /^#/ { print; next } !h { h = 1; for (i = 1; i <= NF; ++i) c[$i] = i; print; next }
+    { for (k = 0; k < 3; ++k) { f = c["fx"] + k; g = -6; for (j = 0; j < 12; ++j) g += rand()
+        if ($c["t"] > 14 && kind == "soft") $f *= 0.7
+        if ($c["t"] > 14 && kind == "bias" && k == 2) $f += 0.1
+        $f = sprintf("%.6f", $f + 0.01 * g) } print }' clean.csv
+}
+follow() { stream "$1" | "$bin/hs-compare" --follow - --body body.ply --model model.csv --rate 200 \
+  --learning 6 --events "$1.events" >"$1.out" 2>err || complain "$1 was not followed"; }
+for kind in none soft bias; do
+  follow $kind
+  [[ $(grep -c '^[0-9]' $kind.out) == 4800 ]] || complain 'not every row was answered'
+done
+[[ $(wc -l <none.events) == 1 ]] || complain 'an alarm without a change'
+awk -F, 'NR == 2 { exit !($4 == "material" && $5 > 0.65 && $5 < 0.75 && $2 > 14 && $2 < 16) }' soft.events ||
+  complain 'the softer body was not named'
+awk -F, 'NR == 2 { exit !($4 == "sensor" && $8 > 0.08 && $8 < 0.12) }' bias.events ||
+  complain 'the bias was not named'
+for kind in soft bias; do # the last 4 s: noise alone is left
+  awk -F, '/^#/ || !n++ { next } $2 > 21 { s += $16 ^ 2 + $17 ^ 2 + $18 ^ 2; m += 3 } END { exit !(m > 0 && sqrt(s / m) < 0.013) }' $kind.out ||
+    complain "the model did not go on with it: $kind"
+done
+
+refuse() { # CODE TEXT ARGUMENTS...
+  local code=$1 text=$2 got
+  shift 2
+  "$bin/hs-compare" "$@" >/dev/null 2>err </dev/null
+  got=$?
+  ((got == code)) && grep -qF -- "$text" err && [[ $(wc -l <err) == 1 ]] ||
+    complain "exit $got, not $code with '$text': $*"
+}
+refuse 2 '--follow needs --model' --follow clean.csv --body body.ply
+refuse 2 'is of a stream' clean.csv --simulated clean.csv --events e.csv
+refuse 2 '--simulated is required' clean.csv
+refuse 3 "'fx'" --follow motion.csv --body body.ply --model model.csv
+
+((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

@@ -1,0 +1,142 @@
+// hs-compare --follow: a stream of measured forces watched against a model.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/tool.h"
+#include "geometry/tetmesh.h"
+#include "io/csv.h"
+#include "model/edit.h"
+#include "realtime/motion_lines.h"
+#include "realtime/watch.h"
+
+namespace hapsim {
+
+inline std::vector<Option> follow_flags() {
+  return {
+      {.flag = "--follow",
+       .kind = OptionKind::kSwitch,
+       .help = "Watches a stream: each row is compared with --model on --body as it comes."},
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "Follow: radius of the flat tool [m]; otherwise the stream's metadata.",
+       .minimum = 1e-6,
+       .maximum = 1},
+      {.flag = "--rate",
+       .kind = OptionKind::kNumber,
+       .value = "HZ",
+       .help = "Follow: rows a second.",
+       .default_text = "1000",
+       .minimum = 1,
+       .maximum = 100000},
+      {.flag = "--learning",
+       .kind = OptionKind::kNumber,
+       .value = "S",
+       .help = "Follow: time in contact, at the beginning, in which the usual error is learned.",
+       .default_text = "5",
+       .minimum = 0.5,
+       .maximum = 36000},
+      {.flag = "--false-alarms",
+       .kind = OptionKind::kNumber,
+       .value = "N",
+       .help = "Follow: false alarms an hour that are put up with.",
+       .default_text = "0.1",
+       .minimum = 1e-6,
+       .maximum = 100},
+      {.flag = "--events",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Follow: writes what has changed, and how the model went on (CSV)."},
+      {.flag = "--hold",
+       .kind = OptionKind::kSwitch,
+       .help = "Follow: alarms are told and the model stays as it is."}};
+}
+
+inline int run_follow(const Arguments& arguments) {
+  for (const char* flag : {"--body", "--model"})
+    if (!arguments.given(flag)) fail_usage(std::string("--follow needs ") + flag, "give it");
+  for (const char* flag : {"--simulated", "--html", "--json", "--ply", "--fail-above"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of whole recordings", "leave it out, or --follow");
+  Input model_input(arguments.text("--model"));
+  const Model model = read_model(model_input);
+  Input body_input(arguments.text("--body"));
+  const TetMesh mesh = read_body(body_input);
+  Input input(arguments.input());
+  MotionLines lines(input, true);
+  if (!lines.has_contact_point())
+    fail_input(input.name(), "there are no contact points", "give press,t,x,y,z,ux,uy,uz,fx,fy,fz");
+  PreparedBodyOptions options;
+  options.tool_radius = arguments.given("--tool-radius")
+                            ? arguments.number("--tool-radius")
+                            : lines.metadata().number("tool_radius", input.name()).value_or(0);
+  if (!(options.tool_radius > 0))
+    fail_usage("the stream does not say its tool's radius", "give --tool-radius M [m]");
+  const PreparedBody body(mesh, model, options);
+  WatchOptions watch_options;
+  watch_options.rate = arguments.number("--rate");
+  watch_options.learning = arguments.number("--learning");
+  watch_options.false_alarms = arguments.number("--false-alarms");
+  watch_options.adapts = !arguments.given("--hold");
+  ModelWatch watch(body, watch_options);
+  Metadata metadata = lines.metadata();
+  metadata.set("simulated", effects_label(model) + ", followed");
+  Output output(arguments.output());
+  std::vector<std::string> header = kForceColumns;
+  header.insert(header.end(), {"sx", "sy", "sz", "rx", "ry", "rz"});
+  CsvWriter(output.stream(), metadata, header);
+  output.stream().flush();
+  const auto line_said = [&](const std::string& text) { say(arguments, "hs-compare", text); };
+  MotionLine line;
+  std::string text;
+  std::size_t told = 0;
+  bool learned = false;
+  while (lines.next(line)) {
+    const Vec3 measured = lines.force();
+    const Vec3 simulated = watch.step(line, measured);
+    write_force_line(text, line, measured);
+    text.pop_back();
+    for (const Vec3& v : {simulated, Vec3(measured - simulated)})
+      for (int k = 0; k < 3; ++k) text += ',' + format_number(v[k] == 0 ? 0.0 : v[k]);
+    output.stream() << text << '\n';
+    output.stream().flush();
+    if (!learned && watch.learned()) {
+      learned = true;
+      line_said(
+          fmt::format("usual error {:.3g} N; alarm when the cumulative sum is above {:.3g}, "
+                      "{:g} false ones an hour",
+                      watch.usual_error(), watch.limit(), watch_options.false_alarms));
+    }
+    for (; told < watch.events().size(); ++told) {
+      const WatchEvent& e = watch.events()[told];
+      line_said(fmt::format(
+          "{:.3f} s: {} since about {:.3f} s (alarm at {:.3f} s); error {:.3g} N "
+          "with the correction, usually {:.3g} N",
+          e.named, change_name(e.change), e.begun, e.alarm, e.error_with, e.error_before));
+    }
+  }
+  output.commit();
+  if (arguments.given("--events")) {
+    Output events(arguments.text("--events"));
+    CsvWriter csv(events.stream(), {},
+                  {"begun", "alarm", "named", "change", "stiffness", "bias_x", "bias_y", "bias_z",
+                   "shift_x", "shift_y", "shift_z", "error"});
+    for (const WatchEvent& e : watch.events()) {
+      std::vector<std::string> row{format_number(e.begun), format_number(e.alarm),
+                                   format_number(e.named), change_name(e.change),
+                                   format_number(e.correction.gone ? 0 : e.correction.stiffness)};
+      for (const Vec3* v : {&e.correction.bias, &e.correction.shift})
+        for (int k = 0; k < 3; ++k) row.push_back(format_number((*v)[k]));
+      row.push_back(format_number(e.error_with));
+      csv.row(row);
+    }
+    events.commit();
+  }
+  line_said(fmt::format("{} change{} noticed", watch.events().size(),
+                        watch.events().size() == 1 ? "" : "s"));
+  return 0;
+}
+
+}  // namespace hapsim
