@@ -6,7 +6,13 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "io/csv.h"
+#include "model/edit.h"
+#include "model/full_simulation.h"
 #include "realtime/fuse_recordings.h"
+#include "realtime/fused_loop.h"
+#include "realtime/live_session.h"
+#include "realtime/motion_lines.h"
+#include "realtime/real_time.h"
 
 namespace hapsim {
 namespace {
@@ -35,12 +41,14 @@ ToolSpec specification() {
       "With --exact the error and the largest step per millisecond are told, beside those of the "
       "fast source alone, of the last slow force held, and of the last two drawn on."};
   spec.options = {
-      {.flag = "--slow",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "Slow forces: a recording of the same presses at times of its own; a column arrives "
-               "[s] tells when each row is there.",
-       .required = true},
+      {
+          .flag = "--slow",
+          .kind = OptionKind::kFile,
+          .value = "FILE",
+          .help =
+              "Slow forces: a recording of the same presses at times of its own; a column arrives "
+              "[s] tells when each row is there.",
+      },
       {.flag = "--delay",
        .kind = OptionKind::kNumber,
        .value = "S",
@@ -48,6 +56,36 @@ ToolSpec specification() {
        .default_text = "0",
        .minimum = 0,
        .maximum = 100},
+      {.flag = "--live",
+       .kind = OptionKind::kSwitch,
+       .help =
+           "Answers a motion line by line: --acfm is the fast source, finite elements of --model "
+           "on --body run beside it at their own pace."},
+      {.flag = "--body",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Live: body from hs-tetmesh; its own mesh is pressed (hs-tetmesh --contacts)."},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Live: model of the finite elements, as for hs-simulate --full."},
+      {.flag = "--acfm",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Live: analytical model from hs-identify --acfm."},
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "Live: radius of the flat tool [m]; otherwise the motion's metadata.",
+       .minimum = 1e-6,
+       .maximum = 1},
+      {.flag = "--rate",
+       .kind = OptionKind::kNumber,
+       .value = "HZ",
+       .help = "Live: takes the lines at this rate by the clock.",
+       .default_text = "1000",
+       .minimum = 1,
+       .maximum = 100000},
       {.flag = "--parameters",
        .kind = OptionKind::kFile,
        .value = "FILE",
@@ -80,7 +118,10 @@ ToolSpec specification() {
        "Learns the filter and fuses."},
       {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --parameters filter.csv --exact fine.csv -o "
        "fused.csv",
-       "Another motion with it, compared with the exact forces."}};
+       "Another motion with it, compared with the exact forces."},
+      {"hs-fuse --live motion.csv --body body.ply --model finite.csv --acfm acfm.csv --parameters "
+       "filter.csv",
+       "Finite elements beside a loop at 1 kHz."}};
   spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};
   return spec;
 }
@@ -108,7 +149,97 @@ void compare_with(const Arguments& arguments, const Recording& fast, const Fused
   line("exact", exact.f);
 }
 
+FusionParameters given_parameters(const Arguments& arguments) {
+  if (!arguments.given("--parameters")) return {};
+  Input file(arguments.text("--parameters"));
+  return read_fusion(file);
+}
+
+void tell(const Arguments& arguments, const FusionReport& report) {
+  const auto band = report.band();
+  const double mean = report.mean_nis();
+  say(arguments, "hs-fuse",
+      fmt::format(
+          "{} slow forces taken, {} refused; NIS {:.3g}, {} its 95 % band {:.3g} to {:.3g}; "
+          "{:.1f} % of them single below their 95 % point; correlation with the one before "
+          "{:.2f}",
+          report.observations, report.refused, mean,
+          mean >= band[0] && mean <= band[1] ? "within" : "outside", band[0], band[1],
+          100.0 * static_cast<double>(report.within) /
+              static_cast<double>(std::max(report.observations, 1L)),
+          report.correlation()));
+}
+
+class FinitePress : public SlowPress {
+ public:
+  FinitePress(const TetMesh& body, const Model& model, const Vec3& contact, double radius)
+      : press_(body, model, contact, radius, own_mesh()) {}
+  Vec3 step(const Vec3& u, double dt) override { return press_.step(u, dt); }
+
+ private:
+  static FullOptions own_mesh() {
+    FullOptions options;
+    options.own_mesh = true;
+    return options;
+  }
+  FullPress press_;
+};
+
+int run_live_fusion(const Arguments& arguments) {
+  for (const char* flag : {"--body", "--model", "--acfm"})
+    if (!arguments.given(flag)) fail_usage(std::string("--live needs ") + flag, "give it");
+  for (const char* flag : {"--slow", "--learn", "--exact", "--delay"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of whole recordings", "leave it out, or --live");
+  Input model_input(arguments.text("--model")), acfm_input(arguments.text("--acfm"));
+  const Model model = read_model(model_input);
+  const Acfm acfm = read_acfm(acfm_input);
+  const TetMesh body = load_body(arguments);
+  const SignedDistance surface(boundary_surface(body), "body");
+  Input input(arguments.input());
+  MotionLines motion(input);
+  const double radius = arguments.given("--tool-radius")
+                            ? arguments.number("--tool-radius")
+                            : motion.metadata().number("tool_radius", input.name()).value_or(0);
+  if (!(radius > 0))
+    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+  AcfmLoop fast(acfm);
+  FusedLoop loop(
+      fast,
+      [&](const Vec3& contact) {
+        return std::make_unique<FinitePress>(body, model, contact, radius);
+      },
+      given_parameters(arguments), &surface);
+  LiveOptions live;
+  live.rate = arguments.number("--rate");
+  Metadata metadata = motion.metadata();
+  metadata.set("simulated", "acfm, fused with " + effects_label(model));
+  Output output(arguments.output());
+  CsvWriter(output.stream(), metadata, kForceColumns);
+  output.stream().flush();
+  LiveReport report;
+  say(arguments, "hs-fuse", enter_real_time());  // this thread alone; the solver has begun before
+  run_live(motion, output.stream(), loop, live, report);
+  leave_real_time();
+  loop.stop();
+  output.commit();
+  say(arguments, "hs-fuse",
+      report.latency.summary() + fmt::format("; {} later than a period", report.misses));
+  say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
+  tell(arguments, loop.report());
+  if (!loop.failure().empty())
+    fail_numerics("", "the finite elements stopped: " + loop.failure(),
+                  "the rest is the analytical model's alone");
+  return 0;
+}
+
 int run(const Arguments& arguments) {
+  if (arguments.given("--live")) return run_live_fusion(arguments);
+  for (const char* flag : {"--body", "--model", "--acfm", "--tool-radius", "--rate"})
+    if (arguments.given(flag))
+      fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
+  if (!arguments.given("--slow"))
+    fail_usage("--slow is required", "give the slow forces, or --live");
   if (arguments.given("--learn") && arguments.given("--parameters"))
     fail_usage("--learn finds what --parameters gives", "leave one of them out");
   Input input(arguments.input());
@@ -116,11 +247,7 @@ int run(const Arguments& arguments) {
   Input slow_input(arguments.text("--slow"));
   const Recording slow = read_recording(slow_input);
   const SlowSource source{&slow, arguments.number("--delay")};
-  FusionParameters parameters;
-  if (arguments.given("--parameters")) {
-    Input file(arguments.text("--parameters"));
-    parameters = read_fusion(file);
-  }
+  FusionParameters parameters = given_parameters(arguments);
   if (arguments.given("--learn")) {
     const LearnedFusion learned = learn_fusion(fast, source, parameters);
     parameters = learned.parameters;
@@ -134,19 +261,7 @@ int run(const Arguments& arguments) {
     say(arguments, "hs-fuse", fmt::format("parameters learned in {} runs", learned.runs));
   }
   const FusedForces fused = fuse(fast, source, parameters);
-  const FusionReport& report = fused.report;
-  const auto band = report.band();
-  const double mean = report.mean_nis();
-  say(arguments, "hs-fuse",
-      fmt::format(
-          "{} slow forces taken, {} refused; NIS {:.3g}, {} its 95 % band {:.3g} to {:.3g}; "
-          "{:.1f} % of them single below their 95 % point; correlation with the one before "
-          "{:.2f}",
-          report.observations, report.refused, mean,
-          mean >= band[0] && mean <= band[1] ? "within" : "outside", band[0], band[1],
-          100.0 * static_cast<double>(report.within) /
-              static_cast<double>(std::max(report.observations, 1L)),
-          report.correlation()));
+  tell(arguments, fused.report);
   if (arguments.given("--exact")) compare_with(arguments, fast, fused);
   fast.f = fused.force;
   for (int k = 0; k < 3; ++k) {

@@ -16,6 +16,7 @@
 #include "fem/support_springs.h"
 #include "fem/tool_body.h"
 #include "fem/unit_law.h"
+#include "io/number.h"
 #include "model/forces.h"
 #include "model/nearest_region.h"
 #include "model/relaxation.h"
@@ -156,6 +157,26 @@ class Simulation {
       solve(steps, continues, ++number);
     }
     return std::move(result_);
+  }
+
+  // The first row's press alone, in steps from outside.
+  void begin() {
+    if (!around_.empty())
+      fail_usage("steps from outside are of the body itself, without " +
+                     around_.front().effect->card().name,
+                 "take it out of the model");
+    Steps steps;
+    steps.rows = {{0}};
+    prepare(steps);
+  }
+  Vec3 advance(const Vec3& u, double dt) {
+    const SolveReport report = session_->body->step({{u, false}}, dt);
+    if (!report.ok()) {
+      const std::size_t split = report.message.find("; ");
+      fail_numerics(recording_.name, report.message.substr(0, split),
+                    report.message.substr(split + 2));
+    }
+    return session_->body->force(0);
   }
 
  private:
@@ -342,6 +363,38 @@ class Simulation {
 FullResult simulate_full(const TetMesh& body, const Model& model, const Recording& recording,
                          const FullOptions& options) {
   return Simulation(body, model, recording, options).run();
+}
+
+struct FullPress::Impl {
+  Impl(const TetMesh& body, const Model& model, const Vec3& contact, double tool_radius,
+       const FullOptions& full)
+      : options(full),
+        recording(one_row(contact, tool_radius)),
+        simulation(body, model, recording, options) {
+    simulation.begin();
+  }
+  static Recording one_row(const Vec3& contact, double tool_radius) {
+    Recording r;
+    r.name = "press";
+    r.metadata.set("tool_radius", format_number(tool_radius));
+    r.line = {1};
+    r.press = {1};
+    r.t = {0};
+    r.position = {contact};
+    r.u = {Vec3::Zero()};
+    return r;
+  }
+  FullOptions options;
+  Recording recording;
+  Simulation simulation;
+};
+
+FullPress::FullPress(const TetMesh& body, const Model& model, const Vec3& contact,
+                     double tool_radius, const FullOptions& options)
+    : impl_(std::make_unique<Impl>(body, model, contact, tool_radius, options)) {}
+FullPress::~FullPress() = default;
+Vec3 FullPress::step(const Vec3& u, double dt) {
+  return impl_->simulation.advance(u, dt);
 }
 
 }  // namespace hapsim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "fem/body_assembly.h"
@@ -48,5 +49,21 @@ struct FullResult {
 // converge, and how far it came.
 FullResult simulate_full(const TetMesh& body, const Model& model, const Recording& recording,
                          const FullOptions& options);
+
+// One press of one tool, step by step, where the motion is not known beforehand. Errors as above;
+// also Error(kUsage): effects on the motion or of the sensor. `body` must outlive it. Not to be
+// shared between threads.
+class FullPress {
+ public:
+  FullPress(const TetMesh& body, const Model& model, const Vec3& contact, double tool_radius,
+            const FullOptions& options);
+  ~FullPress();
+  // To the displacement u [m], dt [s] after the last step: the force on the tool [N].
+  Vec3 step(const Vec3& u, double dt);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace hapsim

@@ -1,0 +1,84 @@
+#include "realtime/fused_loop.h"
+
+#include <chrono>
+
+#include "base/error.h"
+#include "realtime/real_time.h"
+
+namespace hapsim {
+namespace {
+
+constexpr std::size_t kQueue = 4096;
+constexpr std::chrono::microseconds kIdle{200};
+
+}  // namespace
+
+FusedLoop::FusedLoop(ToolLoop& fast, SlowMaker slow, const FusionParameters& parameters,
+                     const SignedDistance* surface, const ToolLoopOptions& options)
+    : ToolLoop(surface, options),
+      fast_(fast),
+      make_(std::move(slow)),
+      fusion_(parameters),
+      there_(kQueue),
+      back_(kQueue),
+      thread_([this] { work(); }) {}
+
+FusedLoop::~FusedLoop() {
+  stop();
+}
+
+void FusedLoop::stop() {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void FusedLoop::take_place(const Place& place) noexcept {
+  fast_.begin(place.point);
+  point_ = place.point;
+  ++contact_;
+  begins_ = true;
+}
+
+Vec3 FusedLoop::advance(double t, const Vec3& u) noexcept {
+  if (begins_) fusion_.begin(t);
+  begins_ = false;
+  const Vec3 fused = fusion_.step(t, u, fast_.press(t, u));
+  there_.push({contact_, t, point_, u});
+  for (Sample slow; back_.pop(slow);)
+    if (slow.contact == contact_) fusion_.observe(slow.t, slow.u);
+  return fused;
+}
+
+void FusedLoop::work() {
+  try {
+    std::unique_ptr<SlowPress> press;
+    Sample newest, sample;
+    long contact = 0;
+    double last = 0;
+    while (!stop_) {
+      bool any = false;
+      while (there_.pop(sample)) {
+        newest = sample;
+        any = true;
+      }
+      if (!any) {
+        std::this_thread::sleep_for(kIdle);
+        continue;
+      }
+      const std::int64_t start = monotonic_ns();
+      if (newest.contact != contact) {
+        press = make_(newest.point);
+        contact = newest.contact;
+        last = newest.t;
+      }
+      const Vec3 force = press->step(newest.u, newest.t > last ? newest.t - last : 0);
+      last = newest.t;
+      slow_steps_.add(monotonic_ns() - start);
+      back_.push({contact, newest.t, newest.point, force});
+    }
+  } catch (const Error& error) {
+    failure_ = error.what();
+  }
+}
+
+}  // namespace hapsim

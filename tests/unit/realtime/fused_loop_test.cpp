@@ -1,0 +1,65 @@
+// The loop with a thread beside it: right forces, failure of the thread, no race (thread
+// sanitizer).
+#include "realtime/fused_loop.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "base/error.h"
+
+namespace hapsim {
+namespace {
+
+Acfm springs() {
+  Acfm model;
+  model.positions.resize(1);
+  for (AcfmAxis& axis : model.positions[0].axis) axis.value[0] = 400;
+  return model;
+}
+
+// The truth is a quarter stiffer; it takes a few milliseconds.
+class Stiffer : public SlowPress {
+ public:
+  Vec3 step(const Vec3& u, double) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+    if (u.z() < -0.0099) fail_numerics("press", "too deep", "press less");
+    return -500 * u;
+  }
+};
+
+Vec3 run(FusedLoop& loop, double deepest, int samples) {
+  Vec3 f = Vec3::Zero();
+  loop.begin(Vec3::Zero());
+  for (int i = 0; i <= samples; ++i) {
+    f = loop.press(1e-3 * i, {0, 0, -deepest * i / samples});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return f;
+}
+
+TEST(FusedLoop, IsPutRightByItsThread) {
+  const Acfm model = springs();
+  AcfmLoop fast(model);
+  FusedLoop loop(fast, [](const Vec3&) { return std::make_unique<Stiffer>(); }, {});
+  for (int press = 0; press < 3; ++press) run(loop, 0.005, 300);
+  const double f = run(loop, 0.005, 300).z();
+  loop.stop();
+  EXPECT_EQ(loop.failure(), "");
+  EXPECT_GT(loop.report().observations, 20);
+  EXPECT_GT(loop.slow_steps().count(), loop.report().observations);
+  EXPECT_NEAR(f, 2.5, 0.1);  // the fast source alone says 2
+}
+
+TEST(FusedLoop, GoesOnWhenItsThreadFails) {
+  const Acfm model = springs();
+  AcfmLoop fast(model);
+  FusedLoop loop(fast, [](const Vec3&) { return std::make_unique<Stiffer>(); }, {});
+  const double f = run(loop, 0.0115, 200).z();
+  loop.stop();
+  EXPECT_NE(loop.failure().find("too deep"), std::string::npos);
+  EXPECT_GT(f, 4);
+}
+
+}  // namespace
+}  // namespace hapsim
