@@ -27,8 +27,8 @@ ToolSpec specification() {
       "which hs-identify works, are not part of the body. An effect that the other program cannot "
       "have "
       "is refused by its name.",
-      "vtu and gmsh hold the mesh alone, its regions by the model's, and for vtu the moduli; "
-      "hs-tetmesh reads both back, and so does every tool that takes --body."};
+      "vtu and gmsh hold the mesh alone, its regions by the model's, and for vtu the moduli. "
+      "hs-tetmesh reads these two and calculix back, and so does every tool that takes --body."};
   spec.options = {
       {.flag = "--format",
        .kind = OptionKind::kChoice,
@@ -41,7 +41,8 @@ ToolSpec specification() {
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (VTU, Gmsh).",
+       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (VTU, Gmsh, "
+               "CalculiX).",
        .required = true},
       {.flag = "--data",
        .kind = OptionKind::kFile,

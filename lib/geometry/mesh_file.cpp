@@ -214,7 +214,8 @@ bool is_mesh_file(const std::string& bytes) {
     const std::size_t end = bytes.find("end_header");
     return bytes.substr(0, end).find("element tetrahedron") != bytes.npos;
   }
-  return is_vtu(bytes) || starts(bytes, "$MeshFormat") || is_tetgen_file(bytes);
+  return is_vtu(bytes) || starts(bytes, "$MeshFormat") || is_tetgen_file(bytes) ||
+         is_abaqus_deck(bytes);
 }
 
 MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool mend) {
@@ -227,8 +228,10 @@ MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool men
     raw = parse_gmsh_mesh(bytes, where);
   else if (is_tetgen_file(bytes))
     raw = parse_tetgen_mesh(bytes, where);
+  else if (is_abaqus_deck(bytes))
+    raw = parse_abaqus_mesh(bytes, where);
   else
-    fail_input(where, bytes.empty() ? "empty input" : "not a PLY, VTU, Gmsh or TetGen mesh",
+    fail_input(where, bytes.empty() ? "empty input" : "not a PLY, VTU, Gmsh, TetGen or Abaqus mesh",
                "write it with hs-tetmesh");
   return finished(raw, where, mend);
 }

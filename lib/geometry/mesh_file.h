@@ -24,7 +24,7 @@ struct MeshFile {
 };
 
 // Whether the bytes begin as a mesh of tetrahedra does: PLY with the element tetrahedron, VTU,
-// Gmsh, TetGen's .node or .ele.
+// Gmsh, TetGen's .node or .ele, a deck of Abaqus.
 bool is_mesh_file(const std::string& bytes);
 
 // By content:
@@ -35,6 +35,8 @@ bool is_mesh_file(const std::string& bytes);
 //   Gmsh     2.2 and 4.1, ASCII; types 4 and 11; region: the physical volume's number, or N when it
 //            is named region_N; fixed: node data `fixed`, or the physical surface named fixed
 //   TetGen   .node or .ele, the other one is read from beside it; region: the first attribute
+//   Abaqus   and CalculiX: nodes, C3D4 or C3D10, before the first step; region: element sets
+//            REGION_k; fixed: the node set FIXED, and what *BOUNDARY holds in all three directions
 // `mend`: repair what MeshRepairs lists instead of refusing the inverted and leaving the doubled.
 // Error(kBadInput) with file and line (text) or place: truncated, index out of range, flat
 // tetrahedron, faces of more than two tetrahedra, middles that are not on their edges.

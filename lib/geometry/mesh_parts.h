@@ -31,6 +31,8 @@ RawMesh parse_vtu_mesh(const std::string& bytes, const std::string& where);
 RawMesh parse_gmsh_mesh(const std::string& bytes, const std::string& where);
 RawMesh parse_tetgen_mesh(const std::string& bytes, const std::string& where);
 bool is_tetgen_file(const std::string& bytes);
+RawMesh parse_abaqus_mesh(const std::string& bytes, const std::string& where);
+bool is_abaqus_deck(const std::string& bytes);
 
 // Words of a text file with the line they stand in.
 class TextScanner {

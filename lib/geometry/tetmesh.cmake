@@ -6,7 +6,7 @@ target_sources(hapsim_geometry PRIVATE
   curve_edges.cpp
   inner_regions.cpp
   insert_points.cpp
-  mesh_abaqus.cpp
+  mesh_abaqus.cpp mesh_abaqus_read.cpp
   mesh_file.cpp
   mesh_gmsh_read.cpp
   mesh_gmsh_write.cpp
