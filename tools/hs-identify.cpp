@@ -270,11 +270,10 @@ int run(const Arguments& arguments) {
             w.dataset, folds, *w.body, quick)
             .rmse;
   }
-  if (watch.interrupted() && cut_short.empty()) {
+  if (watch.end() && cut_short.empty()) {
     cut_short = "the error on unseen data was found";
     held_out = std::nan("");
   }
-  watch.clear();
   Model& model = result.model;
   describe_fit(model, plan, w, result.rmse);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));

@@ -50,25 +50,31 @@ inline SearchState search_asked(const Arguments& arguments, const Model& start) 
   return *state;
 }
 
-// Watches the fits from now on.
+// Watches the fits until end(); before and after, a signal ends the process as it always does.
 class SearchWatch {
  public:
   explicit SearchWatch(const Arguments& arguments)
-      : progress_(std::make_unique<Progress>(arguments, "fit", 0)) {}
+      : interrupt_(std::make_unique<Interrupt>()),
+        progress_(std::make_unique<Progress>(arguments, "fit", 0)) {}
   std::function<bool(const FitProgress&)> watch() {
     return [this](const FitProgress& p) {
       const std::string error = std::isnan(p.rmse) ? "" : fmt::format("error {:.4g} N", p.rmse);
       if (progress_)
         progress_->show(
             p.starts > 1 ? fmt::format("start {} of {}, {}", p.start + 1, p.starts, error) : error);
-      return !interrupt_.asked();
+      return !interrupted();
     };
   }
-  bool interrupted() const { return interrupt_.asked(); }
-  void clear() { progress_.reset(); }  // the line on the terminal
+  bool interrupted() const { return interrupt_ && interrupt_->asked(); }
+  bool end() {  // whether it was interrupted
+    const bool asked = interrupted();
+    interrupt_.reset();
+    progress_.reset();
+    return asked;
+  }
 
  private:
-  Interrupt interrupt_;
+  std::unique_ptr<Interrupt> interrupt_;
   std::unique_ptr<Progress> progress_;
 };
 
