@@ -1,0 +1,58 @@
+// A haptic device driven by hapsim, through CHAI3D 3.2 (https://www.chai3d.org): its first device
+// presses the body. usage: device_chai3d X Y Z SCALE hs-simulate-arguments...
+//   X Y Z [m]: where in the body's frame the middle of the device's workspace is; SCALE: how much
+//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware.
+#include <chai3d.h>
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "hapsim_stream.h"
+
+namespace {
+std::atomic<bool> stopped{false};
+}
+
+int main(int argc, char** argv) {
+  if (argc < 6) {
+    std::fprintf(stderr, "usage: %s X Y Z SCALE --body body.ply --model m.csv --tool-radius 0.004\n",
+                 argv[0]);
+    return 2;
+  }
+  const double scale = std::atof(argv[4]);
+  const double middle[3] = {std::atof(argv[1]), std::atof(argv[2]), std::atof(argv[3])};
+  chai3d::cHapticDeviceHandler handler;
+  chai3d::cGenericHapticDevicePtr device;
+  if (!handler.getDevice(device, 0) || !device->open()) {
+    std::fprintf(stderr, "no haptic device\n");
+    return 5;
+  }
+  device->calibrate();
+  const double strongest = device->getSpecifications().m_maxLinearForce;
+  std::signal(SIGINT, [](int) { stopped = true; });
+  int code = 0;
+  try {
+    HapsimStream hapsim(std::vector<std::string>(argv + 5, argv + argc));
+    const auto start = std::chrono::steady_clock::now();
+    while (!stopped) {  // CHAI3D's devices pace the loop
+      chai3d::cVector3d p;
+      device->getPosition(p);
+      const double t =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const auto f = hapsim.force(
+          t, {middle[0] + scale * p.x(), middle[1] + scale * p.y(), middle[2] + scale * p.z()});
+      chai3d::cVector3d force(f[0], f[1], f[2]);
+      if (force.length() > strongest) force.mul(strongest / force.length());
+      device->setForce(force);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    code = 4;
+  }
+  device->setForce(chai3d::cVector3d(0, 0, 0));
+  device->close();
+  return code;
+}
