@@ -11,6 +11,7 @@
 #include "estimate/identifiability.h"
 #include "identify_acfm.h"
 #include "identify_boundary.h"
+#include "identify_follow.h"
 #include "identify_image.h"
 #include "identify_library.h"
 #include "identify_plan.h"
@@ -183,6 +184,10 @@ int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspa
 }
 
 int run(const Arguments& arguments) {
+  if (arguments.given("--follow")) return run_follow(arguments);
+  for (const Option& option : follow_flags())
+    if (arguments.given(option.flag))
+      fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
   if (arguments.given("--acfm")) return run_acfm(arguments);
   if (arguments.given("--stiffening"))
     fail_usage("--stiffening is of analytical models", "add --acfm N, or --add hyperelastic");

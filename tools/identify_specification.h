@@ -4,6 +4,7 @@
 #include "common_options.h"
 #include "effects/catalogue.h"
 #include "identify_boundary.h"
+#include "identify_follow.h"
 #include "identify_image.h"
 #include "identify_library.h"
 #include "identify_search.h"
@@ -34,6 +35,9 @@ inline ToolSpec identify_specification() {
       "hs-simulate interpolates: no finite elements, so it needs no relaxation common to all "
       "directions, and answers in well under a microsecond. Recordings or forces of hs-simulate "
       "serve alike. A direction that was not moved is derived from the others.",
+      "--follow identifies from a stream while it comes: forces are linear in the moduli, so unit "
+      "forces of the body's own mesh and least squares that grow row by row cost about one force "
+      "evaluation a row.",
       "Effects: " + effect_names() + "."};
   spec.options = workspace_flags();
   const std::vector<Option> own{
@@ -126,7 +130,7 @@ inline ToolSpec identify_specification() {
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
            "need not be symmetric."}};
-  for (const auto& more : {own, search_flags(), library_flags()})
+  for (const auto& more : {own, search_flags(), library_flags(), follow_flags()})
     spec.options.insert(spec.options.end(), more.begin(), more.end());
   spec.tables = {
       {"Model (output)",

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# follow.sh BIN: hs-compare --follow answers row by row, notices a changed stiffness and a changed
+# follow.sh BIN: hs-identify --follow finds the modulus, hs-compare --follow answers row by row, notices a changed stiffness and a changed
 # zero of the sensor, names them and goes on with them.
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
 
@@ -35,6 +35,14 @@ for kind in soft bias; do # the last 4 s: noise alone is left
   awk -F, '/^#/ || !n++ { next } $2 > 21 { s += $16 ^ 2 + $17 ^ 2 + $18 ^ 2; m += 3 } END { exit !(m > 0 && sqrt(s / m) < 0.013) }' $kind.out ||
     complain "the model did not go on with it: $kind"
 done
+
+# The modulus from a stream, line by line.
+stream none | "$bin/hs-identify" --follow - --body body.ply --every 400 >estimates.csv 2>err || complain 'no estimates'
+[[ $(grep -c '^[0-9]' estimates.csv) == 12 ]] || complain 'not a line every 400 rows'
+awk -F, '/^[0-9]/ { e = $3; s = $4 } END { exit !(e > 19980 && e < 20020 && s > 0 && s < 10) }' estimates.csv ||
+  complain 'E was not found'
+"$bin/hs-identify" clean.csv --body body.ply --every 3 -q >out.csv 2>err
+(($? == 2)) && grep -q 'is of a stream' err || complain '--every without --follow'
 
 refuse() { # CODE TEXT ARGUMENTS...
   local code=$1 text=$2 got

@@ -22,7 +22,7 @@ Case presses(double rise, int every, double noise = 0) {
   Case c;
   Random random(2);
   for (Recording* r : {&c.exact, &c.fast, &c.slow}) r->name = "synthetic";
-  for (int press = 1; press <= 4; ++press)
+  for (int press = 1; press <= 3; ++press)
     for (int i = 0; i <= 3000 * rise; ++i) {
       const double t = 1e-3 * i;
       const double depth = (0.003 + 0.0005 * press) * std::pow(std::sin(1.0472 * t / rise), 2);
@@ -45,7 +45,7 @@ Case presses(double rise, int every, double noise = 0) {
 }
 
 TEST(Fusion, BeatsItsSourcesAndTheirExtrapolationAtSlowAndFastMotion) {
-  const Case lesson = presses(0.3, 40);
+  const Case lesson = presses(0.2, 40);
   const LearnedFusion learned = learn_fusion(lesson.fast, {&lesson.slow, 0.04}, {});
   EXPECT_TRUE(learned.converged);
   for (const double rise : {0.1, 2.0}) {
@@ -64,7 +64,7 @@ TEST(Fusion, BeatsItsSourcesAndTheirExtrapolationAtSlowAndFastMotion) {
 }
 
 TEST(Fusion, StatesItsOwnErrorOnAnyMotion) {
-  const Case lesson = presses(0.3, 20, 0.01);
+  const Case lesson = presses(0.2, 20, 0.01);
   const LearnedFusion learned = learn_fusion(lesson.fast, {&lesson.slow, 0.02}, {});
   for (const double rise : {0.2, 1.0}) {
     const Case c = presses(rise, 20, 0.01);

@@ -1,0 +1,117 @@
+// hs-identify --follow: moduli from a stream, while it comes.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "effects/catalogue.h"
+#include "io/csv.h"
+#include "realtime/motion_lines.h"
+#include "realtime/online_identification.h"
+
+namespace hapsim {
+
+inline std::vector<Option> follow_flags() {
+  return {{.flag = "--follow",
+           .kind = OptionKind::kSwitch,
+           .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
+                   "stream of rows, and writes a line of estimates every --every rows at once."},
+          {.flag = "--times",
+           .value = "LIST",
+           .help = "Follow: relaxation times [s], at most five.",
+           .repeatable = true},
+          {.flag = "--nu",
+           .kind = OptionKind::kNumber,
+           .value = "NU",
+           .help = "Follow: Poisson's ratio.",
+           .default_text = "0.45",
+           .minimum = 0,
+           .maximum = 0.499},
+          {.flag = "--every",
+           .kind = OptionKind::kInteger,
+           .value = "N",
+           .help = "Follow: rows from one line of estimates to the next.",
+           .default_text = "100",
+           .minimum = 1,
+           .maximum = 1e9},
+          {.flag = "--memory",
+           .kind = OptionKind::kInteger,
+           .value = "N",
+           .help = "Follow: rows in which older ones fade; otherwise all count.",
+           .minimum = 10,
+           .maximum = 1e9}};
+}
+
+inline int run_follow(const Arguments& arguments) {
+  std::vector<double> times;
+  for (const std::string& text : arguments.list("--times")) {
+    double tau = 0;
+    if (!parse_number(text, tau) || !(tau > 0) || times.size() + 1 >= kMostUnknowns)
+      fail_usage("--times " + shown(text) + " is no relaxation time, or one too many",
+                 "give at most five [s]: 0.05,0.5");
+    times.push_back(tau);
+  }
+  const TetMesh mesh = load_body(arguments);
+  Input input(arguments.input());
+  MotionLines lines(input, true);
+  if (!lines.has_contact_point())
+    fail_input(input.name(), "there are no contact points", "give press,t,x,y,z,ux,uy,uz,fx,fy,fz");
+  PreparedBodyOptions options;
+  options.tool_radius = arguments.given("--tool-radius")
+                            ? arguments.number("--tool-radius")
+                            : lines.metadata().number("tool_radius", input.name()).value_or(0);
+  if (!(options.tool_radius > 0))
+    fail_usage("the stream does not say its tool's radius", "give --tool-radius M [m]");
+  Model unit;
+  unit.parameters = effect_rows(*find_effect("elastic"), 1, {1, arguments.number("--nu")});
+  const PreparedBody body(mesh, unit, options);
+  UnitResponse response(body, times);
+  OnlineIdentification identification(static_cast<int>(times.size()) + 1,
+                                      arguments.given("--memory")
+                                          ? static_cast<double>(arguments.integer("--memory"))
+                                          : std::numeric_limits<double>::infinity());
+  Output output(arguments.output());
+  std::vector<std::string> header{"t", "rows", "E", "E_std"};
+  for (std::size_t i = 1; i <= times.size(); ++i)
+    header.insert(header.end(), {fmt::format("E{}", i), fmt::format("E{}_std", i)});
+  header.push_back("rmse");
+  CsvWriter csv(output.stream(), lines.metadata(), header);
+  output.stream().flush();
+  MotionLine line;
+  long rows = 0;
+  const long every = arguments.integer("--every");
+  int press = 0;
+  const auto tell = [&] {
+    const OnlineEstimate e = identification.estimate();
+    std::vector<std::string> row{format_number(line.t), std::to_string(rows)};
+    for (Eigen::Index i = 0; i < e.moduli.size(); ++i) {
+      row.push_back(fmt::format("{:.6g}", e.moduli[i]));
+      row.push_back(std::isfinite(e.error[i]) ? fmt::format("{:.3g}", e.error[i]) : "");
+    }
+    row.push_back(std::isfinite(e.rmse) ? fmt::format("{:.4g}", e.rmse) : "");
+    csv.row(row);
+    output.stream().flush();
+  };
+  while (lines.next(line)) {
+    if (rows == 0 || line.press != press) response.begin(line.point);
+    press = line.press;
+    response.press(line.t, line.u, line.in_air);
+    if (!line.in_air) identification.add(response.unit_forces(), lines.force());
+    if (++rows % every == 0) tell();
+  }
+  if (rows == 0) fail_input(input.name(), "there are no rows", "send some");
+  if (rows % every != 0) tell();
+  output.commit();
+  const OnlineEstimate e = identification.estimate();
+  std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", e.moduli[0], e.error[0]);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    words +=
+        fmt::format(", {:.4g} Pa at {:g} s", e.moduli[static_cast<Eigen::Index>(i + 1)], times[i]);
+  say(arguments, "hs-identify", fmt::format("{} rows: {}; error {:.3g} N", rows, words, e.rmse));
+  return 0;
+}
+
+}  // namespace hapsim
