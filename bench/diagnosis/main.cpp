@@ -154,7 +154,9 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w
     drawn.model = base;
     for (const std::string& name : truth.parts) {
       const Truth& part = find_truth(all, name);
-      const double strength = strength_for(part, w, levels.of(part, w, seed) * kNoise, own);
+      const double strength = part.sizes > 0
+                                  ? 1 + (seed - 1) % part.sizes
+                                  : strength_for(part, w, levels.of(part, w, seed) * kNoise, own);
       if (strength < 0) return {};
       drawn.model = part.model(drawn.model, strength);
     }

@@ -93,9 +93,11 @@ Truth by_place(const std::string& name, const std::function<double(const Vec3&, 
   return truth;
 }
 
-// One half of the body stiffer than the other.
+// One half of the body stiffer or softer than the other; each size costs finite elements.
 Truth halves() {
-  return of_model("regions", "regions", 3, [](const Model& base, double s) {
+  static const std::vector<double> kStiffer{0.25, 0.85, 0.45, -0.3, 0.65, 0.35, 0.75, 0.55};
+  Truth truth = of_model("regions", "regions", 0, [](const Model& base, double size) {
+    const double s = kStiffer[static_cast<std::size_t>(size) - 1];
     Model model = base;
     Parameter stiffer = *model.find("elastic", 0, "E");
     stiffer.region = 1;
@@ -111,6 +113,8 @@ Truth halves() {
       }
     return model;
   });
+  truth.most = truth.sizes = static_cast<int>(kStiffer.size());
+  return truth;
 }
 
 std::vector<Truth> own_forms() {
