@@ -23,7 +23,7 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = kName;
   spec.summary = "fill a closed surface with tetrahedra";
-  spec.input = "surface: PLY, STL or OFF, closed; or a mesh: PLY, VTU, Gmsh, TetGen";
+  spec.input = "surface: PLY, STL or OFF, closed; or a mesh: PLY, VTU, Gmsh, Abaqus, TetGen";
   spec.description = {
       "Reads a closed triangle surface, for example from hs-reconstruct, and writes the body: "
       "tetrahedra, boundary triangles and the nodes that are bonded to the support.",
@@ -39,7 +39,8 @@ ToolSpec specification() {
       "The tetrahedra are made by TetGen in a process of its own. The surface is checked: open "
       "edges, doubled vertices, flat triangles, several parts, inverted orientation and "
       "self-intersections are refused with their place, exit code 3.",
-      "A mesh of tetrahedra (PLY, VTU, Gmsh 2.2 and 4.1 in ASCII, TetGen's .node or .ele with the "
+      "A mesh of tetrahedra (PLY, VTU, Gmsh 2.2 and 4.1 in ASCII, decks of Abaqus and CalculiX, "
+      "TetGen's .node or .ele with the "
       "other beside it) is not meshed again but checked, mended and written: nodes of no "
       "tetrahedron and doubled tetrahedra are dropped, inverted ones turned, and it says so. Its "
       "fixed nodes stay unless --fixed is given; --order 2 adds middles. Flat tetrahedra are "
