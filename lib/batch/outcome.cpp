@@ -136,17 +136,33 @@ void write_summary(std::ostream& out, const Batch& batch,
     header.push_back(taken ? "manifest_" + name : name);
   }
   CsvWriter writer(out, {}, header);
-  const auto number = [](double v) { return std::isfinite(v) ? format_number(v) : std::string(); };
+  // Six digits: the last ones may differ from run to run, and equal results are to be equal bytes.
+  const auto number = [](double v) {
+    return std::isfinite(v) ? fmt::format("{:.6g}", v) : std::string();
+  };
+  const auto rounded = [&](const std::string& text) {
+    double v = 0;
+    return parse_number(text, v) ? number(v) : text;
+  };
   for (std::size_t r = 0; r < outcomes.size(); ++r) {
     const ManifestRow& row = batch.manifest.rows[r];
     const RecordingOutcome& o = outcomes[r];
     const char* state = o.state == RecordingState::kDone     ? "done"
                         : o.state == RecordingState::kFailed ? "failed"
                                                              : "not run";
-    std::vector<std::string> fields{
-        row.name,       std::to_string(row.line), state,           o.effects, o.modulus, o.nu,
-        number(o.rmse), number(o.held_out),       number(o.noise), o.verdict, o.missing, o.message,
-        o.command};
+    std::vector<std::string> fields{row.name,
+                                    std::to_string(row.line),
+                                    state,
+                                    o.effects,
+                                    rounded(o.modulus),
+                                    rounded(o.nu),
+                                    number(o.rmse),
+                                    number(o.held_out),
+                                    number(o.noise),
+                                    o.verdict,
+                                    o.missing,
+                                    o.message,
+                                    o.command};
     fields.insert(fields.end(), row.extra.begin(), row.extra.end());
     writer.row(fields);
   }
