@@ -237,9 +237,41 @@ void compliances_heading() {
       "  ratio difference\n");
 }
 
+// A day of steps at 1 kHz in one contact, as fast as they go; at its end against a loop that began
+// a thousand seconds before it.
+void day(const Named& body, int terms) {
+  PreparedBodyOptions prepare;
+  prepare.tool_radius = kRadius;
+  const PreparedBody prepared(body.mesh, model_with(terms), prepare);
+  const Vec3 middle(0.5 * (body.low.x() + body.high.x()), 0.5 * (body.low.y() + body.high.y()),
+                    body.high.z());
+  const auto u = [](long i) {
+    const double t = 1e-3 * static_cast<double>(i % 7919);  // periods that meet after long
+    return Vec3(2e-4 * std::sin(3 * t), 0, -0.002 * (1 - std::cos(5 * t)));
+  };
+  ForceLoop whole(prepared), late(prepared);
+  whole.begin(middle);
+  late.begin(middle);
+  const long steps = 86'400'000, join = steps - 1'000'000, check = steps - 10'000;
+  double largest = 0, difference = 0;
+  const std::int64_t start = monotonic_ns();
+  for (long i = 0; i < steps; ++i) {
+    const double t = 1e-3 * static_cast<double>(i);
+    const Vec3 f = whole.press(t, u(i));
+    if (i < join) continue;
+    const Vec3 g = late.press(t, u(i));
+    if (i < check) continue;
+    largest = std::max(largest, f.norm());
+    difference = std::max(difference, (f - g).norm());
+  }
+  fmt::print("{:<8} {:>5} {:>10} {:>9.1f} {:>12.2e}\n", body.name, terms, steps,
+             1e-3 * ms_since(start), difference / largest);
+}
+
 }  // namespace
 
-int main() {
+// bench_realtime, or bench_realtime day.
+int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each line when it is known
   prepare_blas_for_many_threads();
   fmt::print("machine: {}, {} threads; {}\n", machine(), std::thread::hardware_concurrency(),
@@ -247,6 +279,12 @@ int main() {
   const Surface block = boundary_surface(test::block_mesh({0.12, 0.21, 0.06}, 1, 1, 1, 1));
   const Named cuboid = named("cuboid", body_of(block, 568));
   const Named organ = named("organ", body_of(test::lump(12), 1763));
+  if (argc > 1 && std::string(argv[1]) == "day") {
+    fmt::print("\na day at 1 kHz, one contact\nbody     terms      steps  seconds   difference\n");
+    for (const Named* body : {&cuboid, &organ})
+      for (const int terms : {0, 2}) day(*body, terms);
+    return 0;
+  }
 
   fmt::print(
       "\nmaking ready, median of 31 [ms]\nbody      nodes    tets  unknowns     read    "
