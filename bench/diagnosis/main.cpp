@@ -173,10 +173,16 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w
   return drawn;
 }
 
-// How many of the sizes that were found hold the truth in their 95 % intervals. Orientations have
-// twins (an axis and its reverse) and are not counted.
+// How many of the sizes that were found hold the truth in their 95 % intervals. Not counted:
+// orientations, which have twins (an axis and its reverse), and another number of terms than the
+// truth has, whose values are other ones.
 void count_sizes(const Model& found, const Model& truth, Trial& trial) {
+  const auto rows = [](const Model& model, const std::string& effect) {
+    return std::count_if(model.parameters.begin(), model.parameters.end(),
+                         [&](const Parameter& p) { return p.effect == effect; });
+  };
   for (const Parameter& p : found.parameters) {
+    if (rows(found, p.effect) != rows(truth, p.effect)) continue;
     if (p.effect == "elastic" || p.state != ParameterState::kFree) continue;
     const Parameter* exact = truth.find(p.effect, p.region, p.name);
     if (exact == nullptr || (p.unit == "rad" && require_effect(p.effect).card().solved)) continue;

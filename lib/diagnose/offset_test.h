@@ -14,7 +14,8 @@ struct OffsetTest {
 // stiffness does in that press (gain_directions() of `forces`, stacked): that shows as an offset
 // too, but not where the force is small. The p-value is Fisher's F of what the offsets take away
 // over what is left in the means of ten stretches of each press, so that neighbouring samples may
-// go together; signs of whole presses cannot test offsets, which are as likely with either sign.
+// go together, and neighbouring stretches too, as an autoregression of first order; signs of whole
+// presses cannot test offsets, which are as likely with either sign.
 OffsetTest test_offsets(const Dataset& dataset, const Eigen::VectorXd& residual,
                         const Eigen::VectorXd& forces);
 

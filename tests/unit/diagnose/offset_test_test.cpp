@@ -32,8 +32,9 @@ struct Case {
   Eigen::VectorXd forces, residual;
 };
 
-// Forces of 200 N/m; the residual is noise of 1, a relative stiffness error, and offsets.
-Case make_case(std::uint64_t seed, double stiffness_error, double offset) {
+// Forces of 200 N/m; the residual is noise of 1 (an autoregression of first order by `memory`), a
+// relative stiffness error, and offsets.
+Case make_case(std::uint64_t seed, double stiffness_error, double offset, double memory = 0) {
   Case c;
   Random random(seed);
   c.forces.resize(3 * 60 * 12);
@@ -44,11 +45,13 @@ Case make_case(std::uint64_t seed, double stiffness_error, double offset) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j <= i; ++j) error(i, j) = error(j, i) = stiffness_error * random.normal();
     const Vec3 b = offset * Vec3(random.normal(), random.normal(), random.normal());
+    Vec3 noise = Vec3::Zero();
     for (std::size_t i = 0; i < e.view.size(); ++i, at += 3) {
+      const Vec3 fresh(random.normal(), random.normal(), random.normal());
+      noise = i == 0 ? fresh : Vec3(memory * noise + std::sqrt(1 - memory * memory) * fresh);
       const Vec3 f = -200 * e.view.u[i];
       c.forces.segment<3>(at) = f;
-      c.residual.segment<3>(at) = error * f / 0.01 + b;
-      for (int k = 0; k < 3; ++k) c.residual[at + k] += random.normal();
+      c.residual.segment<3>(at) = error * f / 0.01 + b + noise;
     }
   }
   return c;
@@ -66,6 +69,19 @@ TEST(OffsetTest, KeepsItsLevelInNoiseAndWrongStiffnesses) {
   std::printf("below 0.05 in %d of 200; mean gain %.1f for 36 offsets\n", found, gain);
   EXPECT_LE(found, 18);
   EXPECT_NEAR(gain, 36, 4);
+}
+
+// Samples that go together for up to a stretch are no offsets.
+TEST(OffsetTest, KeepsItsLevelWhereNoiseHasAMemory) {
+  for (const double memory : {0.5, 0.7, 0.8}) {
+    int found = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      const Case c = make_case(seed, 0.2, 0, memory);
+      found += test_offsets(c.dataset, c.residual, c.forces).p_value < 0.05;
+    }
+    std::printf("memory %.1f: below 0.05 in %d of 200\n", memory, found);
+    EXPECT_LE(found, 18);
+  }
 }
 
 TEST(OffsetTest, FindsOffsetsOfTheNoisesSize) {
