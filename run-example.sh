@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a fresh checkout to a report: installs what is missing, builds the tools, and runs the whole
+# From a fresh checkout to a report: installs what is missing, builds the tools it needs, runs the whole
 # pipeline on the phantom that is shipped in share/examples.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
@@ -7,7 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 out=build/example
 timed "dependencies" dependencies
-timed "build" build release
+# The tools that the pipeline calls; `cmake --build --preset release` builds the others.
+mapfile -t tools < <(make -nB --no-print-directory -f Makefile.pipeline BIN=bin OUT="$out" report |
+  grep -oE '\bbin/hs-[a-z0-9]+' | sed 's|bin/||' | sort -u)
+timed "build" build release "${tools[@]}"
 export PATH="$PWD/build/release/bin:$PATH"
 timed "pipeline" make --no-print-directory -f Makefile.pipeline SHELL="$PWD/share/timed-shell" \
   BIN="$PWD/build/release/bin" OUT="$out" report

@@ -20,8 +20,10 @@ dependencies() {
   fi
 }
 
-# build PRESET: configures and builds it in build/PRESET.
+# build PRESET [TARGET...]: configures and builds it, or what is named of it, in build/PRESET.
 build() {
-  cmake --preset "$1" --log-level=WARNING
-  cmake --build --preset "$1" --parallel "$jobs"
+  local preset=$1
+  shift
+  cmake --preset "$preset" --log-level=WARNING
+  cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
 }
