@@ -8,7 +8,9 @@ timed() {
   shift
   printf '== %s\n' "$name"
   "$@"
+  local status=$?  # reached with a failure only where the caller asks for it: timed ... || ...
   printf '== %s: %d s\n' "$name" $((SECONDS - start))
+  return $status
 }
 
 # Installs what is missing on Debian 12; elsewhere CMake says what it does not find.

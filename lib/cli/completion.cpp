@@ -91,7 +91,8 @@ std::string zsh(const ToolSpec& spec) {
       text += quoted("(" + brief_flag + " " + option.flag + ")") + "{" + brief_flag + "," +
               option.flag + "}" + quoted(rest);
   }
-  if (!spec.input.empty()) text += " \\\n  " + quoted("::" + zsh_text(brief(spec.input)) + ":_files");
+  if (!spec.input.empty())
+    text += " \\\n  " + quoted("::" + zsh_text(brief(spec.input)) + ":_files");
   return text + "\n";
 }
 
