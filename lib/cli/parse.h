@@ -14,8 +14,8 @@ struct CommandLine {
 };
 
 // Throws Error(kUsage): unknown flag (with the nearest), missing or repeated value, number out of
-// bounds, unknown choice, more than one input. --help, --man, --version and --completion-SHELL (bash,
-// zsh, fish; for the build, so no help names it) win over all of these.
+// bounds, unknown choice, more than one input. --help, --man, --version and --completion-SHELL
+// (bash, zsh, fish; for the build, so no help names it) win over all of these.
 CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv);
 
 }  // namespace hapsim

@@ -89,7 +89,8 @@ SimplexSearchResult simplex_search(const Eigen::VectorXd& start,
   SimplexSearchResult result;
   while (simplex.small()) {
     const Corner again = simplex.descend(best.x, 0.3 * options.first_step, options);
-    const bool gained = again.value < best.value - std::max(options.value_tolerance, 1e-6 * (1 + std::abs(best.value)));
+    const bool gained = again.value < best.value - std::max(options.value_tolerance,
+                                                            1e-6 * (1 + std::abs(best.value)));
     if (again.value < best.value) best = again;
     result.converged = simplex.small() && !gained;
     if (!gained) break;

@@ -7,8 +7,8 @@
 namespace hapsim {
 
 struct SimplexSearchOptions {
-  double first_step = 1;    // of each variable
-  double tolerance = 1e-3;    // largest difference between the corners at the end, each variable
+  double first_step = 1;       // of each variable
+  double tolerance = 1e-3;     // largest difference between the corners at the end, each variable
   double value_tolerance = 0;  // or of their values
   int most_evaluations = 600;
 };

@@ -19,7 +19,7 @@ struct ModelRelaxation {
 // number, none where there are none. Error(kUsage): an effect that has no form for a loop
 // (Effect::live); `asked` says by what, "the real-time loop".
 ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
-                         const std::string& asked);
+                              const std::string& asked);
 
 // The same, empty where all regions relax alike; other effects of the model are no matter.
 std::vector<RegionRelaxation> regional_relaxation_of(const Model& model,

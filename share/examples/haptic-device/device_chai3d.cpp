@@ -18,7 +18,8 @@ std::atomic<bool> stopped{false};
 
 int main(int argc, char** argv) {
   if (argc < 6) {
-    std::fprintf(stderr, "usage: %s X Y Z SCALE --body body.ply --model m.csv --tool-radius 0.004\n",
+    std::fprintf(stderr,
+                 "usage: %s X Y Z SCALE --body body.ply --model m.csv --tool-radius 0.004\n",
                  argv[0]);
     return 2;
   }

@@ -1,5 +1,5 @@
-// A device that is not there: its tip circles over the body and dips into it, 1 kHz without a clock.
-// Shows what a driver does. usage: device_none X Y Z hs-simulate-arguments...
+// A device that is not there: its tip circles over the body and dips into it, 1 kHz without a
+// clock. Shows what a driver does. usage: device_none X Y Z hs-simulate-arguments...
 //   X Y Z [m]: a point of the surface seen from above.
 #include <cmath>
 #include <cstdio>
@@ -9,7 +9,8 @@
 
 int main(int argc, char** argv) {
   if (argc < 5) {
-    std::fprintf(stderr, "usage: %s X Y Z --body body.ply --model m.csv --tool-radius 0.004\n", argv[0]);
+    std::fprintf(stderr, "usage: %s X Y Z --body body.ply --model m.csv --tool-radius 0.004\n",
+                 argv[0]);
     return 2;
   }
   const double x = std::atof(argv[1]), y = std::atof(argv[2]), z = std::atof(argv[3]);

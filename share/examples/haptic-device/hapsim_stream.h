@@ -1,5 +1,5 @@
-// hs-simulate --live --binary tip as a child process: positions in, forces out, for a device's loop.
-// Of this header alone a driver needs to know: no library of hapsim is linked.
+// hs-simulate --live --binary tip as a child process: positions in, forces out, for a device's
+// loop. Of this header alone a driver needs to know: no library of hapsim is linked.
 #pragma once
 
 #include <sys/wait.h>

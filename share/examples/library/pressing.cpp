@@ -1,5 +1,5 @@
-// pressing BODY MODEL X Y Z RADIUS DEPTH: the force of a body [N] on a flat tool that goes down by DEPTH at
-// the point X Y Z of its surface [m], at ten depths.
+// pressing BODY MODEL X Y Z RADIUS DEPTH: the force of a body [N] on a flat tool that goes down by
+// DEPTH at the point X Y Z of its surface [m], at ten depths.
 #include <cstdio>
 #include <cstdlib>
 

@@ -95,8 +95,8 @@ TEST(FullSimulation, LinearModelsAreTheCondensedOnes) {
   }
 }
 
-// Two halves with Maxwell elements of their own, condensed: exact for any step, where the whole body
-// integrated in time converges to it with the square of the step.
+// Two halves with Maxwell elements of their own, condensed: exact for any step, where the whole
+// body integrated in time converges to it with the square of the step.
 TEST(FullSimulation, RegionsThatRelaxApartAreTheLimitOfItsSteps) {
   Model model = model_of({{"elastic", {2e4, 0.4}}, {"viscoelastic", {1e4, 0.1}}});
   const auto add = [&](const char* effect, const char* name, int region, double value) {
