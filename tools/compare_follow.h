@@ -8,8 +8,8 @@
 #include "geometry/tetmesh.h"
 #include "io/csv.h"
 #include "model/edit.h"
-#include "realtime/motion_lines.h"
 #include "realtime/watch.h"
+#include "stream_options.h"
 
 namespace hapsim {
 
@@ -66,14 +66,9 @@ inline int run_follow(const Arguments& arguments) {
   const TetMesh mesh = read_body(body_input);
   Input input(arguments.input());
   MotionLines lines(input, true);
-  if (!lines.has_contact_point())
-    fail_input(input.name(), "there are no contact points", "give press,t,x,y,z,ux,uy,uz,fx,fy,fz");
+  require_contact_points(lines, input.name(), "press,t,x,y,z,ux,uy,uz,fx,fy,fz");
   PreparedBodyOptions options;
-  options.tool_radius = arguments.given("--tool-radius")
-                            ? arguments.number("--tool-radius")
-                            : lines.metadata().number("tool_radius", input.name()).value_or(0);
-  if (!(options.tool_radius > 0))
-    fail_usage("the stream does not say its tool's radius", "give --tool-radius M [m]");
+  options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
   const PreparedBody body(mesh, model, options);
   WatchOptions watch_options;
   watch_options.rate = arguments.number("--rate");

@@ -15,9 +15,9 @@
 #include "realtime/force_loop.h"
 #include "realtime/impaired_channel.h"
 #include "realtime/latency.h"
-#include "realtime/motion_lines.h"
 #include "realtime/real_time.h"
 #include "realtime/telepresence.h"
+#include "stream_options.h"
 
 namespace hapsim {
 namespace {
@@ -69,17 +69,6 @@ ToolSpec specification() {
        .help = "Radius of the flat tool [m]; the operator's otherwise from its motion.",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--nu",
-       .kind = OptionKind::kNumber,
-       .value = "NU",
-       .help = "Operator: Poisson's ratio of the body that is identified.",
-       .default_text = "0.45",
-       .minimum = 0,
-       .maximum = 0.499},
-      {.flag = "--times",
-       .value = "LIST",
-       .help = "Operator: relaxation times whose moduli are identified too [s], at most five.",
-       .repeatable = true},
       {.flag = "--samples",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -153,6 +142,7 @@ ToolSpec specification() {
        .default_text = "5",
        .minimum = 0,
        .maximum = 1e6}};
+  for (const Option& option : online_flags("Operator")) spec.options.push_back(option);
   spec.tables = {{"Output of the operator",
                   {{"press, t, x, y, z, ux, uy, uz", "the motion"},
                    {"fx, fy, fz", "what is felt [N]"},
@@ -259,27 +249,12 @@ void append(std::string& text, double value) {
 int run_operator(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines motion(input);
-  if (!motion.has_contact_point())
-    fail_input(input.name(), "there are no contact points", "give press,t,x,y,z,ux,uy,uz");
+  require_contact_points(motion, input.name(), "press,t,x,y,z,ux,uy,uz");
   PreparedBodyOptions options;
-  if (arguments.given("--tool-radius"))
-    options.tool_radius = arguments.number("--tool-radius");
-  else
-    options.tool_radius = motion.metadata().number("tool_radius", input.name()).value_or(0);
-  if (!(options.tool_radius > 0))
-    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
-  std::vector<double> times;
-  for (const std::string& text : arguments.list("--times")) {
-    double tau = 0;
-    if (!parse_number(text, tau) || !(tau > 0) || times.size() + 1 >= kMostUnknowns)
-      fail_usage("--times " + shown(text) + " is no relaxation time, or one too many",
-                 "give at most five [s]: 0.05,0.5");
-    times.push_back(tau);
-  }
+  options.tool_radius = stream_radius(arguments, motion.metadata(), input.name());
+  const std::vector<double> times = relaxation_times(arguments);
   const double nu = arguments.number("--nu"), rate = arguments.number("--rate");
-  Model unit;
-  unit.parameters = effect_rows(*find_effect("elastic"), 1, {1, nu});
-  const PreparedBody body(load_body(arguments), unit, options);
+  const PreparedBody body(load_body(arguments), unit_model(nu), options);
   UnitResponse response(body, times);
   OperatorOptions operator_options;
   operator_options.rate = rate;

@@ -7,67 +7,44 @@
 
 #include "base/error.h"
 #include "common_options.h"
-#include "effects/catalogue.h"
 #include "io/csv.h"
-#include "realtime/motion_lines.h"
-#include "realtime/online_identification.h"
+#include "stream_options.h"
 
 namespace hapsim {
 
 inline std::vector<Option> follow_flags() {
-  return {{.flag = "--follow",
-           .kind = OptionKind::kSwitch,
-           .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
-                   "stream of rows, and writes a line of estimates every --every rows at once."},
-          {.flag = "--times",
-           .value = "LIST",
-           .help = "Follow: relaxation times [s], at most five.",
-           .repeatable = true},
-          {.flag = "--nu",
-           .kind = OptionKind::kNumber,
-           .value = "NU",
-           .help = "Follow: Poisson's ratio.",
-           .default_text = "0.45",
-           .minimum = 0,
-           .maximum = 0.499},
-          {.flag = "--every",
-           .kind = OptionKind::kInteger,
-           .value = "N",
-           .help = "Follow: rows from one line of estimates to the next.",
-           .default_text = "100",
-           .minimum = 1,
-           .maximum = 1e9},
-          {.flag = "--memory",
-           .kind = OptionKind::kInteger,
-           .value = "N",
-           .help = "Follow: rows in which older ones fade; otherwise all count.",
-           .minimum = 10,
-           .maximum = 1e9}};
+  std::vector<Option> flags = online_flags("Follow");
+  const std::vector<Option> own{
+      {.flag = "--follow",
+       .kind = OptionKind::kSwitch,
+       .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
+               "stream of rows, and writes a line of estimates every --every rows at once."},
+      {.flag = "--every",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Follow: rows from one line of estimates to the next.",
+       .default_text = "100",
+       .minimum = 1,
+       .maximum = 1e9},
+      {.flag = "--memory",
+       .kind = OptionKind::kInteger,
+       .value = "N",
+       .help = "Follow: rows in which older ones fade; otherwise all count.",
+       .minimum = 10,
+       .maximum = 1e9}};
+  flags.insert(flags.begin(), own.begin(), own.end());
+  return flags;
 }
 
 inline int run_follow(const Arguments& arguments) {
-  std::vector<double> times;
-  for (const std::string& text : arguments.list("--times")) {
-    double tau = 0;
-    if (!parse_number(text, tau) || !(tau > 0) || times.size() + 1 >= kMostUnknowns)
-      fail_usage("--times " + shown(text) + " is no relaxation time, or one too many",
-                 "give at most five [s]: 0.05,0.5");
-    times.push_back(tau);
-  }
+  const std::vector<double> times = relaxation_times(arguments);
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
   MotionLines lines(input, true);
-  if (!lines.has_contact_point())
-    fail_input(input.name(), "there are no contact points", "give press,t,x,y,z,ux,uy,uz,fx,fy,fz");
+  require_contact_points(lines, input.name(), "press,t,x,y,z,ux,uy,uz,fx,fy,fz");
   PreparedBodyOptions options;
-  options.tool_radius = arguments.given("--tool-radius")
-                            ? arguments.number("--tool-radius")
-                            : lines.metadata().number("tool_radius", input.name()).value_or(0);
-  if (!(options.tool_radius > 0))
-    fail_usage("the stream does not say its tool's radius", "give --tool-radius M [m]");
-  Model unit;
-  unit.parameters = effect_rows(*find_effect("elastic"), 1, {1, arguments.number("--nu")});
-  const PreparedBody body(mesh, unit, options);
+  options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
+  const PreparedBody body(mesh, unit_model(arguments.number("--nu")), options);
   UnitResponse response(body, times);
   OnlineIdentification identification(static_cast<int>(times.size()) + 1,
                                       arguments.given("--memory")

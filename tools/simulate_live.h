@@ -15,6 +15,7 @@
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
 #include "realtime/real_time.h"
+#include "stream_options.h"
 
 namespace hapsim {
 
@@ -27,14 +28,6 @@ inline std::optional<Workspace> fine_contacts(const Arguments& arguments, const 
   set_poisson_range(model, options);
   return make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false),
                         options);
-}
-
-inline double live_radius(const Arguments& arguments, const Metadata& metadata) {
-  if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
-  const auto radius = metadata.number("tool_radius", arguments.input());
-  if (!radius || !(*radius > 0))
-    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
-  return *radius;
 }
 
 // Where the motion comes from.
@@ -101,7 +94,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   LiveInput in(arguments);
   PreparedBodyOptions options;
-  options.tool_radius = live_radius(arguments, in.metadata);
+  options.tool_radius = stream_radius(arguments, in.metadata, arguments.input());
   std::shared_ptr<Progress> progress;
   const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model, progress);
   progress.reset();

@@ -10,24 +10,7 @@ mkdir -p "$out"
 cd "$out"
 
 # A hemisphere of radius 50 mm, held at its base.
-awk 'BEGIN {
-  pi = 3.14159265358979; n = 28; m = 9
-  for (i = 1; i <= m; ++i) for (j = 0; j < n; ++j) {
-    a = pi / 2 * (1 - i / m); b = 2 * pi * j / n
-    v = v sprintf("%.6f %.6f %.6f\n", 0.05 * cos(a) * cos(b), 0.05 * cos(a) * sin(b), 0.05 * sin(a))
-  }
-  last = 1 + m * n
-  for (j = 0; j < n; ++j) {
-    k = (j + 1) % n
-    f = f sprintf("3 0 %d %d\n", 1 + j, 1 + k); ++faces
-    for (i = 0; i < m - 1; ++i) {
-      p = 1 + i * n + j; q = 1 + i * n + k
-      f = f sprintf("3 %d %d %d\n3 %d %d %d\n", p, p + n, q, q, p + n, q + n); faces += 2
-    }
-    f = f sprintf("3 %d %d %d\n", 1 + (m - 1) * n + j, last, 1 + (m - 1) * n + k); ++faces
-  }
-  printf "OFF\n%d %d 0\n0 0 0.05\n%s0 0 0\n%s", last + 1, faces, v, f
-}' >ball.off
+awk -v what=dome -v a=0.05 -v b=0.05 -v c=0.05 -v n=28 -v m=9 -f "$here/../shapes.awk" >ball.off
 hs-tetmesh ball.off --edge 0.011 -q -o real.ply  # what is pressed is meshed finer than
 hs-tetmesh ball.off --edge 0.02 -q -o ball.ply   # what is identified
 cat >hidden.csv <<'END'

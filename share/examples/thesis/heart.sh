@@ -3,29 +3,13 @@
 # every 20 ms, 20 ms late, and an analytical model are fused at 1 kHz and compared with the exact
 # solution in steps of 1 ms. Needs the hs- tools on the PATH; writes into FOLDER (heart).
 set -eu
+here=$(cd "$(dirname "$0")" && pwd)
 out=${1:-heart}
 mkdir -p "$out"
 cd "$out"
 
 # An organ of about 90 x 70 x 55 mm, flat below, held there.
-awk 'BEGIN {
-  pi = 3.14159265358979; n = 24; m = 10
-  for (i = 1; i <= m; ++i) for (j = 0; j < n; ++j) {
-    a = pi / 2 * (1 - i / m); b = 2 * pi * j / n; r = cos(a) * (1 + 0.12 * cos(b))
-    v = v sprintf("%.6f %.6f %.6f\n", 0.045 * r * cos(b), 0.035 * r * sin(b), 0.055 * sin(a))
-  }
-  last = 1 + m * n
-  for (j = 0; j < n; ++j) {
-    k = (j + 1) % n
-    f = f sprintf("3 0 %d %d\n", 1 + j, 1 + k); ++faces
-    for (i = 0; i < m - 1; ++i) {
-      p = 1 + i * n + j; q = 1 + i * n + k
-      f = f sprintf("3 %d %d %d\n3 %d %d %d\n", p, p + n, q, q, p + n, q + n); faces += 2
-    }
-    f = f sprintf("3 %d %d %d\n", 1 + (m - 1) * n + j, last, 1 + (m - 1) * n + k); ++faces
-  }
-  printf "OFF\n%d %d 0\n0 0 0.055\n%s0 0 0\n%s", last + 1, faces, v, f
-}' >organ.off
+awk -v what=dome -v a=0.045 -v b=0.035 -v c=0.055 -v n=24 -v m=10 -v lobe=0.12 -f "$here/../shapes.awk" >organ.off
 cat >organ.csv <<'END'
 effect,region,parameter,value,unit
 elastic,0,E,12000,Pa

@@ -3,16 +3,12 @@
 # recording is simulated with finite elements of both regions and noise of 0.05 N. Needs the hs- tools
 # on the PATH; writes into FOLDER (two-regions).
 set -eu
+here=$(cd "$(dirname "$0")" && pwd)
 out=${1:-two-regions}
 mkdir -p "$out"
 cd "$out"
 
-awk 'BEGIN {
-  print "OFF"; print 8, 12, 0
-  for (i = 0; i < 8; ++i) print (i % 2) * 0.12, (int(i / 2) % 2) * 0.21, (i >= 4) * 0.06
-  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
-  for (i = 1; i <= 12; ++i) print 3, f[i]
-}' >block.off
+awk -v what=cuboid -v a=0.12 -v b=0.21 -v c=0.06 -f "$here/../shapes.awk" >block.off
 hs-tetmesh block.off --edge 0.035 -q -o block.ply
 cat >foams.csv <<'END'
 effect,region,parameter,value,unit

@@ -9,12 +9,7 @@ mkdir -p "$out"
 cd "$out"
 
 # The cuboid, held at its base.
-awk 'BEGIN {
-  print "OFF"; print 8, 12, 0
-  for (i = 0; i < 8; ++i) print (i % 2) * 0.12, (int(i / 2) % 2) * 0.21, (i >= 4) * 0.06
-  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
-  for (i = 1; i <= 12; ++i) print 3, f[i]
-}' >cuboid.off
+awk -v what=cuboid -v a=0.12 -v b=0.21 -v c=0.06 -f "$here/../shapes.awk" >cuboid.off
 hs-tetmesh cuboid.off --edge 0.035 -q -o cuboid.ply
 
 # motion FUNCTION RATE: 1 kHz, two cycles. ramp: in and out at that rate, 10 mm deep; sine: the rate

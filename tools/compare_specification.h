@@ -1,0 +1,132 @@
+// What hs-compare takes and gives, for --help and the man page.
+#pragma once
+
+#include "cli/tool.h"
+#include "compare_follow.h"
+
+namespace hapsim {
+
+inline ToolSpec compare_specification() {
+  ToolSpec spec;
+  spec.name = "hs-compare";
+  spec.summary = "measured against simulated forces, and what the difference depends on";
+  spec.input = "measured recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
+  spec.description = {
+      "Subtracts simulated from measured forces, row by row, and tells how large the difference "
+      "is, "
+      "how it compares with the sensor's noise, where it is largest, and what it depends on: "
+      "position, depth, speed, time since contact, session time, temperature, direction, loading "
+      "or "
+      "unloading, the first or a later press of a place.",
+      "The typical error (rmse) is the root of the mean of all squared component residuals: all "
+      "rows, the three components pooled. So it compares with the noise of one component. Per cent "
+      "are of the same mean of the measured force, and of its peak.",
+      "Noise is the recording's metadata force_noise, otherwise estimated from second differences "
+      "in time, median(|d2|) / (0.6745 sqrt 6), which is too small when the noise is not white.",
+      "Within a group of rows the measured force is fitted as gain times simulated force; 'too "
+      "stiff by 18 %' is a simulated force 18 % too large. Standard errors are clustered by press. "
+      "A sentence is told only when pure noise would bring forth any in under 2 of 100 recordings; "
+      "the largest is told first and taken off before the next is sought.",
+      "The simulated file must have the rows of the measured one in the same order: presses, "
+      "contact points and displacements are checked to 0.01 mm.",
+      "On a terminal the residuals themselves are not printed unless asked for with -o.",
+      "With --follow a stream of rows is compared with a model as they come. The usual error is "
+      "learned at the beginning; then a cumulative sum of it raises an alarm, tuned to the false "
+      "alarms an hour that are put up with. What follows the alarm tells whether the body has "
+      "moved "
+      "or is gone, its stiffness has changed or the sensor's zero has; the model goes on with "
+      "that, "
+      "without a jump in the force. A shift is told by three presses; where other sides are "
+      "pressed "
+      "later it is told better, by another alarm."};
+  spec.options = {
+      {.flag = "--simulated",
+       .kind = OptionKind::kFile,
+       .value = "[NAME=]FILE",
+       .help = "Simulated forces of the same rows, from hs-simulate ('-': standard input). Given "
+               "several times, the last is compared and the others are drawn beside it.",
+       .repeatable = true},
+      {.flag = "--html",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the report: one file that needs no network."},
+      {.flag = "--figures",
+       .kind = OptionKind::kFile,
+       .value = "PREFIX",
+       .help = "Writes the plots as SVG files for papers: PREFIXversions.svg, PREFIXresidual-1.svg "
+               "..., PREFIXpress-ID.svg of the six presses with the largest error."},
+      {.flag = "--json",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes numbers, observations and breakdowns as JSON."},
+      {.flag = "--body",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help =
+           "Body from hs-tetmesh, or a surface (PLY, STL), for --ply and the report's picture."},
+      {.flag = "--ply",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help =
+           "Writes the body's surface coloured by the local error (vertex properties red, green, "
+           "blue, and float error [N], NaN where nothing was pressed near). Needs --body."},
+      {.flag = "--reach",
+       .kind = OptionKind::kNumber,
+       .value = "M",
+       .help = "How far from a pressed position the surface is coloured [m]; otherwise one and a "
+               "half times the usual distance between positions.",
+       .minimum = 1e-6,
+       .maximum = 10},
+      {.flag = "--history",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "CSV of model versions and their errors (any columns; step, model, effects, rmse, "
+               "heldout, noise are known), shown in the report."},
+      {.flag = "--diagnosis",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "effects.csv from hs-diagnose, shown in the report; NAME=FILE names the model "
+               "version it belongs to, and may be repeated. The last one gives the verdict.",
+       .repeatable = true},
+      {.flag = "--model",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "model.csv of the compared version: the report shows its parameters with their "
+               "intervals, and its regions on the body. With --follow the model that the stream is "
+               "compared with."},
+      {.flag = "--junit",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers."},
+      {.flag = "--title",
+       .kind = OptionKind::kText,
+       .value = "TEXT",
+       .help = "Title of the report."},
+      {.flag = "--fail-above",
+       .kind = OptionKind::kText,
+       .value = "X",
+       .help = "Exit code 1 when the typical error exceeds X: 0.05N, 5% (of the force's rms), or "
+               "1.5noise."}};
+  for (const Option& option : follow_flags()) spec.options.push_back(option);
+  spec.tables = {{"Residuals (output)",
+                  {{"...", "the columns of the measured recording"},
+                   {"sx, sy, sz", "simulated force [N]"},
+                   {"rx, ry, rz", "measured minus simulated force [N]"}}}};
+  spec.examples = {
+      {"hs-compare data.csv --simulated forces.csv -o residuals.csv", "Residuals and a summary."},
+      {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated - "
+       "--body body.ply --html report.html -o residuals.csv",
+       "The report, from a model at once."},
+      {"hs-compare data.csv --simulated m0=f0.csv --simulated m1=f1.csv --history history.csv "
+       "--diagnosis effects.csv --html report.html -o residuals.csv",
+       "Two model versions in one report."},
+      {"hs-compare data.csv --simulated forces.csv --fail-above 1.5noise -q -o residuals.csv",
+       "A check in CI."}};
+  spec.examples.push_back(
+      {"hs-compare --follow - --body body.ply --model m.csv --events changes.csv",
+       "Watches a robot's stream."});
+  spec.see_also = {"hs-simulate(1)", "hs-diagnose(1)", "hs-identify(1)"};
+  return spec;
+}
+
+}  // namespace hapsim

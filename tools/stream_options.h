@@ -1,0 +1,66 @@
+// What the tools that answer a stream of rows share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "cli/tool.h"
+#include "effects/catalogue.h"
+#include "model/model.h"
+#include "realtime/motion_lines.h"
+#include "realtime/online_identification.h"
+
+namespace hapsim {
+
+// --nu and --times of an on-line identification; `who` begins their help: "Operator".
+inline std::vector<Option> online_flags(const std::string& who) {
+  return {{.flag = "--nu",
+           .kind = OptionKind::kNumber,
+           .value = "NU",
+           .help = who + ": Poisson's ratio of the body that is identified.",
+           .default_text = "0.45",
+           .minimum = 0,
+           .maximum = 0.499},
+          {.flag = "--times",
+           .value = "LIST",
+           .help = who + ": relaxation times whose moduli are identified too [s], at most five.",
+           .repeatable = true}};
+}
+
+inline std::vector<double> relaxation_times(const Arguments& arguments) {
+  std::vector<double> times;
+  for (const std::string& text : arguments.list("--times")) {
+    double tau = 0;
+    if (!parse_number(text, tau) || !(tau > 0) || times.size() + 1 >= kMostUnknowns)
+      fail_usage("--times " + shown(text) + " is no relaxation time, or one too many",
+                 "give at most five [s]: 0.05,0.5");
+    times.push_back(tau);
+  }
+  return times;
+}
+
+// A body of unit modulus.
+inline Model unit_model(double nu) {
+  Model unit;
+  unit.parameters = effect_rows(*find_effect("elastic"), 1, {1, nu});
+  return unit;
+}
+
+// --tool-radius, or the stream's own [m].
+inline double stream_radius(const Arguments& arguments, const Metadata& metadata,
+                            const std::string& name) {
+  if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
+  const double radius = metadata.number("tool_radius", name).value_or(0);
+  if (!(radius > 0))
+    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+  return radius;
+}
+
+inline void require_contact_points(const MotionLines& lines, const std::string& name,
+                                   const std::string& columns) {
+  if (!lines.has_contact_point())
+    fail_input(name, "there are no contact points", "give " + columns);
+}
+
+}  // namespace hapsim
