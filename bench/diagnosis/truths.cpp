@@ -178,22 +178,22 @@ std::vector<Truth> own_forms() {
 // Sizes of features, which finite elements solve one by one.
 std::vector<Truth> features() {
   std::vector<Truth> t;
-  t.push_back(listed("layer", {{2e-3, 2},
-                               {2e-3, 3},
-                               {1.5e-3, 4},
-                               {3e-3, 2},
-                               {2e-3, 0.4},
-                               {3e-3, 0.5},
-                               {4e-3, 1.7},
-                               {1e-3, 6}}));
-  t.push_back(listed("anisotropic", {{1.5, 1, 1.4, 0.3},
-                                     {2, 1, 1.4, 0.3},
-                                     {0.6, 1, 1.4, 1.2},
-                                     {2.5, 1, 1.2, -0.6},
-                                     {1.7, 1, 0.6, 2},
-                                     {0.5, 1, 0.3, 0},
+  t.push_back(listed("layer", {{2e-3, 5},
+                               {1.5e-3, 7},
+                               {3e-3, 4},
+                               {2e-3, 10},
+                               {2e-3, 0.2},
+                               {3e-3, 0.2},
+                               {4e-3, 4},
+                               {1e-3, 15}}));
+  t.push_back(listed("anisotropic", {{2, 1, 1.4, 0.3},
+                                     {2.5, 1, 1.4, 0.3},
+                                     {0.5, 1, 1.4, 1.2},
+                                     {3, 1, 1.2, -0.6},
+                                     {2, 1, 0.6, 2},
+                                     {0.4, 1, 0.3, 0},
                                      {3, 1, 0.9, -1.5},
-                                     {2, 1, 0, 0}}));
+                                     {2.5, 1, 0, 0}}));
   t.push_back(listed("base", {{0.5, 0.5, 0},
                               {0.5, 2, 0},
                               {0.6, -1, 0},

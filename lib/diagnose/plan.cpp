@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 
+#include "base/error.h"
+#include "diagnose/press_paths.h"
+#include "diagnose/unpressed_places.h"
 #include "effects/catalogue.h"
 #include "io/number.h"
 #include "model/weights.h"
@@ -15,104 +19,60 @@
 namespace hapsim {
 namespace {
 
-constexpr double kAir = 0.2;                          // [s] before and after a press
-constexpr double kPause = 5;                          // [s] between presses
-constexpr double kLift = 5e-4;                        // [m] of the tool over the body, in the air
-constexpr double kSlow = 3, kFast = 0.15, kHold = 5;  // [s]
-constexpr int kLeastSteps = 15;                       // of a movement, however slow the recording
-
-// A path of the tool: displacements in the frame of the contact (two tangents, depth), reached one
-// after the other.
-struct Leg {
-  Vec3 to;  // tangent 1, tangent 2, depth [m]
-  double seconds;
-};
-struct Path {
-  std::string name;
-  std::vector<Leg> legs;
-};
-
-std::vector<Path> paths(double deepest) {
-  std::vector<Path> result;
-  const auto down = [](double depth) { return Vec3(0, 0, depth); };
-  for (const double share : {0.3, 1.0, 1.5}) {
-    const double d = share * deepest;
-    const std::string depth = fmt::format("{:.2g} mm deep", 1e3 * d);
-    result.push_back({"slowly " + depth, {{down(d), kSlow}, {down(0), kSlow}}});
-    result.push_back({"fast " + depth, {{down(d), kFast}, {down(0), kFast}}});
-    result.push_back(
-        {"fast " + depth + ", held", {{down(d), kFast}, {down(d), kHold}, {down(0), kFast}}});
-  }
-  const double side = 0.5 * deepest;
-  const auto sideways = [&](const std::string& name, double x, double y) {
-    result.push_back(
-        {fmt::format("{:.2g} mm deep, then {:.2g} mm sideways {}", 1e3 * deepest, 1e3 * side, name),
-         {{down(deepest), 1},
-          {Vec3(side * x, side * y, deepest), 1},
-          {Vec3(-side * x, -side * y, deepest), 2},
-          {down(deepest), 1},
-          {down(0), 1}}});
-  };
-  sideways("along x and back", 1, 0);
-  sideways("along y and back", 0, 1);
-  sideways("diagonally and back", std::sqrt(0.5), std::sqrt(0.5));
-  return result;
-}
+constexpr std::size_t kMorePlaces = 6;
 
 struct Candidates {
   Dataset dataset;
-  std::vector<std::string> names;  // one an episode
+  std::vector<std::string> names;            // one an episode
+  std::unique_ptr<BodyStiffness> elsewhere;  // when it has more positions than the recording
+  const BodyStiffness& body(const Workspace& w) const { return elsewhere ? *elsewhere : *w.body; }
 };
 
-void append_row(Recording& r, int press, double t, const Vec3& position, const Vec3& u, bool air) {
-  r.line.push_back(0);
-  r.press.push_back(press);
-  r.t.push_back(t);
-  r.position.push_back(position);
-  r.u.push_back(u);
-  r.contact.push_back(air ? 0 : 1);
+// Whether the model says something of places that were not pressed that no other model says.
+bool depends_on_place(const Model& model) {
+  for (const std::string& name : model.effects()) {
+    const EffectCard& card = require_effect(name).card();
+    if (card.needs_positions || card.solved) return true;
+  }
+  return false;
 }
 
-// One press along a path, from `start` [s] on.
-void append_press(Recording& r, int press, double start, double step, const Vec3& position,
-                  const Vec3& normal, const Path& path) {
-  Vec3 x_tangent = Vec3::UnitX() - normal.x() * normal;
-  if (x_tangent.norm() < 0.1) x_tangent = Vec3::UnitY() - normal.y() * normal;
-  x_tangent.normalize();
-  const Vec3 y_tangent = normal.cross(x_tangent);
-  const auto world = [&](const Vec3& local) {
-    return Vec3(local.x() * x_tangent + local.y() * y_tangent - local.z() * normal);
-  };
-  double t = start;
-  const auto air = [&] {
-    for (const double end = t + kAir; t < end - step / 2; t += step)
-      append_row(r, press, t, position, kLift * normal, true);
-  };
-  air();
-  Vec3 at = Vec3::Zero();
-  for (const Leg& leg : path.legs) {
-    const int steps = std::max(kLeastSteps, static_cast<int>(std::lround(leg.seconds / step)));
-    for (int i = 0; i < steps; ++i, t += leg.seconds / steps)
-      append_row(r, press, t, position, world(at + (leg.to - at) * i / steps), false);
-    at = leg.to;
+// The recording's positions and some between and around them, solved for every model. None that
+// cannot be pressed.
+std::unique_ptr<BodyStiffness> more_positions(const std::vector<Model>& models,
+                                              const Workspace& w) {
+  if (std::none_of(models.begin(), models.end(), depends_on_place)) return nullptr;
+  std::vector<Vec3> places = w.body->positions();
+  for (const Vec3& p : unpressed_places(w.library->surface(), w.body->contacts(),
+                                        w.dataset.recording.tool_radius(), kMorePlaces)) {
+    try {
+      w.body->with_positions({p});
+      places.push_back(p);
+    } catch (const Error&) {  // an edge, a gap: nothing to press on
+    }
   }
-  air();
+  std::unique_ptr<BodyStiffness> body = w.body->with_positions(places);
+  for (const Model& m : models) body->solve(material_of(m));
+  return body;
 }
 
 // Every path at every position, each as if it came right after the recording.
-Candidates make_candidates(const Workspace& w) {
+Candidates make_candidates(const std::vector<Model>& models, const Workspace& w) {
   const Dataset& known = w.dataset;
   const DataSummary summary = summarise(known, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   Candidates candidates;
+  candidates.elsewhere = more_positions(models, w);
+  const BodyStiffness& body = candidates.body(w);
+  const std::vector<Vec3>& positions = body.positions();
+  const std::vector<Vec3> normals = body.normals();
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
   int press = 0;
-  const std::vector<Vec3> normals = w.body->normals();
-  for (std::size_t p = 0; p < known.positions.size(); ++p)
-    for (const Path& path : paths(summary.depth)) {
-      append_press(r, press++, 0, step, known.positions[p], normals[p], path);
+  for (std::size_t p = 0; p < positions.size(); ++p)
+    for (const PressPath& path : press_paths(summary.depth)) {
+      append_press(r, press++, 0, step, positions[p], normals[p], path);
       candidates.names.push_back(path.name);
     }
   if (!known.recording.temp.empty())
@@ -121,14 +81,14 @@ Candidates make_candidates(const Workspace& w) {
                       static_cast<double>(known.recording.temp.size()));
   candidates.dataset = make_dataset(std::move(r));
   set_normals(candidates.dataset, normals);
-  std::vector<double> past(known.positions.size(), 0);
+  std::vector<double> past(positions.size(), 0);
   for (const Episode& e : known.episodes)
     for (std::size_t i = 0; i < e.view.size(); ++i)
       if (!e.view.in_air[i]) past[e.position] = std::max(past[e.position], e.view.u[i].norm());
   for (Episode& e : candidates.dataset.episodes) {
     e.view.past_depth = past[e.position];
     for (std::size_t i = 0; i < e.view.session.size(); ++i)
-      e.view.session[i] = summary.session + kPause + e.view.t[i];
+      e.view.session[i] = summary.session + kPauseBetweenPresses + e.view.t[i];
   }
   return candidates;
 }
@@ -203,14 +163,15 @@ std::vector<std::size_t> choose(std::size_t candidates, std::size_t count, const
 
 MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& w,
                              std::size_t count) {
-  const Candidates candidates = make_candidates(w);
-  const std::size_t presses = candidates.dataset.episodes.size();
   std::vector<Model> plain;
   std::vector<Eigen::MatrixXd> known;
   for (const Model& m : models) {
     plain.push_back(without_press_offsets(m));
     known.push_back(known_information(plain.back(), w));
   }
+  const Candidates candidates = make_candidates(plain, w);
+  const BodyStiffness& body = candidates.body(w);
+  const std::size_t presses = candidates.dataset.episodes.size();
   // By press and ordered pair of models (a model with itself when it is alone).
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < plain.size(); ++a)
@@ -221,7 +182,7 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
     const Selection one{static_cast<int>(k)};
     std::vector<Signal> signals;
     for (const Model& m : plain)
-      signals.push_back(model_forces(m, candidates.dataset, one, *w.body, true));
+      signals.push_back(model_forces(m, candidates.dataset, one, body, true));
     for (const auto& [a, b] : pairs) {
       const Weights weights(candidates.dataset, one, signals[b].f, w.noise.value, w.floor);
       Eigen::MatrixXd r = signals[a].f - signals[b].f, J = signals[b].df;
@@ -278,21 +239,21 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
   motion.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
   const DataSummary summary = summarise(w.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
-  const std::vector<Vec3> normals = w.body->normals();
-  const std::vector<Path> all_paths = paths(summary.depth);
+  const std::vector<Vec3> normals = body.normals();
+  const std::vector<PressPath> all_paths = press_paths(summary.depth);
   double start = 0;
   for (const std::size_t k : chosen) {
     const Episode& e = candidates.dataset.episodes[k];
     const auto position = static_cast<std::size_t>(e.position);
     const int number = static_cast<int>(plan.presses.size()) + 1;
-    append_press(motion, number, start, step, w.dataset.positions[position], normals[position],
+    append_press(motion, number, start, step, body.positions()[position], normals[position],
                  all_paths[k % all_paths.size()]);
-    start = motion.t.back() + kPause;
+    start = motion.t.back() + kPauseBetweenPresses;
     double alone = std::numeric_limits<double>::infinity();
     if (plain.size() > 1)
       for (std::size_t q = 0; q < pairs.size(); ++q)
         alone = std::min(alone, separation(evidence[k][q], known[pairs[q].second]));
-    plan.presses.push_back({candidates.names[k], w.dataset.positions[position],
+    plan.presses.push_back({candidates.names[k], body.positions()[position],
                             plain.size() > 1 ? std::sqrt(std::max(0.0, alone)) : 0});
   }
   return plan;

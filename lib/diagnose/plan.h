@@ -27,8 +27,9 @@ struct MeasurementPlan {
   std::string parameter;  // the least certain one; "" with rivals
 };
 
-// Tries at every position of the recording: shallow, as deep as the deepest, and half as deep
-// again; slowly, fast, and fast with a hold; pushed sideways along two directions and their
+// Tries at every position of the recording, and where the models say different things of other
+// places at some of these as well (unpressed_places.h): shallow, as deep as the deepest, and half
+// as deep again; slowly, fast, and fast with a hold; pushed sideways along two directions and their
 // diagonal, and pushed to and fro. Picks them one by one, each the best on top of those before it
 // (greedy D- and T-optimal design: Atkinson and Fedorov, Biometrika 62, 1975). Differences below 1
 // % of the force count for nothing: no model is so good. `models` are fitted to the workspace's

@@ -56,6 +56,11 @@ BodyStiffness::BodyStiffness(const ContactLibrary& library, const std::vector<Ve
       nu_low_(nu_low),
       nu_high_(nu_high) {}
 
+std::unique_ptr<BodyStiffness> BodyStiffness::with_positions(
+    const std::vector<Vec3>& positions) const {
+  return std::make_unique<BodyStiffness>(library_, positions, nu_low_, nu_high_);
+}
+
 const BodyStiffness& BodyStiffness::before_move(const MaterialSpec& m) const {
   const std::lock_guard lock(mutex_);
   std::unique_ptr<BodyStiffness>& body = moved_[{m.shift.x(), m.shift.y(), m.shift.z(),
@@ -64,7 +69,7 @@ const BodyStiffness& BodyStiffness::before_move(const MaterialSpec& m) const {
     const Vec3 middle = middle_of(positions_);
     std::vector<Vec3> there;
     for (const Vec3& p : positions_) there.push_back(moved_back(p, middle, m.shift, m.rotation));
-    body = std::make_unique<BodyStiffness>(library_, there, nu_low_, nu_high_);
+    body = with_positions(there);
   }
   return *body;
 }

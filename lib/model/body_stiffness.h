@@ -29,6 +29,9 @@ class BodyStiffness {
   // moved is prepared anew, once for each move.
   PositionStiffness at(std::size_t position, const MaterialSpec& material) const;
 
+  // The same body pressed at other positions.
+  std::unique_ptr<BodyStiffness> with_positions(const std::vector<Vec3>& positions) const;
+
   // Finite-element solutions for a material that is not homogeneous; nothing to do for one that is.
   void solve(const MaterialSpec& material) const;
   // Whether a material of this layout was solved, so that at() does not estimate.

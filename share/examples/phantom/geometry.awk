@@ -7,7 +7,7 @@ BEGIN {
   srand(20)
   if (what == "surface") surface()
   else if (what == "scan") scan()
-  else motion()
+  else if (what == "motion") motion()
 }
 
 function normal_number() { return sqrt(-2 * log(1 - rand())) * cos(2 * pi * rand()) }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "effects/catalogue.h"
 #include "model/fit.h"
 #include "support/synthetic.h"
 
@@ -65,6 +66,45 @@ TEST_F(Plan, AHeldPressSeesALongTime) {
   EXPECT_EQ(plan.parameter.rfind("viscoelastic", 0), 0u);
   EXPECT_NE(plan.presses[0].motion.find("held"), std::string::npos);
   EXPECT_LT(plan.separation, 0.9);
+}
+
+// Two models that differ only in where a boundary runs between the pressed positions.
+TEST_F(Plan, WhatLiesBetweenThePressedPlacesIsPressedThere) {
+  const auto with_boundary_near = [](double x) {
+    Model model = test::elastic(1.5e4, 0.42);
+    Parameter stiffer = *model.find("elastic", 0, "E");
+    stiffer.region = 1;
+    stiffer.value = 3e4;
+    model.parameters.insert(model.parameters.begin() + 1, stiffer);
+    for (const int region : {0, 1}) {
+      for (Parameter row :
+           effect_rows(require_effect("regions"), 1, {x + (region == 0 ? -0.01 : 0.01), 0, 0})) {
+        if (row.name == "local") continue;
+        row.region = region;
+        row.state = ParameterState::kFixed;
+        model.parameters.push_back(row);
+      }
+    }
+    return model;
+  };
+  double left = -1, right = 1;  // of the gap in the middle
+  for (const Vec3& p : w().dataset.positions) {
+    if (p.x() < 0.04) left = std::max(left, p.x());
+    if (p.x() >= 0.04) right = std::min(right, p.x());
+  }
+  const double gap = right - left;
+  const std::vector<Model> models{with_boundary_near(left + 0.25 * gap),
+                                  with_boundary_near(left + 0.75 * gap)};
+  test::measure(w(), models[0], 0.01, 6);
+  const MeasurementPlan plan = plan_presses(models, w(), 1);
+  ASSERT_EQ(plan.presses.size(), 1u);
+  const Vec3 p = plan.presses[0].position;
+  std::printf("boundary at x = %.0f or %.0f mm: %s at x = %.0f mm, %.0f standard deviations\n",
+              1e3 * (left + 0.25 * gap), 1e3 * (left + 0.75 * gap), plan.presses[0].motion.c_str(),
+              1e3 * p.x(), plan.separation);
+  EXPECT_GT(p.x(), left);
+  EXPECT_LT(p.x(), right);
+  for (const Vec3& pressed : w().dataset.positions) EXPECT_GT((pressed - p).norm(), 0.003);
 }
 
 TEST_F(Plan, TheMotionIsOneTheToolCanDo) {
