@@ -33,6 +33,13 @@ ToolSpec specification() {
       "less "
       "than an approximate law in the model may leave (hs-effects(7)) is possible at most. The "
       "search goes on, on top of what was found.",
+      "Fewer than six presses have too few signs to flip, so they are judged by their course in "
+      "time: sets of effects are grown side by side and ranked as above by independent samples, "
+      "and "
+      "an effect of the best set is missing when the set without it errs more than chance allows "
+      "(F "
+      "test, all effects tried counted, 1 %). That says nothing of other places, and regions and "
+      "offsets by press need six presses.",
       "Layers, inclusions, anisotropy, supports and regions are solved by finite elements on the "
       "coarser of a position's two meshes, and only where some position asks for "
       "another stiffness than the model's; hs-identify takes the finer one.",
@@ -63,7 +70,7 @@ ToolSpec specification() {
        .value = "FILE",
        .help = "Writes the motion (CSV, without forces) of the next presses to record: those that "
                "best tell indistinguishable effects apart, or determine the least certain "
-               "parameter."},
+               "parameter; at pressed positions, and between them where the effects differ there."},
       {.flag = "--plan-presses",
        .kind = OptionKind::kInteger,
        .value = "N",

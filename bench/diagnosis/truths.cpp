@@ -234,7 +234,7 @@ std::vector<Truth> pairs() {
 // Nothing hidden, in ways that look like something.
 std::vector<Truth> nothings() {
   const Truth plain = own_form("nothing", "", 0, [](double) { return std::vector<double>(); });
-  std::vector<Truth> t(6, plain);
+  std::vector<Truth> t(8, plain);
   t[1].name = "nothing-correlated";
   t[1].noise = NoiseKind::kCorrelated;
   t[2].name = "nothing-outliers";
@@ -246,6 +246,11 @@ std::vector<Truth> nothings() {
   t[4].base = {"slack"};
   t[5].name = "nothing+relaxing";
   t[5].base = {"viscoelastic"};
+  t[6].name = "nothing-one-press";
+  t[6].presses = 1;
+  t[7].name = "nothing-one-press-correlated";
+  t[7].presses = 1;
+  t[7].noise = NoiseKind::kCorrelated;
   return t;
 }
 
@@ -330,6 +335,14 @@ std::vector<Truth> all_truths() {
   adhesion.open = true;
   adhesion.base = {"slack"};
   truths.push_back(adhesion);
+  // What one press, and a few, can tell.
+  for (const std::string& name : {"viscoelastic", "hyperelastic", "tip", "sensor-lag", "damper"})
+    for (const int presses : {1, 3}) {
+      Truth t = find_truth(truths, name);
+      t.name += presses == 1 ? "-one-press" : "-three-presses";
+      t.presses = presses;
+      truths.push_back(t);
+    }
   for (Truth& t : pairs()) {
     for (const std::string& part : t.parts)
       t.effects.push_back(find_truth(truths, part).effects.front());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/error.h"
 #include "diagnose/offset_test.h"
 #include "diagnose/probability.h"
 #include "effects/catalogue.h"
@@ -100,30 +101,6 @@ bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Ba
   return false;
 }
 
-// Samples per independent one (Sokal, 1989): 1 + 2 x the sum of the autocorrelations up to where
-// they fade, over all presses and components.
-double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& w) {
-  constexpr std::size_t kMost = 400;
-  constexpr double kFaded = 0.05;
-  const double square = residual.squaredNorm();
-  double time = 1;
-  for (std::size_t lag = 1; lag < kMost && square > 0; ++lag) {
-    double product = 0;
-    Eigen::Index at = 0;
-    for (const Episode& e : w.dataset.episodes) {
-      const auto n = static_cast<Eigen::Index>(e.rows.size());
-      const auto shift = static_cast<Eigen::Index>(lag);
-      if (n > shift)
-        product += residual.segment(3 * (at + shift), 3 * (n - shift))
-                       .dot(residual.segment(3 * at, 3 * (n - shift)));
-      at += n;
-    }
-    if (product < kFaded * square) break;
-    time += 2 * product / square;
-  }
-  return time;
-}
-
 // Scores by press of the columns with what the baseline's own parameters can do taken out.
 CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const Workspace& w) {
   if (y.offsets) take_out_press_means(w.dataset, all_episodes(w.dataset), columns);
@@ -189,7 +166,13 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
     return std::nullopt;
   }
   // Estimates; refine() solves where that is promising.
-  candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 0));
+  try {
+    candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 0));
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kNoConvergence) throw;
+    lack = std::string("it cannot be fitted: ") + error.what();
+    return std::nullopt;
+  }
   return candidate;
 }
 
@@ -220,6 +203,37 @@ Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& can
   return y;
 }
 
+// 1 + 2 x the sum of the autocorrelations up to where they fade.
+double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& w) {
+  constexpr std::size_t kMost = 400;
+  constexpr double kFaded = 0.05;
+  const double square = residual.squaredNorm();
+  double time = 1;
+  for (std::size_t lag = 1; lag < kMost && square > 0; ++lag) {
+    double product = 0;
+    Eigen::Index at = 0;
+    for (const Episode& e : w.dataset.episodes) {
+      const auto n = static_cast<Eigen::Index>(e.rows.size());
+      const auto shift = static_cast<Eigen::Index>(lag);
+      if (n > shift)
+        product += residual.segment(3 * (at + shift), 3 * (n - shift))
+                       .dot(residual.segment(3 * at, 3 * (n - shift)));
+      at += n;
+    }
+    if (product < kFaded * square) break;
+    time += 2 * product / square;
+  }
+  return time;
+}
+
+double independent_samples(const Eigen::VectorXd& residual, double memory) {
+  const Eigen::Map<const Eigen::Matrix3Xd> r(residual.data(), 3, residual.size() / 3);
+  const Eigen::Array3d power = r.array().square().rowwise().sum();
+  const double squares = power.square().sum();
+  const double components = squares > 0 ? power.sum() * power.sum() / squares : 3;
+  return components * static_cast<double>(residual.size() / 3) / memory;
+}
+
 Measured measure(const Candidate& candidate, const Baseline& base, const Yardstick& y,
                  const Workspace& w) {
   const Selection all = all_episodes(w.dataset);
@@ -235,7 +249,7 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
           : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
   m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
   m.memory = autocorrelation_time(residual, w);
-  const double independent = static_cast<double>(residual.size()) / m.memory;
+  const double independent = independent_samples(residual, m.memory);
   const double fall = y.residual.squaredNorm() / m.sum_of_squares - 1;
   const double freedom = std::max(1.0, extra);
   if (independent > 2 * freedom)

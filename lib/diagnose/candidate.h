@@ -61,6 +61,12 @@ void refine(Candidate& candidate, Workspace& workspace);
 void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
                          const Workspace& workspace);
+// Samples per independent one: integrated autocorrelation time over all presses and components
+// (Sokal, 1989).
+double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& workspace);
+// Independent values in residuals of that time: as many fewer as the misfit stands in some of the
+// components alone.
+double independent_samples(const Eigen::VectorXd& residual, double memory);
 Measured measure(const Candidate& candidate, const Baseline& baseline, const Yardstick& yardstick,
                  const Workspace& workspace);
 

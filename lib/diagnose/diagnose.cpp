@@ -7,15 +7,13 @@
 
 #include "base/error.h"
 #include "diagnose/departures.h"
+#include "diagnose/few_presses.h"
 #include "diagnose/round.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {
 namespace {
-
-// With fewer presses their signs have too few arrangements to tell chance from cause.
-constexpr std::size_t kLeastPresses = 6;
 
 // Without positions or presses to hold out, the other gates decide.
 bool passes(const Finding& f, const Gates& gates, bool can_hold_out) {
@@ -88,6 +86,83 @@ double neighbour_correlation(const Eigen::VectorXd& residual, const Workspace& w
   return square > 0 ? product / square : 0;
 }
 
+// What is settled first, as it was found; then the largest gain.
+void put_in_order(std::vector<Finding>& findings) {
+  const auto settled = [](const Finding& f) {
+    return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
+  };
+  std::stable_sort(findings.begin(), findings.end(), [&](const Finding& a, const Finding& b) {
+    if (settled(a) || settled(b)) return settled(a) && !settled(b);
+    return a.criterion_gain > b.criterion_gain;
+  });
+}
+
+// Adds the best effect while one passes the gates.
+void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOptions& options,
+            Diagnosis& d) {
+  const bool can_hold_out = !folds.held_out.empty();
+  Random random(options.seed);
+  Round last;
+  for (int step = 0; step < options.gates.most_effects; ++step) {
+    Round round = try_all(base, w, folds, options, random);
+    const std::size_t best = best_of(round, options.gates, can_hold_out);
+    last = std::move(round);
+    if (best == last.findings.size()) break;
+    std::vector<std::size_t> rivals =
+        rivals_of(best, last, options.gates, can_hold_out, w.noise.value);
+    if (!rivals.empty()) {
+      rivals.insert(rivals.begin(), best);
+      for (const std::size_t k : rivals) {
+        d.rivals.push_back(last.candidates[k].fitted.model);
+        Finding finding = last.findings[k];
+        finding.verdict = Verdict::kIndistinguishable;
+        for (const std::size_t other : rivals)
+          if (other != k) finding.confused_with.push_back(last.findings[other].effect);
+        d.findings.push_back(finding);
+      }
+      for (Finding& f : last.findings)
+        if (std::any_of(rivals.begin(), rivals.end(),
+                        [&](std::size_t k) { return last.findings[k].effect == f.effect; }))
+          f.effect.clear();
+      break;
+    }
+    Finding finding = last.findings[best];
+    finding.verdict = Verdict::kMissing;
+    for (std::size_t k = 0; k < last.findings.size(); ++k)
+      if (k != best && passes(last.findings[k], options.gates, can_hold_out))
+        finding.confused_with.push_back(last.findings[k].effect);
+    d.findings.push_back(finding);
+    base = make_baseline(last.candidates[best].fitted.model, w, folds);
+    last.findings[best].effect.clear();
+  }
+  for (const Finding& f : last.findings) {
+    if (f.effect.empty()) continue;
+    const bool known = std::any_of(d.findings.begin(), d.findings.end(),
+                                   [&](const Finding& g) { return g.effect == f.effect; });
+    if (known) continue;
+    Finding finding = f;
+    const bool by_chance = !f.plain && f.p_value >= options.gates.p_value;
+    finding.verdict = f.criterion_gain > options.gates.criterion_gain && !by_chance &&
+                              f.share >= options.gates.share
+                          ? Verdict::kPossible
+                          : Verdict::kAbsent;
+    d.findings.push_back(finding);
+  }
+  put_in_order(d.findings);
+  d.findings.insert(d.findings.end(), last.ruled_out.begin(), last.ruled_out.end());
+  d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
+}
+
+void search_few(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOptions& options,
+                Diagnosis& d) {
+  const FewPresses few = diagnose_few_presses(base, w, options);
+  d.findings = few.findings;
+  put_in_order(d.findings);
+  d.findings.insert(d.findings.end(), few.untestable.begin(), few.untestable.end());
+  d.rivals = few.rivals;
+  base = make_baseline(few.end.model, w, folds);
+}
+
 }  // namespace
 
 std::string verdict_name(Verdict verdict) {
@@ -119,9 +194,7 @@ std::string verdict_name(ModelVerdict verdict) {
 }
 
 Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& options) {
-  Random random(options.seed);
   const Folds folds = make_folds(w.dataset, options.folds);
-  const bool can_hold_out = !folds.held_out.empty();
   Baseline base = make_baseline(model, w, folds);
   if (!base.fitted.converged)
     fail_numerics(w.dataset.recording.name, "the model does not fit: " + base.fitted.message,
@@ -138,64 +211,8 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
   d.force_rms = std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
 
   const bool few_presses = w.dataset.episodes.size() < kLeastPresses;
-  Round last;
-  bool ambiguous = false;
-  for (int step = 0; step < options.gates.most_effects; ++step) {
-    Round round = try_all(base, w, folds, options, random);
-    const std::size_t best = best_of(round, options.gates, can_hold_out);
-    last = std::move(round);
-    if (best == last.findings.size()) break;
-    std::vector<std::size_t> rivals =
-        rivals_of(best, last, options.gates, can_hold_out, w.noise.value);
-    if (!rivals.empty()) {
-      ambiguous = true;
-      rivals.insert(rivals.begin(), best);
-      for (const std::size_t k : rivals) {
-        d.rivals.push_back(last.candidates[k].fitted.model);
-        Finding finding = last.findings[k];
-        finding.verdict = Verdict::kIndistinguishable;
-        for (const std::size_t other : rivals)
-          if (other != k) finding.confused_with.push_back(last.findings[other].effect);
-        d.findings.push_back(finding);
-      }
-      for (Finding& f : last.findings)
-        if (std::any_of(rivals.begin(), rivals.end(),
-                        [&](std::size_t k) { return last.findings[k].effect == f.effect; }))
-          f.effect.clear();
-      break;
-    }
-    Finding finding = last.findings[best];
-    finding.verdict = Verdict::kMissing;
-    for (std::size_t k = 0; k < last.findings.size(); ++k)
-      if (k != best && passes(last.findings[k], options.gates, can_hold_out))
-        finding.confused_with.push_back(last.findings[k].effect);
-    d.findings.push_back(finding);
-    base = make_baseline(last.candidates[best].fitted.model, w, folds);
-    last.findings[best].effect.clear();
-  }
-  for (const Finding& f : last.findings) {
-    if (f.effect.empty()) continue;
-    const bool known = std::any_of(d.findings.begin(), d.findings.end(),
-                                   [&](const Finding& g) { return g.effect == f.effect; });
-    if (known) continue;
-    Finding finding = f;
-    const bool by_chance = !few_presses && !f.plain && f.p_value >= options.gates.p_value;
-    finding.verdict = f.criterion_gain > options.gates.criterion_gain && !by_chance &&
-                              f.share >= options.gates.share
-                          ? Verdict::kPossible
-                          : Verdict::kAbsent;
-    d.findings.push_back(finding);
-  }
-  const auto settled = [](const Finding& f) {
-    return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
-  };
-  std::stable_sort(d.findings.begin(), d.findings.end(), [&](const Finding& a, const Finding& b) {
-    if (settled(a) || settled(b)) return settled(a) && !settled(b);
-    return a.criterion_gain > b.criterion_gain;
-  });
-  d.findings.insert(d.findings.end(), last.ruled_out.begin(), last.ruled_out.end());
-  d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
-
+  (few_presses ? search_few : search)(base, w, folds, options, d);
+  const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.rmse;
   d.held_out_end = base.held_out.rmse;
@@ -221,11 +238,20 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
         "the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
         "position confirms: press around it, a few millimetres apart.",
         1e3 * departures.where.x(), 1e3 * departures.where.y(), 1e3 * departures.where.z());
-  if (few_presses && d.verdict == ModelVerdict::kUnexplained)
+  if (!few_presses) return d;
+  const std::size_t presses = w.dataset.episodes.size();
+  const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);
+  if (d.verdict == ModelVerdict::kUnexplained)
     d.explanation = fmt::format(
-        "the model fails by {:.2g} x noise, but {} presses are too few to name the cause with a "
-        "false-alarm rate; the possible effects stand below, the best first. Record {} or more.",
-        d.rmse_end / d.noise, w.dataset.episodes.size(), kLeastPresses);
+        "the model fails by {:.2g} x noise, but {} cannot name the cause with a false-alarm rate; "
+        "the possible effects stand below, the best first. Record {} presses or more.",
+        d.rmse_end / d.noise, count, kLeastPresses);
+  else
+    d.explanation += fmt::format(
+        " Judged by the time within {} alone, which says nothing of other places; record {} "
+        "presses "
+        "or more.",
+        count, kLeastPresses);
   return d;
 }
 

@@ -12,22 +12,6 @@
 namespace hapsim {
 namespace {
 
-// Effects worth trying on top of a model: those it lacks, and one more term of those with terms.
-std::vector<const Effect*> untried(const Model& model) {
-  std::vector<const Effect*> effects;
-  for (const Effect* effect : catalogue()) {
-    const EffectCard& card = effect->card();
-    if (card.name == "elastic") continue;
-    if (model.has(card.name) && (!card.terms || card.from_locations)) continue;
-    const bool included =
-        std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
-          return model.has(other->card().name) && contains(*other, card.name);
-        });
-    if (!included) effects.push_back(effect);
-  }
-  return effects;
-}
-
 // From here on an effect's size may speak for it: of the squared misfit, and of the error on unseen
 // positions.
 constexpr double kMostOfIt = 0.5, kPlainFall = 0.1;
@@ -93,6 +77,21 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, 
 
 }  // namespace
 
+std::vector<const Effect*> untried(const Model& model) {
+  std::vector<const Effect*> effects;
+  for (const Effect* effect : catalogue()) {
+    const EffectCard& card = effect->card();
+    if (card.name == "elastic") continue;
+    if (model.has(card.name) && (!card.terms || card.from_locations)) continue;
+    const bool included =
+        std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
+          return model.has(other->card().name) && contains(*other, card.name);
+        });
+    if (!included) effects.push_back(effect);
+  }
+  return effects;
+}
+
 bool contains(const Effect& effect, const std::string& other) {
   const auto& list = effect.card().contains;
   return std::find(list.begin(), list.end(), other) != list.end();
@@ -102,6 +101,17 @@ double held_out_fall(const Finding& f) {
   return f.held_out_now > 0 ? 1 - f.held_out_after / f.held_out_now : 0;
 }
 
+Finding ruled_out(const Effect& effect, const Baseline& base) {
+  Finding finding;
+  finding.effect = effect.card().name;
+  finding.rmse_now = finding.rmse_after = base.fitted.rmse;
+  finding.held_out_now = finding.held_out_after = base.held_out.rmse;
+  finding.evidence =
+      "no position asks for another stiffness than the model's, beyond noise and mesh";
+  finding.next_measurement = effect.card().separated_by;
+  return finding;
+}
+
 Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
@@ -109,14 +119,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
   for (const Effect* effect : untried(base.fitted.model)) {
     if (options.progress) options.progress(effect->card().name);
     if (effect->card().solved && !departs && lacking_for(effect->card(), w.dataset).empty()) {
-      Finding finding;
-      finding.effect = effect->card().name;
-      finding.rmse_now = finding.rmse_after = base.fitted.rmse;
-      finding.held_out_now = finding.held_out_after = base.held_out.rmse;
-      finding.evidence =
-          "no position asks for another stiffness than the model's, beyond noise and mesh";
-      finding.next_measurement = effect->card().separated_by;
-      round.ruled_out.push_back(finding);
+      round.ruled_out.push_back(ruled_out(*effect, base));
       continue;
     }
     std::string lack;

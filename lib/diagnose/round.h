@@ -15,10 +15,15 @@ struct Round {
   std::vector<Finding> untestable;
 };
 
+// Effects worth trying on top of a model: those it lacks, and one more term of those with terms.
+std::vector<const Effect*> untried(const Model& model);
 // Relative fall of the error on unseen positions.
 double held_out_fall(const Finding& finding);
 // Whether `effect` includes the effect `other` as a special case.
 bool contains(const Effect& effect, const std::string& other);
+
+// An effect that needs no fit: no position asks for another stiffness.
+Finding ruled_out(const Effect& effect, const Baseline& base);
 
 // Estimates every effect, solves for the promising ones, and measures them all alike. Findings have
 // no verdict yet.

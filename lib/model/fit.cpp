@@ -22,11 +22,15 @@ namespace {
 
 std::vector<Unknown> unknowns(const Model& model) {
   std::vector<Unknown> result;
+  const Parameter* modulus = model.find("elastic", 0, "E");
+  const double typical = modulus != nullptr ? 0.1 * std::abs(modulus->value) : 1.0;
   for (const int i : model.free_parameters()) {
     const Parameter& p = model.parameters[i];
     const ParameterCard& card = *parameter_card(require_effect(p.effect), p.name);
-    // A modulus sets its own scale; other parameters have their card's.
-    const double scale = card.unit == "Pa" ? std::max(std::abs(p.value), 1.0) : card.scale;
+    // A modulus sets its own scale, unless it is next to nothing beside the body's (steps from
+    // there would be as small); other parameters have their card's.
+    const double scale =
+        card.unit == "Pa" ? std::max({std::abs(p.value), typical, 1.0}) : card.scale;
     const double lower =
         card.logarithmic ? std::max(p.lower, 1e-12 * std::max(p.value, 1e-300)) : p.lower;
     result.push_back({p.value, lower, p.upper, scale, card.logarithmic, card.log_limit});
@@ -130,7 +134,15 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                          Eigen::MatrixXd* J) {
     set_values(trial, x);
-    Signal signal = model_forces(trial, dataset, selection, body, J != nullptr);
+    Signal signal;
+    try {
+      signal = model_forces(trial, dataset, selection, body, J != nullptr);
+    } catch (const Error& error) {
+      // A law without an equilibrium there: a step that far is not taken.
+      if (error.code() != ExitCode::kNoConvergence || J != nullptr) throw;
+      r.setConstant(measured.size(), std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
     r = (signal.f - measured) / options.noise;
     if (J != nullptr) *J = signal.df / options.noise;
     if (!offsets) return;
@@ -304,12 +316,21 @@ FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
   const bool search = starts.size() > 1 && options.starts > 1;
   if (search) each.starts = 1;
   FitResult best;
+  bool found = false;
   for (std::size_t s = 0; s < starts.size(); ++s) {
-    FitResult result = fit(starts[s], dataset, selection, body, each);
-    const bool better = s == 0 || (result.converged && !best.converged) ||
+    FitResult result;
+    try {
+      result = fit(starts[s], dataset, selection, body, each);
+    } catch (const Error& error) {  // a start without forces; another one may have them
+      const bool last = s + 1 == starts.size() && !found;
+      if (error.code() != ExitCode::kNoConvergence || last) throw;
+      continue;
+    }
+    const bool better = !found || (result.converged && !best.converged) ||
                         (result.converged == best.converged && result.rmse < best.rmse);
     const bool stopped = result.stopped;
     if (better) best = std::move(result);
+    found = true;
     if (!stopped) continue;
     best.stopped = true;
     best.converged = false;

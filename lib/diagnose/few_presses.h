@@ -1,0 +1,30 @@
+// A diagnosis of so few presses that their signs cannot tell chance from cause.
+#pragma once
+
+#include <vector>
+
+#include "diagnose/candidate.h"
+
+namespace hapsim {
+
+// With fewer presses than these, sign flips have too few arrangements for a false-alarm rate.
+constexpr std::size_t kLeastPresses = 6;
+
+struct FewPresses {
+  std::vector<Finding> findings;  // with verdicts; those that are missing first, the largest first
+  std::vector<Finding> untestable;
+  FitResult end;              // with all that is missing
+  std::vector<Model> rivals;  // fitted; empty when nothing is ambiguous
+};
+
+// What is left to judge by is the time within the presses. Sets of up to `gates.most_effects`
+// effects are grown side by side (beam search), since one large effect hides another where no
+// second press shows it alone. Sets are ranked by chi-square plus log n a parameter, n being the
+// independent samples (integrated autocorrelation time of what the best set leaves; quasi-
+// likelihood: Wedderburn, Biometrika 61, 1974). Each effect of the best set is then judged by an F
+// test on what the set loses without it, times the number of effects tried (Bonferroni), and is
+// ambiguous with any other that can take its place. Says nothing of places that were not pressed.
+FewPresses diagnose_few_presses(const Baseline& base, Workspace& workspace,
+                                const DiagnoseOptions& options);
+
+}  // namespace hapsim
