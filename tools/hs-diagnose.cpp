@@ -130,9 +130,10 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string add_command(const Arguments& a, const std::string& effect) {
-  return fmt::format("hs-identify {} --body {} --model {} --add {} -o better.csv", a.input(),
-                     a.text("--body"), a.text("--model"), effect);
+std::string add_command(const Arguments& a, const Finding& f) {
+  return fmt::format("hs-identify {} --body {} --model {} --add {}{} -o better.csv", a.input(),
+                     a.text("--body"), a.text("--model"), f.effect,
+                     f.every_site ? " --regions sites" : "");
 }
 
 void write_table(std::ostream& out, const Arguments& arguments, const Diagnosis& d) {
@@ -157,7 +158,7 @@ void write_table(std::ostream& out, const Arguments& arguments, const Diagnosis&
     csv.row({std::to_string(++rank), f.effect, verdict_name(f.verdict), value(f.rmse_now),
              value(f.rmse_after), value(f.held_out_now), value(f.held_out_after), value(f.p_value),
              joined(f.confused_with), f.where, f.evidence, f.next_measurement,
-             add ? add_command(arguments, f.effect) : ""});
+             add ? add_command(arguments, f) : ""});
   }
 }
 
@@ -188,7 +189,7 @@ nlohmann::json as_json(const Arguments& arguments, const Diagnosis& d) {
                             {"where", f.where},
                             {"evidence", f.evidence},
                             {"next_measurement", f.next_measurement},
-                            {"command", add_command(arguments, f.effect)}});
+                            {"command", add_command(arguments, f)}});
   return j;
 }
 
@@ -216,7 +217,7 @@ void report(const Arguments& arguments, const Diagnosis& d) {
       if (!f.confused_with.empty())
         line("                may be confused with " + joined(f.confused_with) +
              "; to tell: " + f.next_measurement);
-      line("                add it: " + add_command(arguments, f.effect));
+      line("                add it: " + add_command(arguments, f));
     }
   }
   line(

@@ -16,6 +16,8 @@ namespace {
 // Regions are solved for where that takes seconds; with more positions they are first order.
 constexpr std::size_t kMostSolvedPositions = 60;
 
+constexpr double kMuchLess = 0.9;  // error on unseen positions
+
 FitOptions fit_options(const Workspace& w, int rounds = 6) {
   FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
@@ -28,6 +30,13 @@ ExtendOptions extend_options(const Workspace& w) {
   ExtendOptions options;
   options.noise = w.noise.value;
   options.floor = w.floor;
+  return options;
+}
+
+// As the model's own regions were made.
+ExtendOptions extend_options(const Workspace& w, const Model& model) {
+  ExtendOptions options = extend_options(w);
+  if (material_of(model).local) options.regions = kEverySite;
   return options;
 }
 
@@ -132,7 +141,8 @@ HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
     Model model = plain;
     for (const std::string& name : rebuilt) {
       model = fit(model, w.dataset, training, *w.body, fit_options(w, 0)).model;
-      model = with_effect(model, name, w.dataset, training, *w.body, extend_options(w)).front();
+      model =
+          with_effect(model, name, w.dataset, training, *w.body, extend_options(w, fitted)).front();
     }
     return {model};
   };
@@ -185,6 +195,19 @@ void refine(Candidate& candidate, Workspace& w) {
 
 void hold_out(Candidate& candidate, Workspace& w, const Folds& folds) {
   if (!folds.held_out.empty()) candidate.held_out = held_out_of(candidate.fitted.model, w, folds);
+}
+
+void prefer_sites(Candidate& candidate, const Baseline& base, Workspace& w, const Folds& folds) {
+  if (!candidate.effect->card().from_locations || folds.held_out.empty()) return;
+  ExtendOptions options = extend_options(w);
+  options.regions = kEverySite;
+  Candidate sites = candidate;
+  sites.every_site = true;
+  sites.fitted = fit_best(with_effect(base.fitted.model, candidate.effect->card().name, w.dataset,
+                                      all_episodes(w.dataset), *w.body, options),
+                          w.dataset, all_episodes(w.dataset), *w.body, fit_options(w, 0));
+  hold_out(sites, w, folds);
+  if (sites.held_out.rmse < kMuchLess * candidate.held_out.rmse) candidate = std::move(sites);
 }
 
 Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& candidates,

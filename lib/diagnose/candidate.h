@@ -20,6 +20,7 @@ struct Candidate {
   FitResult fitted;
   HeldOut held_out;
   bool one_more_term = false;
+  bool every_site = false;  // of regions: each position its own, interpolated between them
 };
 
 // All candidates of a round are measured with the same weights. Their noise is the sensor's, or the
@@ -59,6 +60,10 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseli
 void refine(Candidate& candidate, Workspace& workspace);
 // Its error on held-out positions, by true refits.
 void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);
+// Of regions: where positions stand for themselves and others are interpolated between them, if
+// that errs much less on unseen positions than boundaries do (a stiffness that changes gradually).
+void prefer_sites(Candidate& candidate, const Baseline& baseline, Workspace& workspace,
+                  const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
                          const Workspace& workspace);
 // Samples per independent one: integrated autocorrelation time over all presses and components

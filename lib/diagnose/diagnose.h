@@ -47,6 +47,7 @@ struct Finding {
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   bool one_more_term = false;
+  bool every_site = false;   // regions: a stiffness that changes from position to position
   bool within_form = false;  // no more than an approximate law in the model may leave
   bool plain = false;        // large beyond chance by its size, whatever unseen positions say
 };

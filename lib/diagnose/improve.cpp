@@ -52,6 +52,7 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
       if (finding.verdict != Verdict::kMissing) continue;
       tell("adding " + finding.effect);
       const ImprovementStep& before = result.steps.back();
+      extend.regions = finding.every_site ? kEverySite : kAutomaticRegions;
       ImprovementStep step = fitted_step(
           finding.effect,
           with_effect(before.fitted.model, finding.effect, fine.dataset, all, *fine.body, extend),

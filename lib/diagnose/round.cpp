@@ -165,8 +165,12 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     if (beyond_noise > 0.01 * noise)
       f.share = std::clamp((std::isnan(m.explained) ? fall : m.explained) / beyond_noise, 0.0, 1.0);
     // Refits for held-out positions cost most and only matter to what passes otherwise.
-    if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share)
+    if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share) {
       hold_out(c, w, folds);
+      prefer_sites(c, base, w, folds);
+      f.every_site = c.every_site;
+      f.rmse_after = c.fitted.rmse;
+    }
     f.held_out_after = c.held_out.rmse;
     // Where few presses carry an effect their signs cannot prove it, however large it is.
     const double by_size =

@@ -48,7 +48,9 @@ std::string describe_evidence(const Candidate& candidate, const Measured& measur
   const EffectCard& card = candidate.effect->card();
   if (card.from_locations) {
     const MaterialSpec material = material_of(candidate.fitted.model);
-    text += fmt::format("; {} regions, E from {:.3g} to {:.3g} Pa", material.modulus.size(),
+    text += candidate.every_site ? "; it changes from place to place"
+                                 : fmt::format("; {} regions", material.modulus.size());
+    text += fmt::format(", E from {:.3g} to {:.3g} Pa",
                         *std::min_element(material.modulus.begin(), material.modulus.end()),
                         *std::max_element(material.modulus.begin(), material.modulus.end()));
     return text;

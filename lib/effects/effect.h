@@ -69,9 +69,9 @@ using Values = std::vector<ParameterValue>;
 // The body's stiffness against the flat bonded tool at a press, and the material under the tool.
 struct ContactStiffness {
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // [N/m]; the body's force on the tool is -K u
-  std::vector<std::pair<int, Eigen::Matrix3d>> by_column;  // derivatives by free parameters
-  double modulus = 0;                                      // E [Pa]
-  int modulus_column = -1;
+  std::vector<std::pair<int, Eigen::Matrix3d>> by_column;     // derivatives by free parameters
+  double modulus = 0;                                         // E [Pa]
+  std::vector<std::pair<int, double>> log_modulus_by_column;  // d log E / d parameter
   double nu = 0.3;
   int nu_column = -1;
 };
@@ -123,8 +123,9 @@ struct MaterialSpec {
   std::vector<int> modulus_column;
   std::vector<Vec3> key_point;  // region of a point: that of its nearest key point, in plan view
   std::vector<int> key_region;
-  bool local =
-      false;  // a contact feels its own region's modulus alone, as if the whole body had it
+  // A contact feels the modulus at its own place alone, as if the whole body had it: that of its
+  // key point, or interpolated from those around it.
+  bool local = false;
   std::vector<FeatureSpec> features;
   // How the body has moved since it was scanned, about the middle of the contact points.
   Vec3 shift = Vec3::Zero(), rotation = Vec3::Zero();  // [m], rotation vector [rad]

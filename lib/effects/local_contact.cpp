@@ -96,15 +96,15 @@ LocalContact::Derivatives LocalContact::derivatives(const LocalForce& force, con
 Eigen::RowVectorXd LocalContact::by_columns(double of_half_space, double by_nu,
                                             Eigen::Index columns) const {
   Eigen::RowVectorXd d = Eigen::RowVectorXd::Zero(columns);
-  if (contact_.modulus_column >= 0)
-    d[contact_.modulus_column] += gain_ * of_half_space / contact_.modulus;
+  for (const auto& [column, slope] : contact_.log_modulus_by_column)
+    d[column] += gain_ * of_half_space * slope;
   if (contact_.nu_column >= 0) d[contact_.nu_column] += gain_ * by_nu;
   if (gain_ == 1) return d;
   // dg = v' (dK / kStiffer - g d(C^-1)) v; the disc's part by E is -g/E, as v' C^-1 v = 1.
   for (const auto& [column, dK] : contact_.by_column)
     d[column] += of_half_space / kStiffer * way_.dot(dK * way_);
-  if (contact_.modulus_column >= 0)
-    d[contact_.modulus_column] -= of_half_space * gain_ / contact_.modulus;
+  for (const auto& [column, slope] : contact_.log_modulus_by_column)
+    d[column] -= of_half_space * gain_ * slope;
   if (contact_.nu_column >= 0)
     d[contact_.nu_column] -= of_half_space * gain_ *
                              (disc_.normal_by_nu * way_.dot(along_ * way_) +

@@ -23,8 +23,10 @@ class Regions : public Effect {
         .parameters = {{"x", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
                        {"y", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
                        {"local", "1",
-                        "1: each contact feels its own region alone (location samples, "
-                        "thesis 5.2.1); 0 or absent: regions act on each other through the body",
+                        "1: each contact feels its own modulus alone, between key points one "
+                        "interpolated from "
+                        "the nearest (location samples, thesis 5.2.1; Franke, 1982); 0 or absent: "
+                        "regions act on each other through the body",
                         0, 0, 0, 1, 1, false}},
         .terms = true,
         .needs_positions = true,

@@ -91,16 +91,22 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
     for (auto& [column, dK] : s.by_column) dK = (R * dK * R.transpose()).eval();
     return s;
   }
-  if (material.local && !material.features.empty()) {
-    // The contact's own modulus, as if all of the body had it.
-    const auto region = static_cast<std::size_t>(region_at(material, positions_[position]));
+  if (material.local) {
+    // As if all of the body had the contact's own modulus, to which all forces are proportional.
+    const LocalModulus local = local_modulus(material, positions_[position]);
     MaterialSpec own = material;
     own.local = false;
     own.key_point.clear();
     own.key_region.clear();
-    own.modulus = {material.modulus[region]};
-    own.modulus_column = {material.modulus_column[region]};
-    return at(position, own);
+    own.modulus = {local.value};
+    own.modulus_column = {-1};
+    PositionStiffness result = at(position, own);
+    const Eigen::Matrix3d K = result.K;
+    for (const auto& [region, share] : local.share) {
+      const auto r = static_cast<std::size_t>(region);
+      result.add(material.modulus_column[r], share / material.modulus[r] * K);
+    }
+    return result;
   }
   if (has_regions(material) || !material.features.empty()) {
     if (const ReferencePointer reference = reference_for(material))
@@ -108,15 +114,13 @@ PositionStiffness BodyStiffness::at(std::size_t position, const MaterialSpec& ma
                           reference->material, material);
     return estimated(position, material);
   }
-  const auto region =
-      material.local ? static_cast<std::size_t>(region_at(material, positions_[position])) : 0;
   PositionStiffness result;
   Eigen::Matrix3d unit, by_nu;
   contacts_[position].stiffness.evaluate(material.nu, unit, by_nu);
-  const double modulus = material.modulus[region];
+  const double modulus = material.modulus.front();
   result.K = modulus * unit;
   result.add(material.nu_column, modulus * by_nu);
-  result.add(material.modulus_column[region], unit);
+  result.add(material.modulus_column.front(), unit);
   return result;
 }
 

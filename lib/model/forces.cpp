@@ -15,13 +15,17 @@ namespace {
 // What contact laws need to know of the body at one position.
 ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& material,
                             const Vec3& position, bool derivatives) {
-  const auto region = static_cast<std::size_t>(region_at(material, position));
+  LocalModulus modulus{0, {{region_at(material, position), 1.0}}};
+  if (material.local) modulus = local_modulus(material, position);
+  const auto at = [&](int region) { return material.modulus[static_cast<std::size_t>(region)]; };
   ContactStiffness contact;
   contact.K = s.K;
-  contact.modulus = material.modulus[region];
+  contact.modulus = material.local ? modulus.value : at(modulus.share.front().first);
   contact.nu = material.nu;
   if (!derivatives) return contact;
-  contact.modulus_column = material.modulus_column[region];
+  for (const auto& [region, share] : modulus.share)
+    if (const int column = material.modulus_column[static_cast<std::size_t>(region)]; column >= 0)
+      contact.log_modulus_by_column.emplace_back(column, share / at(region));
   contact.nu_column = material.nu_column;
   contact.by_column = s.by_column;
   return contact;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "effects/effect.h"
 
@@ -17,5 +19,15 @@ inline int region_at(const MaterialSpec& material, const Vec3& p) {
   }
   return region;
 }
+
+// The modulus that a contact feels by itself (MaterialSpec::local).
+struct LocalModulus {
+  double value = 0;                           // [Pa]
+  std::vector<std::pair<int, double>> share;  // region, and its share of log E; sums to 1
+};
+// The moduli of the nearest key points, in plan view: their logarithms weighted by inverse squared
+// distances that fade out (Franke and Little's form of Shepard's interpolation, 1968; Franke, Math.
+// Comp. 38, 1982). At a key point it is that one's own.
+LocalModulus local_modulus(const MaterialSpec& material, const Vec3& p);
 
 }  // namespace hapsim

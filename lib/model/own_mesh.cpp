@@ -46,8 +46,7 @@ std::vector<MeshPatch> patches(const TetMesh& mesh, const std::vector<Vec3>& pos
 std::vector<double> gains(const MaterialSpec& material, const std::vector<Vec3>& positions) {
   std::vector<double> result;
   for (const Vec3& p : positions)
-    result.push_back(
-        material.local ? material.modulus[static_cast<std::size_t>(region_at(material, p))] : 1);
+    result.push_back(material.local ? local_modulus(material, p).value : 1);
   return result;
 }
 

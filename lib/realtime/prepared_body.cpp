@@ -29,7 +29,8 @@ class FieldMaker {
   std::unique_ptr<StiffnessField> field(const MaterialSpec& material,
                                         const StiffnessField* like = nullptr) {
     const auto modulus_at = [&](const Vec3& p) {
-      return material.modulus[static_cast<std::size_t>(region_at(material, p))];
+      return material.local ? local_modulus(material, p).value
+                            : material.modulus[static_cast<std::size_t>(region_at(material, p))];
     };
     // A contact that feels its own region alone stands on a body of that modulus.
     const bool apart = material.local || material.modulus.size() == 1;

@@ -24,9 +24,11 @@ void set_material(PressView& press, double modulus, double nu, int first) {
   press.contact.nu = nu;
   press.contact.K = modulus * (1 + 0.5 * (nu - 0.4)) * K;
   press.contact.by_column.clear();
-  press.modulus_column = press.contact.modulus_column = first;
+  press.modulus_column = first;
+  press.contact.log_modulus_by_column.clear();
   press.contact.nu_column = first < 0 ? -1 : first + 1;
   if (first < 0) return;
+  press.contact.log_modulus_by_column = {{first, 1 / modulus}};
   press.contact.by_column.emplace_back(first, press.contact.K / modulus);
   press.contact.by_column.emplace_back(first + 1, 0.5 * modulus * K);
 }
