@@ -8,16 +8,16 @@
 #include "diagnose/improve.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
-#include "estimate/identifiability.h"
 #include "identify_acfm.h"
 #include "identify_boundary.h"
 #include "identify_follow.h"
 #include "identify_image.h"
 #include "identify_library.h"
 #include "identify_plan.h"
+#include "identify_recordings.h"
+#include "identify_report.h"
 #include "identify_search.h"
 #include "identify_specification.h"
-#include "linalg/blas.h"
 #include "model/edit.h"
 #include "model/extend.h"
 #include "model/history.h"
@@ -74,49 +74,6 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
   return starts;
 }
 
-void report(const Arguments& arguments, const Workspace& w, const FitResult& result,
-            double held_out, const std::string& by, double force_rms) {
-  const auto line = [&](const std::string& text) { say(arguments, "hs-identify", text); };
-  line(fmt::format(
-      "{} presses at {} positions, {} samples; noise {:.3g} N ({}), force rms {:.3g} N",
-      w.dataset.recording.presses().size(), w.dataset.positions.size(), w.dataset.rows(),
-      w.noise.value, w.noise.measured ? "measured from the data" : "declared", force_rms));
-  int shown = 0;
-  for (const Parameter& p : result.model.parameters) {
-    if (p.state != ParameterState::kFree || ++shown > 12) continue;
-    line(fmt::format(
-        "{} {}{} = {:.4g} {} ± {}", p.effect, p.name,
-        p.region > 0 ? fmt::format(" (region {})", p.region) : "", p.value,
-        p.unit == "1" ? "" : p.unit,
-        std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error)));
-  }
-  if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
-  const auto warn = [&](const std::vector<std::string>& names, const char* what) {
-    constexpr std::size_t kMost = 4;
-    for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);
-    if (names.size() > kMost) line(fmt::format("... and {} more", names.size() - kMost));
-  };
-  warn(result.at_bound,
-       " is at its bound: the data ask for more than the model can give, or cannot tell");
-  warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
-  if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
-  for (const std::string& sentence : result.blind) line(sentence);
-  for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
-  for (const std::string& interval : result.intervals) line(interval);
-  if (result.discounted > 0)
-    line(fmt::format("{} of {} force components discounted as far off", result.discounted,
-                     result.residuals));
-  if (!enough_data(result.residuals,
-                   static_cast<Eigen::Index>(result.model.free_parameters().size())))
-    line("fewer than ten force components a free parameter: noise may decide their values");
-  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", result.rmse,
-                   100 * result.rmse / force_rms, result.rmse / w.noise.value));
-  if (!by.empty() && !std::isnan(held_out))
-    line(fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
-                     100 * held_out / force_rms, held_out / w.noise.value));
-  if (arguments.verbose()) line("BLAS: " + blas_name());
-}
-
 // Adds what a diagnosis finds missing, step by step; each step goes into the history.
 Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, const TetMesh& body,
                                  WorkspaceOptions options, const FitOptions& fit_options,
@@ -161,7 +118,10 @@ void describe_fit(Model& model, const Plan& plan, const Workspace& w, double rms
   model.metadata.remove("heldout");
   model.metadata.set("rmse", format_number(rmse));
   model.metadata.set("force_noise", format_number(w.noise.value));
-  model.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
+  if (w.dataset.tools() > 1)
+    model.metadata.remove("tool_radius");
+  else
+    model.metadata.set("tool_radius", format_number(w.dataset.setups.front().tool_radius));
 }
 
 // The best so far of a fit that a signal ended, marked.
@@ -196,9 +156,10 @@ int run(const Arguments& arguments) {
   extend.regions = regions_asked(arguments.text("--regions"));
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
-  const TetMesh body = load_body(arguments);
-  Recording recording = load_recordings(arguments);
-  IdentifyLibrary library(arguments, recording, body);
+  Experiment experiment = load_experiment(arguments);
+  require_shared(arguments, plan, experiment);
+  const TetMesh& body = experiment.bodies.front();
+  IdentifyLibrary library(arguments, experiment.recording, body);
   std::shared_ptr<Progress> progress;
   WorkspaceOptions options = workspace_options(arguments, progress);
   set_poisson_range(plan.start, options);
@@ -209,7 +170,8 @@ int run(const Arguments& arguments) {
       if (is_nu && parse_number(what.substr(what.find('=') + 1), nu))
         options.nu_low = options.nu_high = nu;
     }
-  Workspace w = make_workspace(body, std::move(recording), options);
+  Workspace w = make_workspace(experiment.bodies, std::move(experiment.recording),
+                               experiment.setup_of_row, options);
   progress.reset();
   FitOptions fit_options{w.noise.value, w.floor, true};
   fit_options.starts = search.starts;

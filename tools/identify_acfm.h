@@ -10,6 +10,7 @@
 #include "common_options.h"
 #include "geometry/signed_distance.h"
 #include "identify_plan.h"
+#include "identify_recordings.h"
 #include "realtime/acfm_fit.h"
 
 namespace hapsim {
@@ -22,9 +23,10 @@ inline int run_acfm(const Arguments& arguments) {
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of models with effects, and --acfm has none",
                  "leave one of them out");
-  const TetMesh body = load_body(arguments);
-  const SignedDistance surface(boundary_surface(body), "body");
-  const Dataset dataset = make_dataset(load_recordings(arguments));
+  Experiment experiment = load_experiment(arguments);
+  const SignedDistance surface(boundary_surface(experiment.bodies.front()), "body");
+  const Dataset dataset = make_dataset(std::move(experiment.recording), experiment.setup_of_row);
+  require_one_setup(dataset, "--acfm");
   std::vector<Vec3> normals;
   for (const Vec3& p : dataset.positions) normals.push_back(surface.at(p).normal);
   AcfmFitOptions options;

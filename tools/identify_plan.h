@@ -9,7 +9,6 @@
 #include "common_options.h"
 #include "effects/catalogue.h"
 #include "io/csv.h"
-#include "io/recording_join.h"
 #include "model/edit.h"
 #include "model/extend.h"
 #include "model/terms.h"
@@ -59,16 +58,6 @@ inline TermsAsked terms_asked(const Arguments& arguments) {
   asked.automatic = false;
   asked.count = static_cast<int>(asked.windows.size());
   return asked;
-}
-
-// The main input and --data, as one.
-inline Recording load_recordings(const Arguments& arguments) {
-  std::vector<Recording> recordings{load_recording(arguments, arguments.input(), true)};
-  for (const std::string& path : arguments.list("--data"))
-    recordings.push_back(load_recording(arguments, path, true));
-  if (recordings.size() > 1)  // what is wrong with one is told with its name
-    for (const Recording& r : recordings) make_dataset(r);
-  return join_recordings(recordings);
 }
 
 struct Plan {

@@ -7,6 +7,7 @@
 #include "identify_follow.h"
 #include "identify_image.h"
 #include "identify_library.h"
+#include "identify_recordings.h"
 #include "identify_search.h"
 
 namespace hapsim {
@@ -14,6 +15,14 @@ namespace hapsim {
 inline std::string effect_names() {
   std::string names;
   for (const Effect* e : catalogue()) names += (names.empty() ? "" : ", ") + e->card().name;
+  return names;
+}
+
+// Effects that several bodies, or several tools, cannot share.
+inline std::string unshared(bool EffectCard::*of_one) {
+  std::string names;
+  for (const Effect* e : catalogue())
+    if (e->card().*of_one) names += (names.empty() ? "" : ", ") + e->card().name;
   return names;
 }
 
@@ -38,8 +47,14 @@ inline ToolSpec identify_specification() {
       "--follow identifies from a stream while it comes: forces are linear in the moduli, so unit "
       "forces of the body's own mesh and least squares that grow row by row cost about one force "
       "evaluation a row.",
+      "Recordings of several bodies of one material, or by tools of several radii, are fitted "
+      "together with --data and --body: all share the parameters. What belongs to one body "
+      "(" +
+          unshared(&EffectCard::one_body) + ") or to one tool (" + unshared(&EffectCard::one_tool) +
+          ") is refused where there are several.",
       "Effects: " + effect_names() + "."};
   spec.options = workspace_flags();
+  std::erase_if(spec.options, [](const Option& o) { return o.flag == "--body"; });
   const std::vector<Option> own{
       {.flag = "--effects",
        .value = "LIST",
@@ -82,12 +97,6 @@ inline ToolSpec identify_specification() {
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
                "moduli ask for) or sites (each position its own stiffness).",
        .default_text = "auto"},
-      {.flag = "--data",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "One more recording of the same body by the same tool, fitted together with the "
-               "first; may be given several times.",
-       .repeatable = true},
       boundary_flag(),
       {.flag = "--acfm",
        .kind = OptionKind::kInteger,
@@ -130,7 +139,7 @@ inline ToolSpec identify_specification() {
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
            "need not be symmetric."}};
-  for (const auto& more : {own, search_flags(), library_flags(), follow_flags()})
+  for (const auto& more : {recording_flags(), own, search_flags(), library_flags(), follow_flags()})
     spec.options.insert(spec.options.end(), more.begin(), more.end());
   spec.tables = {
       {"Model (output)",
@@ -165,6 +174,8 @@ inline ToolSpec identify_specification() {
        "Finds what is missing and adds it, until nothing is."},
       {"hs-identify data.csv --body body.ply --model m0.csv --diagnosis effects.csv -o m1.csv",
        "Adds what hs-diagnose found missing."},
+      {"hs-identify block.csv --body block.ply --data ball.csv --body ball.ply -o m.csv",
+       "One material of two bodies."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
        "Gives each pressed position its own stiffness."},
       {"hs-simulate motion.csv --body body.ply --model m.csv | hs-identify - --body body.ply "

@@ -32,6 +32,7 @@ class Base : public Effect {
                        {"edge", "m", "where that part begins, from the middle of the bottom", 0,
                         -10, -10, 10, 5e-3, false}},
         .needs_positions = true,
+        .one_body = true,
         .solved = true,
         .signature = "too stiff on one side, more so sideways and where the body is thin",
         .confounders = {"regions", "inclusion", "layer", "shift"},

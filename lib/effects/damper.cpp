@@ -18,6 +18,7 @@ class Damper : public Effect {
         .assumptions = "one dashpot, the same in every direction and at every position",
         .parameters = {{"c", "N s/m", "damping", 0, 1, 0, 1e6, 1, false}},
         .needs_time = true,
+        .one_tool = true,
         .signature =
             "too soft while the tool moves in, too stiff while it moves out, right at rest",
         .confounders = {"viscoelastic", "sensor-lag"},

@@ -46,6 +46,8 @@ struct EffectCard {
   bool needs_sideways = false;     // not testable without tangential displacement
   bool needs_return = false;       // not testable unless a recorded press moves out again
   bool needs_repeats = false;      // not testable unless a place is pressed again
+  bool one_body = false;           // its parameters are of one body's shape or place
+  bool one_tool = false;           // its parameters are of one tool
   bool by_press = false;  // three offsets of the force a press (numbered), after all other effects
   bool solved = false;    // finite elements are solved for its parameters (add_feature())
   double form_error = 0;  // share of the force that it changes by which its law may err

@@ -27,6 +27,7 @@ class Inclusion : public Effect {
                        {"ratio", "1", "its modulus over that around it", 1, 2, 0.02, 50, 0.3,
                         true}},
         .needs_positions = true,
+        .one_body = true,
         .solved = true,
         .signature = "too soft (or too stiff) at neighbouring positions, and less so further away",
         .confounders = {"regions", "layer", "base", "shift"},

@@ -19,6 +19,7 @@ class Layer : public Effect {
         .parameters = {{"thickness", "m", "thickness of the skin", 0, 2e-3, 2e-4, 0.1, 1e-3, true},
                        {"ratio", "1", "modulus of the skin over that of the core", 1, 2, 0.02, 50,
                         0.3, true}},
+        .one_body = true,
         .solved = true,
         .signature =
             "sideways forces and normal ones ask for different moduli, at every position alike",

@@ -30,6 +30,7 @@ class Regions : public Effect {
                         0, 0, 0, 1, 1, false}},
         .terms = true,
         .needs_positions = true,
+        .one_body = true,
         .from_locations = true,
         .signature = "too stiff at some positions and too soft at others, at all depths and rates",
         .confounders = {"layer", "inclusion", "base", "shift"},

@@ -28,6 +28,8 @@ class Shift : public Effect {
                        {"ry", "rad", "rotation vector", 0, 0, -1, 1, 0.01, false, kNoLimit, true},
                        {"rz", "rad", "rotation vector", 0, 0, -1, 1, 0.01, false, kNoLimit, true}},
         .needs_positions = true,
+        .one_body = true,
+        .one_tool = true,
         .signature =
             "contact points off the scanned surface, stiffness and directions wrong by place",
         .confounders = {"sensor-rotation", "regions", "base"},

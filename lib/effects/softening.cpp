@@ -30,6 +30,7 @@ class Softening : public Effect {
                         "presses after the first alike",
                         1, 0.9, 0, 1, 0.3, false}},
         .needs_repeats = true,
+        .one_tool = true,
         .signature = "too stiff in all presses after the first at a place, and on the way out",
         .confounders = {"viscoelastic", "temperature", "sensor-drift", "backlash", "adhesion"},
         .separated_by =

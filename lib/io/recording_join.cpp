@@ -3,8 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "base/error.h"
+#include "io/number.h"
 
 namespace hapsim {
 namespace {
@@ -12,17 +16,32 @@ namespace {
 void require_alike(const Recording& first, const Recording& next) {
   const auto differ = [&](const std::string& what) {
     fail_input(next.name, fmt::format("{} than in {}", what, first.name),
-               "fit together only recordings of one tool, recorded alike");
+               "fit together only recordings made alike");
   };
   const auto told = [](const Recording& r, const char* key, const char* otherwise) {
     return r.metadata.find(key).value_or(otherwise);
   };
-  if (next.tool_radius() != first.tool_radius()) differ("another tool_radius");
   if (told(next, "tool", "flat") != told(first, "tool", "flat")) differ("another tool");
   if (told(next, "recovery", "") != told(first, "recovery", "")) differ("another recovery");
   if (next.t.empty() != first.t.empty() || next.temp.empty() != first.temp.empty() ||
       next.f.empty() != first.f.empty())
     differ("other columns (t, temp or forces)");
+}
+
+// The declared noise of all together: none unless each declares one.
+void pool_noise(const std::vector<Recording>& recordings, Recording& all) {
+  double squares = 0, rows = 0;
+  bool alike = true;
+  for (const Recording& r : recordings) {
+    const std::optional<double> noise = r.force_noise();
+    alike = alike && noise == recordings.front().force_noise();
+    if (!noise) rows = std::numeric_limits<double>::quiet_NaN();
+    squares += noise.value_or(0) * noise.value_or(0) * static_cast<double>(r.rows());
+    rows += static_cast<double>(r.rows());
+  }
+  if (alike) return;
+  all.metadata.remove("force_noise");
+  if (!std::isnan(rows)) all.metadata.set("force_noise", format_number(std::sqrt(squares / rows)));
 }
 
 }  // namespace
@@ -60,6 +79,7 @@ Recording join_recordings(const std::vector<Recording>& recordings) {
     append(all.contact, next.contact);
     if (has_contact) all.contact.resize(all.rows(), 1);
   }
+  pool_noise(recordings, all);
   return all;
 }
 

@@ -1,76 +1,43 @@
-// Contact stiffness at every position of a recording, for whatever material the model asks.
+// Contact stiffness at every position of a dataset, of whichever body and tool it is.
 #pragma once
 
-#include <array>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <string>
 #include <vector>
 
-#include "effects/effect.h"
-#include "fem/contact_library.h"
-#include "model/extrapolate.h"
-#include "model/registration.h"
+#include "model/dataset.h"
+#include "model/setup_stiffness.h"
 
 namespace hapsim {
 
 class BodyStiffness {
  public:
-  // Prepares all positions for Poisson's ratios in [nu_low, nu_high].
-  BodyStiffness(const ContactLibrary& library, const std::vector<Vec3>& positions, double nu_low,
-                double nu_high);
+  // libraries[s] is that of dataset.setups[s]. Prepares all positions for Poisson's ratios in
+  // [nu_low, nu_high].
+  BodyStiffness(const std::vector<std::unique_ptr<ContactLibrary>>& libraries,
+                const Dataset& dataset, double nu_low, double nu_high);
 
-  // A homogeneous material is exact. Any other is linear about the last solve() of a material of
-  // the same layout (key points and kinds of features), exact at each material that was solved.
-  // Without a solution it is estimated on top of what is known without its last features, or its
-  // regions: features as FeatureEstimate says, regions by the geometric mean of the moduli weighted
-  // by each region's share of the strain energy (first order in the contrast). A body that has
-  // moved is prepared anew, once for each move.
+  // As SetupStiffness says; positions are numbered as in the dataset.
   PositionStiffness at(std::size_t position, const MaterialSpec& material) const;
-
-  // The same body pressed at other positions.
-  std::unique_ptr<BodyStiffness> with_positions(const std::vector<Vec3>& positions) const;
-
-  // Finite-element solutions for a material that is not homogeneous; nothing to do for one that is.
   void solve(const MaterialSpec& material) const;
-  // Whether a material of this layout was solved, so that at() does not estimate.
   bool is_solved(const MaterialSpec& material) const;
-  void forget(const MaterialSpec& material) const;  // the solutions of its layout
+  void forget(const MaterialSpec& material) const;
 
-  int threads() const { return library_.threads(); }
-  const std::vector<PreparedContact>& contacts() const { return contacts_; }
-  const std::vector<Vec3>& positions() const { return positions_; }
+  int threads() const { return setups_.front()->threads(); }
+  std::size_t size() const { return place_.size(); }  // positions
+  const SetupStiffness& setup(std::size_t s) const { return *setups_[s]; }
+  const PreparedContact& contact(std::size_t position) const;
+  const Vec3& position(std::size_t position) const;
   std::vector<Vec3> normals() const;
   double mesh_uncertainty() const;  // median over the positions, relative
-  // The move that the contact points' distances from the surface show.
-  RigidMove move() const { return register_points(positions_, library_.surface()); }
+  // The move that the contact points' distances from the surface show; none of several setups.
+  RigidMove move() const;
 
  private:
-  using Shares = std::vector<std::vector<double>>;  // [position][region], sums to 1
-  const Shares& shares(const MaterialSpec& material) const;
-  PositionStiffness by_shares(std::size_t position, const MaterialSpec& material) const;
-  PositionStiffness estimated(std::size_t position, const MaterialSpec& material) const;
-
-  const ContactLibrary& library_;
-  std::vector<Vec3> positions_;
-  std::vector<PreparedContact> contacts_;
-  // What was solved for one layout; the last one is extrapolated from.
-  struct Reference {
-    MaterialSpec material;
-    std::vector<StiffnessSolution> solutions;  // by position
+  struct Place {
+    std::size_t setup = 0, position = 0;  // within the setup
   };
-  using ReferencePointer = std::shared_ptr<const Reference>;
-  ReferencePointer reference_for(const MaterialSpec& material) const;
-  // This body where it lay when it was scanned, and the material as it is there.
-  const BodyStiffness& before_move(const MaterialSpec& material) const;
-
-  double nu_low_, nu_high_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::array<double, 6>, std::unique_ptr<BodyStiffness>> moved_;
-  mutable std::map<std::string, std::vector<ReferencePointer>> references_;
-  mutable std::map<std::string, Shares> shares_;
-  mutable std::vector<std::shared_ptr<const FeatureEstimate>> estimates_;  // when first needed
+  std::vector<std::unique_ptr<SetupStiffness>> setups_;
+  std::vector<Place> place_;  // by position
 };
 
 }  // namespace hapsim

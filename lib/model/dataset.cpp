@@ -18,11 +18,34 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+// The number of the setup in `setups`, where it is put if it is not there.
+int number_of(const Setup& setup, std::vector<Setup>& setups) {
+  const auto found = std::find(setups.begin(), setups.end(), setup);
+  if (found != setups.end()) return static_cast<int>(found - setups.begin());
+  setups.push_back(setup);
+  return static_cast<int>(setups.size()) - 1;
+}
+
+template <class Value>
+std::size_t distinct(const std::vector<Setup>& setups, const Value& value) {
+  std::vector<double> values;
+  for (const Setup& s : setups) values.push_back(value(s));
+  std::sort(values.begin(), values.end());
+  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+}
+
 }  // namespace
 
-Dataset make_dataset(Recording recording, double same) {
+std::size_t Dataset::bodies() const {
+  return distinct(setups, [](const Setup& s) { return static_cast<double>(s.body); });
+}
+std::size_t Dataset::tools() const {
+  return distinct(setups, [](const Setup& s) { return s.tool_radius; });
+}
+
+Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row) {
   Dataset dataset;
-  const double radius = recording.tool_radius();
+  const Setup only{0, setup_of_row.empty() ? recording.tool_radius() : 0};
   const bool relaxed = recording.metadata.find("recovery").value_or("") != "none";
   double session_start = 0;
   if (!recording.t.empty())
@@ -30,16 +53,20 @@ Dataset make_dataset(Recording recording, double same) {
   for (const Press& press : recording.presses()) {
     const Vec3& point = recording.position[press.rows.front()];
     for (const int row : press.rows)
-      if ((recording.position[row] - point).norm() > same)
+      if ((recording.position[row] - point).norm() > kSamePlace)
         fail_input(fmt::format("{}:{}", recording.name, recording.line[row]),
                    fmt::format("the contact point moves within press {}", press.id),
                    "give each contact point its own press number");
+    const int setup =
+        number_of(setup_of_row.empty() ? only : setup_of_row[press.rows.front()], dataset.setups);
     int position = -1;
     for (std::size_t p = 0; p < dataset.positions.size() && position < 0; ++p)
-      if ((dataset.positions[p] - point).norm() <= same) position = static_cast<int>(p);
+      if (dataset.setup_of[p] == setup && (dataset.positions[p] - point).norm() <= kSamePlace)
+        position = static_cast<int>(p);
     if (position < 0) {
       position = static_cast<int>(dataset.positions.size());
       dataset.positions.push_back(point);
+      dataset.setup_of.push_back(setup);
     }
     const bool goes_on =
         !relaxed && !dataset.episodes.empty() && dataset.episodes.back().position == position &&
@@ -48,7 +75,7 @@ Dataset make_dataset(Recording recording, double same) {
     if (!goes_on) {
       dataset.episodes.emplace_back();
       dataset.episodes.back().position = position;
-      dataset.episodes.back().view.radius = radius;
+      dataset.episodes.back().view.radius = dataset.setups[setup].tool_radius;
       dataset.episodes.back().view.number = static_cast<int>(dataset.episodes.size());
     }
     Episode& episode = dataset.episodes.back();
@@ -111,7 +138,7 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   DataSummary summary;
   summary.has_time = !dataset.recording.t.empty();
   summary.modulus = modulus;
-  summary.tool_radius = dataset.recording.tool_radius();
+  summary.tool_radius = dataset.setups.front().tool_radius;
   summary.peak_force = 1e-12;
   const std::vector<double>& temp = dataset.recording.temp;
   if (!temp.empty())

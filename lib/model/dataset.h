@@ -1,6 +1,7 @@
 // A recording as the model sees it: presses at contact positions.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "effects/effect.h"
@@ -16,16 +17,30 @@ struct Episode {
   PressView view;         // normal, direction, past_depth are filled in by set_normals()
 };
 
-struct Dataset {
-  Recording recording;
-  std::vector<Vec3> positions;  // distinct contact points [m]
-  std::vector<Episode> episodes;
-  std::size_t rows() const { return recording.rows(); }
+constexpr double kSamePlace = 1e-4;  // contact points nearer than this are one [m]
+
+// Which body was pressed (from 0, in the caller's list) with which tool.
+struct Setup {
+  int body = 0;
+  double tool_radius = 0;  // [m]
+  bool operator==(const Setup&) const = default;
 };
 
-// Contact points closer than `same` are one position. Error(kBadInput) when a press moves its
-// contact point by more than that.
-Dataset make_dataset(Recording recording, double same = 1e-4);
+struct Dataset {
+  Recording recording;
+  std::vector<Vec3> positions;  // distinct contact points [m], each in the frame of its body
+  std::vector<Episode> episodes;
+  std::vector<Setup> setups;  // distinct, in the order of the recording
+  std::vector<int> setup_of;  // by position
+  std::size_t rows() const { return recording.rows(); }
+  std::size_t bodies() const;  // distinct ones
+  std::size_t tools() const;   // distinct radii
+};
+
+// Contact points of one setup within kSamePlace are one position. `setup_of_row`: by row of the
+// recording; empty: all rows of one body, with the recording's tool. Error(kBadInput) when a press
+// moves its contact point by more than that.
+Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row = {});
 // Normals by position, and what follows from them: each press's direction and the deepest press
 // before it at its place (none with `recovery: full`).
 void set_normals(Dataset& dataset, const std::vector<Vec3>& normals);

@@ -16,8 +16,8 @@ namespace {
 Model with_locations(const Model& fitted, const Effect& effect, const Dataset& dataset,
                      const Selection& selection, const BodyStiffness& body,
                      const ExtendOptions& options) {
-  const auto samples =
-      location_samples(fitted, dataset, selection, body, options.noise, options.floor);
+  const auto samples = merged_places(
+      location_samples(fitted, dataset, selection, body, options.noise, options.floor));
   const std::vector<int> label = region_labels(samples, options.regions, 8);
   const int regions = 1 + *std::max_element(label.begin(), label.end());
   Model model = fitted;
@@ -158,7 +158,8 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
   if (card.solved && card.needs_positions)
     for (const LocationSample& s :
          location_samples(fitted, dataset, selection, body, options.noise, options.floor))
-      summary.places.push_back({s.point, body.contacts()[s.position].normal, s.gain});
+      summary.places.push_back(
+          {s.point, body.contact(static_cast<std::size_t>(s.position)).normal, s.gain});
   if (card.stage == Stage::kSupport)
     if (const RigidMove move = body.move(); move.significant()) {
       summary.shift = move.shift;
@@ -174,7 +175,16 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
   return starts;
 }
 
+std::string not_shared(const EffectCard& effect, const Dataset& dataset) {
+  if (effect.one_body && dataset.bodies() > 1)
+    return "its parameters belong to one body, and there are several: fit each body by itself";
+  if (effect.one_tool && dataset.tools() > 1)
+    return "its parameters belong to one tool, and there are several: fit each tool by itself";
+  return "";
+}
+
 std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
+  if (std::string why = not_shared(effect, dataset); !why.empty()) return why;
   if (effect.needs_time && dataset.recording.t.empty())
     return "the recording has no column t: record the time of every sample";
   if (effect.needs_time) {

@@ -26,6 +26,10 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& effect,
                                const Dataset& dataset, const Selection& selection,
                                const BodyStiffness& body, const ExtendOptions& options);
 
+// Empty when what the effect's parameters belong to (one body, one tool) is but one in these data,
+// else what to do, in words.
+std::string not_shared(const EffectCard& effect, const Dataset& dataset);
+
 // Empty when these data can test the effect, else what they lack, in words.
 std::string lacking_for(const EffectCard& effect, const Dataset& dataset);
 

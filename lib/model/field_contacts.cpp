@@ -19,7 +19,7 @@ FieldContacts::Prepared FieldContacts::take(std::size_t position) const {
     const std::lock_guard lock(mutex_);
     if (auto node = kept_.extract(position); !node.empty()) return std::move(node.mapped());
   }
-  return {std::make_unique<FieldBody>(base_, stiffness_.positions()[position], tool_radius_,
+  return {std::make_unique<FieldBody>(base_, stiffness_.position(position), tool_radius_,
                                       kFieldRim * tool_radius_, kGrowth, grid_),
           {},
           false};
@@ -27,7 +27,7 @@ FieldContacts::Prepared FieldContacts::take(std::size_t position) const {
 
 Eigen::Matrix3d FieldContacts::scale(std::size_t position, const Eigen::Matrix3d& K_coarse) const {
   Eigen::Matrix3d fine, by_nu;
-  stiffness_.contacts()[position].stiffness.evaluate(nu_, fine, by_nu);
+  stiffness_.contact(position).stiffness.evaluate(nu_, fine, by_nu);
   return fine.llt().matrixL().toDenseMatrix() * K_coarse.llt().matrixL().toDenseMatrix().inverse();
 }
 

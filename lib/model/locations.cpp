@@ -49,6 +49,23 @@ std::vector<LocationSample> location_samples(const Model& model, const Dataset& 
   return samples;
 }
 
+std::vector<LocationSample> merged_places(const std::vector<LocationSample>& samples) {
+  std::vector<LocationSample> merged;
+  for (const LocationSample& s : samples) {
+    const auto known = std::find_if(merged.begin(), merged.end(), [&](const LocationSample& m) {
+      return (m.point - s.point).norm() <= kSamePlace;
+    });
+    if (known == merged.end()) {
+      merged.push_back(s);
+      continue;
+    }
+    const double a = std::pow(known->gain / known->error, 2), b = std::pow(s.gain / s.error, 2);
+    known->gain = std::exp((a * std::log(known->gain) + b * std::log(s.gain)) / (a + b));
+    known->error = known->gain / std::sqrt(a + b);
+  }
+  return merged;
+}
+
 std::vector<int> region_labels(const std::vector<LocationSample>& samples, int count, int most) {
   const int n = static_cast<int>(samples.size());
   std::vector<int> every(samples.size());

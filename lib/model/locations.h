@@ -21,6 +21,9 @@ std::vector<LocationSample> location_samples(const Model& model, const Dataset& 
                                              const Selection& selection, const BodyStiffness& body,
                                              double noise, double floor);
 
+// Samples of one place (by several tools) as one: the weighted mean of their log gains.
+std::vector<LocationSample> merged_places(const std::vector<LocationSample>& samples);
+
 // How the samples fall into regions: the number that the samples ask for (2 to `most`) by the
 // information criterion, or each position by itself with `sites`. Gives each sample's region.
 std::vector<int> region_labels(const std::vector<LocationSample>& samples, int count, int most);

@@ -109,10 +109,11 @@ StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
   const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
   const std::vector<ImageView> views = image_views(model, dataset, stiffness, noise_N);
   const auto n = static_cast<Eigen::Index>(views.size());
-  const FieldGrid grid = grid_about(stiffness.contacts(), body, tool,
-                                    options.step > 0 ? options.step : 0.7 * tool, depth);
+  const std::vector<PreparedContact>& pressed = stiffness.setup(0).contacts();
+  const FieldGrid grid =
+      grid_about(pressed, body, tool, options.step > 0 ? options.step : 0.7 * tool, depth);
   const FieldContacts contacts(body, stiffness, tool, material_of(model).nu, grid, 0);
-  const Eigen::MatrixXd J = sensitivities(contacts, stiffness.contacts().size(), views, options);
+  const Eigen::MatrixXd J = sensitivities(contacts, pressed.size(), views, options);
   Eigen::VectorXd data(n), noise(n);
   std::vector<int> position;
   for (Eigen::Index v = 0; v < n; ++v) {
@@ -122,8 +123,7 @@ StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
   }
   StiffnessImage image;
   image.views = views.size();
-  image.found =
-      search_balls(J, grid, data, noise, {stiffness.contacts(), contacts.base().fine, tool, depth});
+  image.found = search_balls(J, grid, data, noise, {pressed, contacts.base().fine, tool, depth});
   image.field = image_field(J, grid, position, data, image.found.errors, options.penalty);
   return image;
 }

@@ -40,7 +40,7 @@ std::vector<ImageView> image_views(const Model& model, const Dataset& dataset,
 
 // The sensitivities of all gains are the energies of the unit fields in every element: one solution
 // a position on the body of `model` with its modulus alone, linear from there on. From them come
-// the field (image_field.h) and the balls (ball_search.h). `noise` [N].
+// the field (image_field.h) and the balls (ball_search.h). `noise` [N]. One setup only.
 StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
                                const BodyStiffness& stiffness, const TetMesh& body, double noise,
                                const ImageOptions& options);

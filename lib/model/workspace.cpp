@@ -6,17 +6,23 @@ namespace hapsim {
 
 Workspace make_workspace(const TetMesh& body, Recording recording,
                          const WorkspaceOptions& options) {
+  return make_workspace(std::vector<TetMesh>{body}, std::move(recording), {}, options);
+}
+
+Workspace make_workspace(const std::vector<TetMesh>& bodies, Recording recording,
+                         const std::vector<Setup>& setup_of_row, const WorkspaceOptions& options) {
   Workspace w;
-  w.dataset = make_dataset(std::move(recording));
+  w.dataset = make_dataset(std::move(recording), setup_of_row);
   ContactLibraryOptions library;
   library.threads = options.threads;
   library.cache = options.cache;
   library.rim_edge = options.rim_edge;
   library.draft = options.draft;
   if (options.progress) library.step = options.progress(w.dataset.positions.size());
-  w.library = std::make_unique<ContactLibrary>(body, w.dataset.recording.tool_radius(), library);
-  w.body = std::make_unique<BodyStiffness>(*w.library, w.dataset.positions, options.nu_low,
-                                           options.nu_high);
+  for (const Setup& s : w.dataset.setups)
+    w.libraries.push_back(std::make_unique<ContactLibrary>(bodies[static_cast<std::size_t>(s.body)],
+                                                           s.tool_radius, library));
+  w.body = std::make_unique<BodyStiffness>(w.libraries, w.dataset, options.nu_low, options.nu_high);
   set_normals(w.dataset, w.body->normals());
   if (options.noise > 0)
     w.noise = {options.noise, false};

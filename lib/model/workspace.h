@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "model/body_stiffness.h"
 #include "model/dataset.h"
@@ -24,7 +25,7 @@ struct WorkspaceOptions {
 
 struct Workspace {
   Dataset dataset;
-  std::unique_ptr<ContactLibrary> library;
+  std::vector<std::unique_ptr<ContactLibrary>> libraries;  // by setup
   std::unique_ptr<BodyStiffness> body;
   Noise noise;
   double floor = 0;  // relative gain error by position that a model is not blamed for
@@ -35,6 +36,9 @@ constexpr double kLeastFloor = 0.01;
 
 // Reads nothing; prepares (or finds in the cache) the stiffness at each position of the recording.
 Workspace make_workspace(const TetMesh& body, Recording recording, const WorkspaceOptions& options);
+// Of several bodies or tools: Setup::body numbers `bodies`.
+Workspace make_workspace(const std::vector<TetMesh>& bodies, Recording recording,
+                         const std::vector<Setup>& setup_of_row, const WorkspaceOptions& options);
 
 // [nu, nu] when the model's Poisson's ratio is fixed, else its bounds.
 void set_poisson_range(const Model& model, WorkspaceOptions& options);

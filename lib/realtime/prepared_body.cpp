@@ -113,8 +113,8 @@ void PreparedBody::maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) c
 std::vector<KnownStiffness> known_contacts(const BodyStiffness& body,
                                            const MaterialSpec& material) {
   std::vector<KnownStiffness> known;
-  for (std::size_t p = 0; p < body.contacts().size(); ++p)
-    known.push_back({body.contacts()[p].point, body.contacts()[p].normal, body.at(p, material).K});
+  for (std::size_t p = 0; p < body.size(); ++p)
+    known.push_back({body.contact(p).point, body.contact(p).normal, body.at(p, material).K});
   return known;
 }
 

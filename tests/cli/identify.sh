@@ -24,10 +24,36 @@ both=(--body block.ply --rim-edge 0.3 --folds 0 --noise 0.002 --add viscoelastic
   -o joined.csv || complain 'recordings are fitted together'
 paste -d, whole.csv joined.csv | awk -F, '/^(el|vis)/ { d = $4 / $13 - 1; if (d > 1e-6 || d < -1e-6) exit 1 }' ||
   complain 'two recordings give what the whole gives'
-sed 's/tool_radius: 0.004/tool_radius: 0.005/' second.csv >other.csv
-expect 3 'other.csv: another tool_radius than in first.csv' first.csv --data other.csv "${common[@]}"
+sed 's/tool_radius: 0.004/tool_radius: 0.004\n# recovery: full/' second.csv >other.csv
+expect 3 'other.csv: another recovery than in first.csv' first.csv --data other.csv "${common[@]}"
 awk -F, -v OFS=, '/^[0-9]/ && n++ == 30 { $3 += 0.01 } 1' second.csv >moving.csv
 expect 3 'moving.csv:' first.csv --data moving.csv "${common[@]}"
+
+# Another tool on the same body; the same recordings as of two bodies; what one body or one tool
+# alone has is refused before anything is prepared.
+awk -F, -v OFS=, '/tool_radius/ { $0 = "# tool_radius: 0.006" } 1' second.csv >wide.csv
+two=(--rim-edge 0.3 --noise 0.002 -o out.csv)
+expect 0 'presses at 2 positions by 2 tools' first.csv --data wide.csv --body block.ply "${two[@]}" --folds 2
+grep -q 'on positions not seen by the fit' .err || complain 'held out over all tools'
+! grep -q '^# tool_radius' out.csv || complain 'a model of two tools names none'
+expect 0 'presses at 2 positions by 2 tools' first.csv --body block.ply --data wide.csv \
+  --body ./block.ply "${two[@]}" --folds 2
+cp block.ply other.ply
+bodies=(first.csv --body block.ply --data second.csv --body other.ply "${two[@]}" --folds 0)
+expect 0 'presses at 2 positions of 2 bodies' "${bodies[@]}" --add viscoelastic
+paste -d, whole.csv out.csv | awk -F, '/^(el|vis)/ { d = $4 / $13 - 1; if (d > 1e-6 || d < -1e-6) exit 1 }' ||
+  complain 'the same body under two names gives what one gives'
+expect 2 'regions cannot be shared; its parameters belong to one body' "${bodies[@]}" --add regions
+expect 2 'tip cannot be shared; its parameters belong to one tool' first.csv --data wide.csv \
+  --body block.ply "${two[@]}" --add tip
+for mode in '--effects auto' '--acfm 1' '--image i.vtu' '--boundary 8' '--library lab.db'; do
+  read -ra flags <<<"$mode"
+  expect 2 'is for one body and one tool, and these recordings have several bodies' "${bodies[@]}" \
+    "${flags[@]}"
+done
+expect 2 '--locations is for one body' "${bodies[@]}" --locations l.csv
+expect 2 '2 bodies for 1 recording; give --body once, or once for each' first.csv --body block.ply \
+  --body other.ply "${two[@]}"
 
 rm -f out.csv
 awk '/^#/ || !n++ || n == 22' data.csv >one-row.csv # three components

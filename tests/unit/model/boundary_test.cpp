@@ -87,7 +87,7 @@ TEST(FieldContacts, AHomogeneousFieldIsTheModelsOwnBody) {
   const FieldContacts contacts(body, *w.body, 0.004, 0.4, grid, 1);
   const auto nodes = static_cast<Eigen::Index>(grid.size());
   Eigen::Matrix3d fine, by_nu;
-  w.body->contacts()[1].stiffness.evaluate(0.4, fine, by_nu);
+  w.body->contact(1).stiffness.evaluate(0.4, fine, by_nu);
   const auto plain = contacts.at(1, Eigen::VectorXd::Constant(nodes, std::log(3.0)));
   EXPECT_LT((plain.K() - 3 * fine).norm(), 1e-6 * fine.norm());
 

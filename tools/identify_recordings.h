@@ -1,0 +1,108 @@
+// What hs-identify is given to fit: recordings, each of a body pressed with a tool.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "common_options.h"
+#include "effects/catalogue.h"
+#include "identify_plan.h"
+#include "io/recording_join.h"
+#include "model/extend.h"
+
+namespace hapsim {
+
+struct Experiment {
+  std::vector<TetMesh> bodies;
+  Recording recording;              // all as one
+  std::vector<Setup> setup_of_row;  // Setup::body numbers `bodies`
+};
+
+inline std::vector<Option> recording_flags() {
+  return {{.flag = "--data",
+           .kind = OptionKind::kFile,
+           .value = "FILE",
+           .help = "One more recording, fitted together with the first; may be given several "
+                   "times. Another tool_radius is another tool on the same material.",
+           .repeatable = true},
+          {.flag = "--body",
+           .kind = OptionKind::kFile,
+           .value = "FILE",
+           .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: "
+                   "VTU, Gmsh, Abaqus or CalculiX (.inp). Once: the body of all recordings; or "
+                   "once for each recording, in their order (the main input, then --data): bodies "
+                   "of one material.",
+           .required = true,
+           .repeatable = true}};
+}
+
+// Error(kUsage) when there is neither one body nor one for each recording.
+inline Experiment load_experiment(const Arguments& arguments) {
+  std::vector<std::string> paths = arguments.list("--data");
+  paths.insert(paths.begin(), arguments.input());
+  const std::vector<std::string> bodies = arguments.list("--body");
+  if (bodies.size() != 1 && bodies.size() != paths.size())
+    fail_usage(
+        fmt::format("{} bodies for {} recording{}", bodies.size(), paths.size(),
+                    paths.size() == 1 ? "" : "s"),
+        "give --body once, or once for each recording: the main input first, then each --data");
+  Experiment experiment;
+  std::vector<int> body_of;  // by --body: the same file is the same body
+  std::vector<std::string> read;
+  for (const std::string& path : bodies) {
+    std::size_t k = 0;
+    const auto same = [&](const std::string& other) {
+      std::error_code error;
+      return path == other || std::filesystem::equivalent(path, other, error);
+    };
+    while (k < read.size() && !same(read[k])) ++k;
+    body_of.push_back(static_cast<int>(k));
+    if (k < read.size()) continue;
+    read.push_back(path);
+    Input input(path);
+    experiment.bodies.push_back(read_body(input));
+  }
+  std::vector<Recording> recordings;
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    recordings.push_back(load_recording(arguments, paths[k], true));
+    const Recording& r = recordings.back();
+    if (paths.size() > 1) make_dataset(r);  // what is wrong with one is told with its name
+    experiment.setup_of_row.insert(experiment.setup_of_row.end(), r.rows(),
+                                   {body_of[bodies.size() == 1 ? 0 : k], r.tool_radius()});
+  }
+  experiment.recording = join_recordings(recordings);
+  return experiment;
+}
+
+// For what knows one body and one tool only.
+inline void require_one_setup(const Dataset& dataset, const std::string& what) {
+  if (dataset.setups.size() > 1)
+    fail_usage(what + " is for one body and one tool, and these recordings have " +
+                   (dataset.bodies() > 1 ? "several bodies" : "several tools"),
+               "give it the recordings of one of them");
+}
+
+// Refuses, before anything is prepared, what is asked of recordings of several bodies or tools and
+// knows one only: features of this tool, and effects (of the start, or to be added) whose
+// parameters belong to one.
+inline void require_shared(const Arguments& arguments, const Plan& plan,
+                           const Experiment& experiment) {
+  const Dataset dataset = make_dataset(experiment.recording, experiment.setup_of_row);
+  if (dataset.setups.size() == 1) return;
+  if (plan.automatic) require_one_setup(dataset, "--effects auto");
+  for (const char* flag : {"--boundary", "--image", "--library"})
+    if (arguments.given(flag)) require_one_setup(dataset, flag);
+  if (arguments.given("--locations") && dataset.bodies() > 1)
+    fail_usage("--locations is for one body, and there are several", "fit each body by itself");
+  std::vector<std::string> effects = plan.start.effects();
+  effects.insert(effects.end(), plan.add.begin(), plan.add.end());
+  for (const std::string& name : effects)
+    if (const std::string why = not_shared(require_effect(name).card(), dataset); !why.empty())
+      fail_usage(name + " cannot be shared", why);
+}
+
+}  // namespace hapsim

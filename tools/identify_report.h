@@ -1,0 +1,71 @@
+// What hs-identify says of a fit.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/tool.h"
+#include "estimate/identifiability.h"
+#include "linalg/blas.h"
+#include "model/fit.h"
+#include "model/plausible.h"
+#include "model/terms.h"
+#include "model/workspace.h"
+
+namespace hapsim {
+
+// " of 2 bodies by 3 tools"; empty for one of each.
+inline std::string setups_in_words(const Dataset& dataset) {
+  std::string text;
+  if (dataset.bodies() > 1) text += fmt::format(" of {} bodies", dataset.bodies());
+  if (dataset.tools() > 1) text += fmt::format(" by {} tools", dataset.tools());
+  return text;
+}
+
+inline void report(const Arguments& arguments, const Workspace& w, const FitResult& result,
+                   double held_out, const std::string& by, double force_rms) {
+  const auto line = [&](const std::string& text) { say(arguments, "hs-identify", text); };
+  line(fmt::format(
+      "{} presses at {} positions{}, {} samples; noise {:.3g} N ({}), force rms {:.3g} N",
+      w.dataset.recording.presses().size(), w.dataset.positions.size(), setups_in_words(w.dataset),
+      w.dataset.rows(), w.noise.value, w.noise.measured ? "measured from the data" : "declared",
+      force_rms));
+  int shown = 0;
+  for (const Parameter& p : result.model.parameters) {
+    if (p.state != ParameterState::kFree || ++shown > 12) continue;
+    line(fmt::format(
+        "{} {}{} = {:.4g} {} ± {}", p.effect, p.name,
+        p.region > 0 ? fmt::format(" (region {})", p.region) : "", p.value,
+        p.unit == "1" ? "" : p.unit,
+        std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error)));
+  }
+  if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
+  const auto warn = [&](const std::vector<std::string>& names, const char* what) {
+    constexpr std::size_t kMost = 4;
+    for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);
+    if (names.size() > kMost) line(fmt::format("... and {} more", names.size() - kMost));
+  };
+  warn(result.at_bound,
+       " is at its bound: the data ask for more than the model can give, or cannot tell");
+  warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
+  for (const std::string& sentence : result.blind) line(sentence);
+  for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
+  for (const std::string& interval : result.intervals) line(interval);
+  if (result.discounted > 0)
+    line(fmt::format("{} of {} force components discounted as far off", result.discounted,
+                     result.residuals));
+  if (!enough_data(result.residuals,
+                   static_cast<Eigen::Index>(result.model.free_parameters().size())))
+    line("fewer than ten force components a free parameter: noise may decide their values");
+  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", result.rmse,
+                   100 * result.rmse / force_rms, result.rmse / w.noise.value));
+  if (!by.empty() && !std::isnan(held_out))
+    line(fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
+                     100 * held_out / force_rms, held_out / w.noise.value));
+  if (arguments.verbose()) line("BLAS: " + blas_name());
+}
+
+}  // namespace hapsim
