@@ -79,6 +79,8 @@ inline Model load_model(const Arguments& arguments, const std::string& tool, Inp
   Model model = read_model(input);
   if (is_unfinished(model))
     say(arguments, tool, input.name() + ": the fit of this model was ended before it converged");
+  if (const auto what = model.metadata.find("interrupted"))
+    say(arguments, tool, input.name() + ": interrupted " + *what + ", so more may be missing");
   return model;
 }
 inline Model load_model(const Arguments& arguments, const std::string& tool) {

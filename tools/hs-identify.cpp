@@ -244,6 +244,7 @@ int run(const Arguments& arguments) {
   Model& model = result.model;
   describe_fit(model, plan, w, result.rmse);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
+  if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
   Output output(arguments.output());
   write_model(output.stream(), model);
   if (arguments.given("--locations") && cut_short.empty()) {

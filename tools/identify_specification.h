@@ -39,7 +39,9 @@ inline ToolSpec identify_specification() {
       "contact positions left out in turn (whole presses, when there is only one position).",
       "Interrupted (SIGINT, SIGTERM) while it fits, it writes the best model so far with the "
       "metadata 'converged: no' and ends with exit code 4; a search from many starts can go on "
-      "from there (--resume). A second signal ends it at once.",
+      "from there (--resume). While --effects auto diagnoses and adds, or the error on unseen data "
+      "is found, it writes the last model that was fitted, with the metadata 'interrupted'. A "
+      "second signal ends it at once.",
       "--acfm identifies springs and dashpots at the pressed positions instead, between which "
       "hs-simulate interpolates: no finite elements, so it needs no relaxation common to all "
       "directions, and answers in well under a microsecond. Recordings or forces of hs-simulate "

@@ -19,6 +19,8 @@ ImprovementStep fitted_step(const std::string& added, const std::vector<Model>& 
   return step;
 }
 
+struct Ended {};  // by the watch of the fits
+
 }  // namespace
 
 Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
@@ -42,11 +44,19 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
     fail_numerics(fine.dataset.recording.name,
                   "the fit did not converge: " + result.steps.front().fitted.message,
                   "start from a simpler model, or fix a parameter");
+  DiagnoseOptions watched = options.diagnose;
+  watched.progress = [&](const std::string& what) {
+    if (options.diagnose.progress) options.diagnose.progress(what);
+    if (options.fit.watch && !options.fit.watch({})) throw Ended{};
+  };
   for (int k = 0; k < options.most_diagnoses; ++k) {
     tell("diagnosing " + effects_label(result.steps.back().fitted.model));
-    result.last = diagnose(result.steps.back().fitted.model, draft, options.diagnose);
-    result.stopped = options.fit.watch && !options.fit.watch({});
-    if (result.stopped) return result;
+    try {
+      result.last = diagnose(result.steps.back().fitted.model, draft, watched);
+    } catch (const Ended&) {
+      result.stopped = true;
+      return result;
+    }
     bool grown = false;
     for (const Finding& finding : result.last.findings) {
       if (finding.verdict != Verdict::kMissing) continue;

@@ -57,7 +57,8 @@ double left_by_laws(const Model& model, const Workspace& w) {
 constexpr double kPromising = 2.5, kBetter = 0.99;
 
 // The best estimates first: what they become decides what else is worth the solutions.
-void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, Workspace& w) {
+void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, Workspace& w,
+                      const DiagnoseOptions& options) {
   std::vector<Candidate*> order;
   double least = base.fitted.rmse;
   for (Candidate& c : candidates) {
@@ -70,6 +71,7 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, 
   for (Candidate* c : order) {
     if (c->fitted.rmse >= kPromising * least || c->fitted.rmse >= kBetter * base.fitted.rmse)
       continue;
+    if (options.progress) options.progress(c->effect->card().name);
     refine(*c, w);
     least = std::min(least, c->fitted.rmse);
   }
@@ -134,7 +136,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     finding.next_measurement = lack;
     round.untestable.push_back(finding);
   }
-  refine_promising(round.candidates, base, w);
+  refine_promising(round.candidates, base, w, options);
   const Yardstick yardstick = make_yardstick(base, round.candidates, w);
   std::vector<Measured> measured;
   for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, w));
@@ -166,6 +168,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
       f.share = std::clamp((std::isnan(m.explained) ? fall : m.explained) / beyond_noise, 0.0, 1.0);
     // Refits for held-out positions cost most and only matter to what passes otherwise.
     if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share) {
+      if (options.progress) options.progress(f.effect);
       hold_out(c, w, folds);
       prefer_sites(c, base, w, folds);
       f.every_site = c.every_site;

@@ -1,5 +1,6 @@
 #include "model/boundary_fit.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "estimate/least_squares.h"
+#include "model/boundary_error.h"
 #include "model/boundary_graph.h"
 #include "model/edit.h"
 #include "model/field_contacts.h"
@@ -87,6 +89,26 @@ class BoundaryProblem {
     if (J != nullptr) *J = J_;
   }
 
+  // Of the unknowns at x, their bounds left aside: the noise (or the misfit, where that is larger)
+  // and the gain error of each position.
+  Eigen::MatrixXd covariance(const Eigen::VectorXd& x) {
+    if (x_.size() != x.size() || x_ != x) evaluate(x);
+    const Eigen::VectorXd scale =
+        J_.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());
+    const Eigen::MatrixXd scaled = J_ * scale.cwiseInverse().asDiagonal();
+    const Eigen::Index n = x.size();
+    const Eigen::MatrixXd inverse =
+        (scaled.transpose() * scaled).ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+    const double freedom = std::max<double>(1, static_cast<double>(J_.rows() - n));
+    return std::max(1.0, r_.squaredNorm() / freedom) * scale.cwiseInverse().asDiagonal() * inverse *
+           scale.cwiseInverse().asDiagonal();
+  }
+  // Derivatives of the forces by the shifts at x, stacked rows x shifts [N/m].
+  const Eigen::MatrixXd& by_shift(const Eigen::VectorXd& x) {
+    if (x_.size() != x.size() || x_ != x) evaluate(x);
+    return by_shift_;
+  }
+
   Eigen::VectorXd shifts(const Eigen::VectorXd& x) const {
     return x.tail(static_cast<Eigen::Index>(graph_.size()));
   }
@@ -145,6 +167,7 @@ class BoundaryProblem {
     Eigen::MatrixXd all(rows, 1 + unknowns);
     all.col(0) = signal.f - measured_;
     all.rightCols(unknowns) = signal.df;
+    by_shift_ = all.rightCols(shifted);
     weights_.whiten(all);
     r_.resize(rows + shifted);
     J_ = Eigen::MatrixXd::Zero(rows + shifted, unknowns);
@@ -167,7 +190,7 @@ class BoundaryProblem {
   Weights weights_;
   std::vector<int> free_;
   Eigen::VectorXd x_, r_;
-  Eigen::MatrixXd J_;
+  Eigen::MatrixXd J_, by_shift_;
 };
 
 std::vector<BoundaryLine> boundaries_of(const Model& model, const TetMesh& mesh,
@@ -212,13 +235,24 @@ BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, Bo
         },
         search);
     const Eigen::VectorXd shift = problem.shifts(solution.x);
+    const Eigen::MatrixXd covariance =
+        problem.covariance(solution.x).bottomRightCorner(shift.size(), shift.size());
     const std::vector<BoundaryLine> lines = graph.lines(shift);
     Model moved = problem.with_moduli(result.fitted.model, solution.x);
     std::erase_if(moved.parameters, [](const Parameter& p) { return p.effect == "regions"; });
     place_key_points(
         moved, [&](const Plan& p) { return graph.region(p, shift); }, lines, options.key_points);
     FitResult fitted = fit(moved, dataset, all_episodes(dataset), body, options.fit);
+    const auto tell_errors = [&](const std::vector<BoundaryLine>& where) {
+      result.error.clear();
+      for (Eigen::Index k = 0; k < shift.size(); ++k)
+        result.error.push_back(std::sqrt(std::max(0.0, covariance(k, k))));
+      add_boundary_error(result.fitted, dataset, body, problem.by_shift(solution.x), covariance);
+      tell_key_point_errors(result.fitted.model, where, result.error);
+    };
     if (fitted.rmse >= result.fitted.rmse) {
+      if (!fitted.stopped && round == 0)
+        tell_errors(graph.lines(0 * shift));  // where they stay, no better known
       if (!fitted.stopped) break;
       result.fitted.stopped = true;
       result.fitted.converged = false;
@@ -231,9 +265,7 @@ BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, Bo
     result.moved.clear();
     for (const BoundaryLine& line : lines)
       for (const Plan& p : line.points) result.moved.push_back(distance_to(before, p));
-    result.error.clear();
-    for (Eigen::Index k = solution.x.size() - shift.size(); k < solution.x.size(); ++k)
-      result.error.push_back(std::sqrt(std::max(0.0, solution.covariance(k, k))));
+    tell_errors(lines);
   }
   return result;
 }

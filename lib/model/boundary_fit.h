@@ -20,11 +20,14 @@ struct BoundaryOptions {
 };
 
 struct BoundaryFit {
-  FitResult fitted;                 // its key points on both sides of the moved boundaries
+  // Its key points on both sides of the moved boundaries; the standard errors of the moduli and of
+  // the key points have the boundaries' own in them.
+  FitResult fitted;
   std::vector<BoundaryLine> lines;  // through the key points
   std::vector<double> moved;        // distance of each key point from the boundaries of `start` [m]
   std::vector<double> error;        // standard error of its place [m]
-  bool better = false;              // than `start`; else `fitted` is that, and nothing has moved
+  bool better =
+      false;  // than `start`; else `fitted` is that but for the errors, and nothing has moved
 };
 
 // `start`: a fitted model with regions. The boundaries' key points move along their normals, the

@@ -353,7 +353,7 @@ Folds make_folds(const Dataset& dataset, int count) {
   Folds folds;
   const bool by_position = dataset.positions.size() > 1;
   const std::size_t groups = by_position ? dataset.positions.size() : dataset.episodes.size();
-  if (groups < 2) return folds;
+  if (groups < 2 || count < 2) return folds;
   folds.by = by_position ? "positions" : "presses";
   folds.held_out.resize(std::min<std::size_t>(groups, static_cast<std::size_t>(count)));
   for (std::size_t e = 0; e < dataset.episodes.size(); ++e) {

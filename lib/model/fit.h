@@ -72,7 +72,8 @@ double rmse(const Model& model, const Dataset& dataset, const Selection& selecti
 // Whole positions (or, with a single position, whole presses) left out in turn.
 struct Folds {
   std::vector<Selection> held_out;
-  std::string by;  // "positions", "presses" or "" when there is only one press
+  std::string
+      by;  // "positions", "presses" or "" when nothing can be held out (one press, one part)
 };
 Folds make_folds(const Dataset& dataset, int count);
 

@@ -15,7 +15,12 @@ void mark_unfinished(Model& model, const SearchState& state) {
         "search", fmt::format("{} of {} starts, seed {}", state.done, state.starts, state.seed));
 }
 
+void mark_interrupted(Model& model, const std::string& what) {
+  model.metadata.set("interrupted", what);
+}
+
 void unmark(Model& model) {
+  model.metadata.remove("interrupted");
   model.metadata.remove("converged");
   model.metadata.remove("search");
 }

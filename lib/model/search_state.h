@@ -1,4 +1,5 @@
-// The mark on a model whose fit was ended early, and where its search can go on.
+// The mark on a model whose fit, or what comes after it, was ended early, and where its search can
+// go on.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,8 @@ struct SearchState {
 };
 
 void mark_unfinished(Model& model, const SearchState& state);
+// Metadata `interrupted: while the model was improved`: what a signal ended after the fit.
+void mark_interrupted(Model& model, const std::string& what);
 void unmark(Model& model);
 bool is_unfinished(const Model& model);
 // Empty: no such search. `where` names the file in Error(kBadInput) for a mark that cannot be read.

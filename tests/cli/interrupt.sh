@@ -60,6 +60,37 @@ code=$?
 ((code == 4 || code == 143)) || complain "exit code $code after two signals"
 [[ -z $(find . -name '.hapsim-*') ]] || complain 'no temporary file is left'
 
+# While the model is improved: a signal that comes once the diagnosis has begun. Rows enough that it
+# takes its time.
+awk -F, -v OFS=, '/^[#p]/ { print; next } { for (k = 0; k < 40; ++k) { $2 = $2 + 0.001; print } }' data.csv >long.csv
+"$tool" -q long.csv "${common[@]}" -o m0.csv || complain 'the elastic model of many rows is identified'
+# interrupted_at WORDS SIGNAL ARGUMENTS...: the signal as soon as the words are said.
+interrupted_at() {
+  local words=$1 signal=$2
+  shift 2
+  env --default-signal=INT "$tool" "$@" 2>.err &
+  pid=$!
+  until grep -q "$words" .err || ! kill -0 $pid 2>/dev/null; do sleep 0.02; done
+  kill -s "$signal" $pid 2>/dev/null
+  wait $pid
+  code=$?
+}
+for signal in INT TERM; do
+  rm -f m.csv
+  interrupted_at 'diagnosing elastic' "$signal" long.csv "${common[@]}" --effects auto -v -o m.csv
+  ((code == 4)) || complain "exit code $code, not 4, after SIG$signal in the diagnosis"
+  grep -q 'long.csv: interrupted while the model was improved; the model that was fitted is written' .err ||
+    complain "what SIG$signal did in the diagnosis is told"
+  grep -q '^# interrupted: while the model was improved' m.csv && grep -q '^elastic,0,E,' m.csv ||
+    complain 'the model that was not improved further is marked'
+done
+expect 0 'm.csv: interrupted while the model was improved, so more may be missing' data.csv \
+  "${common[@]}" --model m.csv -o m2.csv
+! grep -q interrupted m2.csv || complain 'a fit to its end has no mark'
+interrupted_at 'fitting elastic' INT long.csv "${common[@]}" --effects auto -v -o m.csv
+((code == 4)) && grep -q '^# interrupted\|^# converged: no' m.csv ||
+  complain "exit code $code after a signal in the first fit, or a model without a mark"
+
 if command -v script >/dev/null; then
   for seconds in 1.5 6 30; do
     TERM=xterm script -qec "timeout -s TERM $seconds $tool ${search[*]} -o m.csv" /dev/null \
