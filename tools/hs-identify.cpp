@@ -44,7 +44,6 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
   Model model = plan.start;
   if (model.parameters.empty()) {
     model = elastic_model(w.dataset, selection, *w.body);
-    require_like_columns(model, w.dataset, selection, *w.body);
     for (const std::string& what : plan.fix)
       if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
   }
@@ -93,8 +92,10 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
     const ImprovementStep& step = improvement.steps[k];
     const std::string label = effects_label(step.fitted.model);
     say(arguments, "hs-identify",
-        fmt::format("{}: error {:.4g} N, unseen {:.4g} N, {:.3g} x noise", label, step.fitted.rmse,
-                    step.held_out, step.fitted.rmse / w.noise.value));
+        fmt::format(
+            "{}: error {:.4g} N{}, {:.3g} x noise", label, step.fitted.rmse,
+            std::isnan(step.held_out) ? "" : fmt::format(", unseen {:.4g} N", step.held_out),
+            step.fitted.rmse / w.noise.value));
     // The last step is the model itself, which run() writes down.
     if (arguments.given("--history") && k + 1 < improvement.steps.size())
       add_history(
@@ -157,7 +158,7 @@ int run(const Arguments& arguments) {
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
   Experiment experiment = load_experiment(arguments);
-  require_shared(arguments, plan, experiment);
+  require_fit_for(arguments, plan, experiment);
   const TetMesh& body = experiment.bodies.front();
   IdentifyLibrary library(arguments, experiment.recording, body);
   std::shared_ptr<Progress> progress;

@@ -28,7 +28,16 @@ inline int run_acfm(const Arguments& arguments) {
   const Dataset dataset = make_dataset(std::move(experiment.recording), experiment.setup_of_row);
   require_one_setup(dataset, "--acfm");
   std::vector<Vec3> normals;
-  for (const Vec3& p : dataset.positions) normals.push_back(surface.at(p).normal);
+  for (const Vec3& p : dataset.positions) {
+    const SurfaceSide side = surface.at(p);
+    if (std::abs(side.distance) > 3 * dataset.setups.front().tool_radius)
+      fail_input(dataset.recording.name,
+                 fmt::format("the contact at ({:.6g}, {:.6g}, {:.6g}) lies {:.3g} m off the "
+                             "surface, more than 3 tool radii",
+                             p.x(), p.y(), p.z(), std::abs(side.distance)),
+                 "check the unit and that the body and the recording share one frame");
+    normals.push_back(side.normal);
+  }
   AcfmFitOptions options;
   options.terms = static_cast<int>(arguments.integer("--acfm"));
   options.stiffening = arguments.given("--stiffening");

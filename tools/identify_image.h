@@ -27,8 +27,6 @@ inline void write_asked_image(const Arguments& arguments, const Model& model, co
   if (material.modulus.size() > 1 || !material.features.empty())
     fail_usage("--image starts from a body of one modulus",
                "remove regions, layers, inclusions and anisotropy from the model (--remove)");
-  if (w.dataset.positions.size() < 4)
-    fail_usage("--image needs presses at four places or more", "press at more places");
   ImageOptions options;
   options.threads = static_cast<int>(arguments.integer("--threads"));
   Progress progress(arguments, "sensitivities", w.dataset.positions.size());

@@ -13,6 +13,7 @@
 #include "identify_plan.h"
 #include "io/recording_join.h"
 #include "model/extend.h"
+#include "model/plausible.h"
 
 namespace hapsim {
 
@@ -40,7 +41,8 @@ inline std::vector<Option> recording_flags() {
            .repeatable = true}};
 }
 
-// Error(kUsage) when there is neither one body nor one for each recording.
+// Error(kUsage) when there is neither one body nor one for each recording; Error(kBadInput) for a
+// recording whose presses cannot be what they claim (require_presses()).
 inline Experiment load_experiment(const Arguments& arguments) {
   std::vector<std::string> paths = arguments.list("--data");
   paths.insert(paths.begin(), arguments.input());
@@ -70,7 +72,7 @@ inline Experiment load_experiment(const Arguments& arguments) {
   for (std::size_t k = 0; k < paths.size(); ++k) {
     recordings.push_back(load_recording(arguments, paths[k], true));
     const Recording& r = recordings.back();
-    if (paths.size() > 1) make_dataset(r);  // what is wrong with one is told with its name
+    require_presses(make_dataset(r));  // what is wrong is told with its file's name
     experiment.setup_of_row.insert(experiment.setup_of_row.end(), r.rows(),
                                    {body_of[bodies.size() == 1 ? 0 : k], r.tool_radius()});
   }
@@ -86,16 +88,19 @@ inline void require_one_setup(const Dataset& dataset, const std::string& what) {
                "give it the recordings of one of them");
 }
 
-// Refuses, before anything is prepared, what is asked of recordings of several bodies or tools and
-// knows one only: features of this tool, and effects (of the start, or to be added) whose
-// parameters belong to one.
-inline void require_shared(const Arguments& arguments, const Plan& plan,
-                           const Experiment& experiment) {
+// Refuses, before anything is prepared, too few places, and what is asked of recordings of several
+// bodies or tools and knows one only: features of this tool, and effects (of the start, or to be
+// added) whose parameters belong to one.
+inline void require_fit_for(const Arguments& arguments, const Plan& plan,
+                            const Experiment& experiment) {
   const Dataset dataset = make_dataset(experiment.recording, experiment.setup_of_row);
-  if (dataset.setups.size() == 1) return;
   if (plan.automatic) require_one_setup(dataset, "--effects auto");
   for (const char* flag : {"--boundary", "--image", "--library"})
     if (arguments.given(flag)) require_one_setup(dataset, flag);
+  for (const char* flag : {"--boundary", "--image"})
+    if (arguments.given(flag) && dataset.positions.size() < 4)
+      fail_usage(std::string(flag) + " needs presses at four places or more",
+                 "press at more places");
   if (arguments.given("--locations") && dataset.bodies() > 1)
     fail_usage("--locations is for one body, and there are several", "fit each body by itself");
   std::vector<std::string> effects = plan.start.effects();

@@ -24,6 +24,20 @@ inline std::string setups_in_words(const Dataset& dataset) {
   return text;
 }
 
+// Moduli whose standard error is more than half their value, and a Poisson's ratio known to no
+// better than half its range.
+inline std::vector<std::string> hardly_known(const Model& model) {
+  constexpr double kHalf = 0.5, kHalfRange = 0.25;
+  std::vector<std::string> names;
+  for (const Parameter& p : model.parameters) {
+    if (p.state != ParameterState::kFree) continue;
+    const bool modulus = p.unit == "Pa", nu = p.effect == "elastic" && p.name == "nu";
+    if ((modulus && p.std_error > kHalf * p.value) || (nu && p.std_error > kHalfRange))
+      names.push_back(p.effect + " " + p.name);
+  }
+  return names;
+}
+
 inline void report(const Arguments& arguments, const Workspace& w, const FitResult& result,
                    double held_out, const std::string& by, double force_rms) {
   const auto line = [&](const std::string& text) { say(arguments, "hs-identify", text); };
@@ -50,6 +64,10 @@ inline void report(const Arguments& arguments, const Workspace& w, const FitResu
   warn(result.at_bound,
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  warn(hardly_known(result.model),
+       ": the error is as large as what it can be: fix it, or press at more places and sideways");
+  if (w.dataset.positions.size() == 1)
+    line("all presses are at one place: how the body differs from place to place is not seen");
   if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
   for (const std::string& sentence : result.blind) line(sentence);
   for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);

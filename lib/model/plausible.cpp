@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,29 +20,48 @@ void require_enough_data(const Model& model, const Dataset& dataset, const Selec
                "record more samples, or fix parameters (--fix)");
 }
 
-void require_like_columns(const Model& model, const Dataset& dataset, const Selection& selection,
-                          const BodyStiffness& body) {
-  const Eigen::VectorXd f = model_forces(model, dataset, selection, body, false).f;
-  const Eigen::VectorXd measured = measured_forces(dataset, selection);
-  // What each axis measured over what the model has there: root mean squares, so that neither sign
-  // nor scatter matters; axes that the model hardly loads say nothing.
-  std::array<double, 3> model_power{}, power{};
-  for (Eigen::Index i = 0; i < f.size(); ++i) {
-    model_power[i % 3] += f[i] * f[i];
-    power[i % 3] += measured[i] * measured[i];
+void require_presses(const Dataset& dataset) {
+  const std::string& name = dataset.recording.name;
+  // What each axis measured over what it was moved: root mean squares, so that neither sign nor
+  // scatter matters; axes that are hardly moved say nothing.
+  std::array<double, 3> moved{}, power{};
+  double along = 0, along_centred = 0;  // force times displacement
+  for (const Episode& e : dataset.episodes) {
+    Vec3 mean_u = Vec3::Zero(), mean_f = Vec3::Zero();
+    double n = 0, here = 0;
+    for (std::size_t i = 0; i < e.view.size(); ++i) {
+      if (e.view.in_air[i]) continue;
+      const Vec3 &u = e.view.u[i], &f = dataset.recording.f[e.rows[i]];
+      mean_u += u;
+      mean_f += f;
+      n += 1;
+      here += f.dot(u);
+      for (int k = 0; k < 3; ++k) {
+        moved[k] += u[k] * u[k];
+        power[k] += f[k] * f[k];
+      }
+    }
+    along += here;
+    if (n > 0) along_centred += here - mean_f.dot(mean_u) / n;
   }
-  constexpr double kLoaded = 0.03, kLeast = 100;
+  const double strongest = *std::max_element(moved.begin(), moved.end());
+  if (strongest <= 0)
+    fail_input(name, "no row presses the body", "check ux,uy,uz: all displacements are zero");
+  if (*std::max_element(power.begin(), power.end()) <= 0)
+    fail_input(name, "no row has a force", "check fx,fy,fz: all forces are zero");
+  if (along > 0 && along_centred >= 0)
+    fail_input(name, "the forces point the wrong way",
+               "forces are of the body on the tool: pressing down (uz < 0) gives fz > 0");
+  constexpr double kMoved = 0.03, kLeast = 100;
   std::array<double, 3> ratio{};
-  double strongest = 0;
-  for (const double p : model_power) strongest = std::max(strongest, p);
   for (int k = 0; k < 3; ++k)
-    if (model_power[k] > kLoaded * kLoaded * strongest && power[k] > 0)
-      ratio[k] = std::sqrt(power[k] / model_power[k]);
+    if (moved[k] > kMoved * kMoved * strongest && power[k] > 0)
+      ratio[k] = std::sqrt(power[k] / moved[k]);
   for (int k = 0; k < 3; ++k)
     for (int other = 0; other < 3; ++other) {
       if (ratio[k] == 0 || ratio[other] == 0 || ratio[k] < kLeast * ratio[other]) continue;
       constexpr const char* kColumns[] = {"fx", "fy", "fz"};
-      fail_input(dataset.recording.name,
+      fail_input(name,
                  fmt::format("column {} is some {:.0f} times larger than {} calls for", kColumns[k],
                              ratio[k] / ratio[other], kColumns[other]),
                  "is one of them in mN? All forces are in N (hs-import converts)");

@@ -276,9 +276,8 @@ class Fitter {
       whole = std::hypot(whole, data[a].moved);
     }
     if (!(whole > 0))
-      fail_numerics(dataset_.recording.name,
-                    fmt::format("nothing moves at position {}", position + 1),
-                    "remove its presses");
+      fail_input(dataset_.recording.name, fmt::format("nothing moves at position {}", position + 1),
+                 "remove its presses");
     std::array<char, 3> moved{};
     for (std::size_t a = 0; a < 3; ++a) {
       if (data[a].moved < kLeastMotion * whole) continue;

@@ -38,7 +38,7 @@ struct AcfmFit {
 // axis that was not moved has the stiffness of the normal times that of a bonded disc across over
 // along (disc_compliance, nu = 0.4), or of the tangents' mean, and their relaxation. `normals`: of
 // dataset.positions, outward.
-// Error(kNoConvergence): no axis of a position moves, or a fit does not converge.
+// Error(kBadInput): no axis of a position moves. Error(kNoConvergence): a fit does not converge.
 AcfmFit fit_acfm(const Dataset& dataset, const std::vector<Vec3>& normals,
                  const AcfmFitOptions& options);
 

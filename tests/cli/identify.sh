@@ -60,17 +60,32 @@ awk '/^#/ || !n++ || n == 22' data.csv >one-row.csv # three components
 expect 3 '3 force components cannot tell 4 free parameters' one-row.csv "${common[@]}" --noise 0.01 \
   --add sensor-rotation --fix nu
 awk -F, -v OFS=, '/^[0-9]/ { $6 = $7 = $8 = 0 } 1' data.csv >still.csv
-expect 3 'no row presses the body' still.csv "${common[@]}"
 awk -F, -v OFS=, '/^[0-9]/ { $9 = -$9; $10 = -$10; $11 = -$11 } 1' data.csv >sign.csv
-expect 3 'the forces point the wrong way' sign.csv "${common[@]}"
 awk -F, -v OFS=, '/^[0-9]/ { $11 *= 1000 } 1' data.csv >milli.csv
-expect 3 'column fz is some' milli.csv "${common[@]}"
 sed '20s/,[^,]*$/,nan/' data.csv >nan.csv
-expect 3 'nan.csv' nan.csv "${common[@]}"
 awk -F, -v OFS=, '/^[0-9]/ { $5 = 0.09 } 1' data.csv >outside.csv
-expect 3 'surface' outside.csv "${common[@]}"
+awk -F, -v OFS=, '/^[0-9]/ { $9 = $10 = $11 = 0 } 1' data.csv >unmeasured.csv
+wrong=(--body block.ply --rim-edge 0.3 -o out.csv)
+for mode in '' '--add viscoelastic --terms auto' '--add regions' '--acfm 1' '--locations l.csv' \
+  '--image i.csv' '--model whole.csv --boundary 8' '--effects auto' '--library lab.db' \
+  '--data first.csv'; do
+  read -ra flags <<<"$mode"
+  expect 3 'no row presses the body' still.csv "${wrong[@]}" "${flags[@]}"
+  expect 3 'no row has a force' unmeasured.csv "${wrong[@]}" "${flags[@]}"
+  expect 3 'the forces point the wrong way' sign.csv "${wrong[@]}" "${flags[@]}"
+  expect 3 'column fz is some' milli.csv "${wrong[@]}" "${flags[@]}"
+  expect 3 'nan.csv: a cell is not a finite number' nan.csv "${wrong[@]}" "${flags[@]}"
+done
+for mode in '' '--acfm 1' '--effects auto' '--locations l.csv'; do
+  read -ra flags <<<"$mode"
+  expect 3 'off the surface, more than 3 tool radii' outside.csv "${wrong[@]}" "${flags[@]}"
+done
+[[ ! -e l.csv && ! -e i.csv && ! -e lab.db ]] || complain 'a refused run leaves nothing beside the model'
 awk -F, '/^[0-9]/ { if ($1 > 1) next } 1' data.csv >place.csv
+expect 0 'all presses are at one place' place.csv --body block.ply --rim-edge 0.3 --folds 0 -o placed.csv
 expect 2 'too few contact positions' place.csv "${common[@]}" --add regions
+expect 2 '--boundary needs presses at four places or more' place.csv "${common[@]}" --model whole.csv \
+  --boundary 8
 expect 2 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
 [[ ! -e out.csv ]] || complain 'a refused run leaves nothing behind'
 
