@@ -1,6 +1,7 @@
 // hs-identify: the material and sensor parameters that explain a recording.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -18,6 +19,7 @@
 #include "identify_report.h"
 #include "identify_search.h"
 #include "identify_specification.h"
+#include "identify_until.h"
 #include "model/edit.h"
 #include "model/extend.h"
 #include "model/history.h"
@@ -116,7 +118,7 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
 void describe_fit(Model& model, const Plan& plan, const Workspace& w, double rmse) {
   model.metadata = plan.start.metadata;
   unmark(model);
-  model.metadata.remove("heldout");
+  for (const char* key : {"heldout", "until", "heldout_later"}) model.metadata.remove(key);
   model.metadata.set("rmse", format_number(rmse));
   model.metadata.set("force_noise", format_number(w.noise.value));
   if (w.dataset.tools() > 1)
@@ -144,8 +146,24 @@ int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspa
       state.starts > 1 ? "go on with --model and --resume" : "go on with --model");
 }
 
+// A stream knows its own flags and the body's alone.
+void refuse_other_flags(const Arguments& arguments) {
+  std::vector<std::string> known{"--body", "--tool-radius", "--threads", "--cache"};
+  for (const Option& option : follow_flags()) known.push_back(option.flag);
+  for (const Option& option : identify_specification().options)
+    if (arguments.given(option.flag) &&
+        std::find(known.begin(), known.end(), option.flag) == known.end())
+      fail_usage(option.flag + " is of recordings, and --follow reads a stream",
+                 "leave one of them out");
+  if (arguments.list("--body").size() > 1)
+    fail_usage("--follow is for one body", "give --body once");
+}
+
 int run(const Arguments& arguments) {
-  if (arguments.given("--follow")) return run_follow(arguments);
+  if (arguments.given("--follow")) {
+    refuse_other_flags(arguments);
+    return run_follow(arguments);
+  }
   for (const Option& option : follow_flags())
     if (arguments.given(option.flag))
       fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
@@ -159,6 +177,7 @@ int run(const Arguments& arguments) {
   const SearchState search = search_asked(arguments, plan.start);
   Experiment experiment = load_experiment(arguments);
   require_fit_for(arguments, plan, experiment);
+  Later later(arguments, experiment);
   const TetMesh& body = experiment.bodies.front();
   IdentifyLibrary library(arguments, experiment.recording, body);
   std::shared_ptr<Progress> progress;
@@ -246,6 +265,8 @@ int run(const Arguments& arguments) {
   describe_fit(model, plan, w, result.rmse);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
   if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
+  report(arguments, w, result, held_out, folds.by, force_rms);
+  later.tell(model, w);
   Output output(arguments.output());
   write_model(output.stream(), model);
   if (arguments.given("--locations") && cut_short.empty()) {
@@ -259,7 +280,6 @@ int run(const Arguments& arguments) {
     add_history(arguments.text("--history"),
                 {arguments.output(), effects_label(model), result.rmse, held_out, w.noise.value,
                  force_rms, static_cast<int>(model.free_parameters().size())});
-  report(arguments, w, result, held_out, folds.by, force_rms);
   if (!cut_short.empty())
     fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,
                   "the model that was fitted is written: go on from it with --model");

@@ -16,10 +16,11 @@
 namespace hapsim {
 
 inline int run_acfm(const Arguments& arguments) {
-  for (const char* flag : {"--effects", "--model",    "--add",     "--remove",    "--diagnosis",
-                           "--fix",     "--free",     "--regions", "--locations", "--image",
-                           "--profile", "--robust",   "--history", "--terms",     "--boundary",
-                           "--library", "--material", "--object",  "--starts",    "--resume"})
+  for (const char* flag :
+       {"--effects", "--model",   "--add",       "--remove",  "--diagnosis", "--fix",
+        "--free",    "--regions", "--locations", "--image",   "--profile",   "--robust",
+        "--history", "--terms",   "--boundary",  "--library", "--material",  "--object",
+        "--starts",  "--resume",  "--until"})
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of models with effects, and --acfm has none",
                  "leave one of them out");

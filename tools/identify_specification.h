@@ -9,6 +9,7 @@
 #include "identify_library.h"
 #include "identify_recordings.h"
 #include "identify_search.h"
+#include "identify_until.h"
 
 namespace hapsim {
 
@@ -99,6 +100,7 @@ inline ToolSpec identify_specification() {
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
                "moduli ask for) or sites (each position its own stiffness).",
        .default_text = "auto"},
+      until_flag(),
       boundary_flag(),
       {.flag = "--acfm",
        .kind = OptionKind::kInteger,
@@ -178,6 +180,10 @@ inline ToolSpec identify_specification() {
        "Adds what hs-diagnose found missing."},
       {"hs-identify block.csv --body block.ply --data ball.csv --body ball.ply -o m.csv",
        "One material of two bodies."},
+      {"hs-identify hold.csv --body block.ply --effects hyperelastic,viscoelastic --terms 2 "
+       "--until "
+       "4 -o m.csv",
+       "Learns from the first 4 s of each press and predicts the rest."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
        "Gives each pressed position its own stiffness."},
       {"hs-simulate motion.csv --body body.ply --model m.csv | hs-identify - --body body.ply "

@@ -29,6 +29,16 @@ expect 3 'other.csv: another recovery than in first.csv' first.csv --data other.
 awk -F, -v OFS=, '/^[0-9]/ && n++ == 30 { $3 += 0.01 } 1' second.csv >moving.csv
 expect 3 'moving.csv:' first.csv --data moving.csv "${common[@]}"
 
+# The beginning of each press predicts the rest, in noise; what cannot be cut is refused.
+expect 0 'after 1.5 s, not seen by the fit: 120 samples, error 0.00' data.csv "${common[@]}" \
+  --add viscoelastic --until 1.5
+grep -q '^# heldout_later: 0.002' out.csv || complain 'the error on later rows is in the model'
+expect 2 'no press of data.csv is longer than 5 s' data.csv "${common[@]}" --until 5
+sed '1i # recovery: none' data.csv >goes-on.csv
+expect 2 "goes-on.csv says 'recovery: none', so its presses cannot be cut" goes-on.csv "${common[@]}" --until 1
+
+expect 2 '--add is of recordings, and --follow reads a stream' data.csv --follow --body block.ply --add tip
+
 # Another tool on the same body; the same recordings as of two bodies; what one body or one tool
 # alone has is refused before anything is prepared.
 awk -F, -v OFS=, '/tool_radius/ { $0 = "# tool_radius: 0.006" } 1' second.csv >wide.csv
