@@ -213,5 +213,40 @@ TEST(FiniteStrain, OgdenFollowsTreloarsRubberInThreeTests) {
   }
 }
 
+// Fitted to tension alone, Yeoh's law predicts the other two tests of the same rubber: I1 alone
+// tells it of them.
+TEST(FiniteStrain, TensionOfTreloarsRubberPredictsTheOtherTests) {
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(kTension.size()), 3);
+  for (std::size_t i = 0; i < kTension.size(); ++i) {
+    const auto [stress, l] = kTension[i];
+    const double x = l * l + 2 / l - 3, unit = 2 * (l - 1 / (l * l)) / stress;
+    A.row(static_cast<Eigen::Index>(i)) << unit, 2 * x * unit, 3 * x * x * unit;
+  }
+  const Eigen::Vector3d c = A.colPivHouseholderQr().solve(Eigen::VectorXd::Ones(A.rows()));
+  const LawPointer law = yeoh_law(c[0], c[1], c[2], 2e5);
+  struct Unseen {
+    const char* name;
+    const Rows* rows;
+    double power;  // thickness = l^power
+    double limit;
+  };
+  for (const Unseen& t : {Unseen{"equibiaxial", &kEquibiaxial, -2, 0.25},
+                          Unseen{"pure shear", &kPureShear, -1, 0.15}}) {
+    double squares = 0, worst = 0;
+    for (const auto& [stress, l] : *t.rows) {
+      const double thickness = std::pow(l, t.power);
+      const Vec3 stretch(thickness, 1 / (thickness * l), l);
+      const Eigen::Matrix3d P = nominal_stress(*law, stretch.asDiagonal());
+      const double error = (P(2, 2) - P(0, 0) * thickness / l) / stress - 1;
+      squares += error * error;
+      worst = std::max(worst, std::abs(error));
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(t.rows->size()));
+    std::printf("Treloar: tension predicts %s, rms %.1f %%, worst %.1f %%\n", t.name, 100 * rms,
+                100 * worst);
+    EXPECT_LT(rms, t.limit) << t.name;
+  }
+}
+
 }  // namespace
 }  // namespace hapsim
