@@ -65,7 +65,9 @@ inline void report(const Arguments& arguments, const Workspace& w, const FitResu
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
   warn(hardly_known(result.model),
-       ": the error is as large as what it can be: fix it, or press at more places and sideways");
+       " is hardly known (standard error of half its value or range): fix it, or press at more "
+       "places and "
+       "sideways");
   if (w.dataset.positions.size() == 1)
     line("all presses are at one place: how the body differs from place to place is not seen");
   if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
