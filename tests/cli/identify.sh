@@ -48,6 +48,9 @@ grep -q 'on positions not seen by the fit' .err || complain 'held out over all t
 ! grep -q '^# tool_radius' out.csv || complain 'a model of two tools names none'
 expect 0 'presses at 2 positions by 2 tools' first.csv --body block.ply --data wide.csv \
   --body ./block.ply "${two[@]}" --folds 2
+# Declared noise of several recordings: the root mean square of all rows.
+for n in 1 7; do sed "1i # force_noise: 0.00$n" wide.csv >noisy$n.csv; done
+expect 0 'noise 0.005 N (declared)' noisy1.csv --data noisy7.csv --body block.ply --rim-edge 0.3 -o noisy.csv --folds 0
 cp block.ply other.ply
 bodies=(first.csv --body block.ply --data second.csv --body other.ply "${two[@]}" --folds 0)
 expect 0 'presses at 2 positions of 2 bodies' "${bodies[@]}" --add viscoelastic

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "model/boundary_error.h"
 #include "model/boundary_graph.h"
 #include "model/field_contacts.h"
 #include "support/synthetic.h"
@@ -105,6 +106,46 @@ TEST(FieldContacts, AHomogeneousFieldIsTheModelsOwnBody) {
       (2 * h);
   EXPECT_LT((here.change_of(here.by_node * direction) - difference).norm(),
             1e-5 * difference.norm());
+}
+
+// A shift that acts as a change of E by `c` a metre, known to sigma, adds (c sigma)^2 to E's
+// variance and leaves nu's, to which it is nothing.
+TEST(BoundaryError, GoesThroughToTheModuli) {
+  Workspace w = test::workspace();
+  test::measure(w, test::elastic(1.2e4, 0.4), 0.01, 3);
+  const Selection all = all_episodes(w.dataset);
+  FitResult fitted = fit(test::elastic(1e4, 0.3), w.dataset, all, *w.body, {0.01, 0.01, true});
+  const FitResult before = fitted;
+  constexpr double c = 3e5, sigma = 2e-3;
+  const Eigen::MatrixXd by_shift =
+      c * model_forces(fitted.model, w.dataset, all, *w.body, true).df.leftCols(1);
+  add_boundary_error(fitted, w.dataset, *w.body, by_shift,
+                     Eigen::MatrixXd::Constant(1, 1, sigma * sigma));
+  const double alone = before.model.find("elastic", 0, "E")->std_error;
+  EXPECT_NEAR(fitted.model.find("elastic", 0, "E")->std_error, std::hypot(alone, c * sigma),
+              1e-6 * alone);
+  const double nu = before.model.find("elastic", 0, "nu")->std_error;
+  EXPECT_NEAR(fitted.model.find("elastic", 0, "nu")->std_error, nu, 1e-6 * nu);
+}
+
+TEST(BoundaryError, KeyPointsHaveThatOfTheirPointAcrossTheBoundary) {
+  Model model = test::elastic(1e4, 0.4);
+  for (const auto& [region, x] : {std::pair(0, 0.038), std::pair(1, 0.042)})
+    for (int k = 1; k <= 2; ++k)
+      for (const auto& [name, value] : {std::pair("x", x), std::pair("y", 0.02 * k)}) {
+        Parameter p = model.parameters.front();
+        p.effect = "regions";
+        p.region = region;
+        p.name = name + std::to_string(k);
+        p.value = value;
+        model.parameters.push_back(p);
+      }
+  tell_key_point_errors(model, {{0, 1, {{0.04, 0.02}, {0.04, 0.04}}}}, {1e-3, 3e-3});
+  for (const int region : {0, 1}) {
+    EXPECT_NEAR(model.find("regions", region, "x1")->std_error, 1e-3, 1e-12);
+    EXPECT_NEAR(model.find("regions", region, "x2")->std_error, 3e-3, 1e-12);
+    EXPECT_NEAR(model.find("regions", region, "y2")->std_error, 0, 1e-12);
+  }
 }
 
 }  // namespace
