@@ -31,7 +31,8 @@ struct DiagnoseOptions {
   int folds = 6;
   int flips = 999;
   std::uint64_t seed = 1;
-  std::function<void(const std::string&)> progress;  // what is being tried; it may throw, which ends the diagnosis
+  std::function<void(const std::string&)>
+      progress;  // what is being tried; it may throw, which ends the diagnosis
 };
 
 // One effect of the catalogue, tried on top of the model (and of the effects found before it).
