@@ -1,14 +1,17 @@
 #!/usr/bin/env bash
 # batch.sh BIN [COUNT [STAGE]]: COUNT synthetic recordings (three bodies, five materials, one in twenty
 # broken in one of five ways) as a batch: with -j1, with -j2, and with -j2 killed three times on the way
-# and resumed. Prints times, what was found, and whether the summaries are equal.
+# and resumed. Prints one table: what was found and told, times, parallel efficiency, whether the
+# summaries are equal. The efficiency means something on a machine with nothing else to do.
 set -euo pipefail
 bin=$(cd "$1" && pwd) count=${2:-300} stage=${3:-model}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
+begin=$EPOCHREALTIME
 
+# The presses are simulated on a finer mesh at the tool's rim (0.15 of its radius) than they are identified on.
 sizes=("0.06 0.05 0.04" "0.08 0.06 0.03" "0.05 0.05 0.05")
 for b in 0 1 2; do
   awk -v size="${sizes[b]}" 'BEGIN {
@@ -28,52 +31,75 @@ material() { # NUMBER E
     4) printf 'elastic,0,nu,0.4\nsensor-bias,0,bx,0.02\nsensor-bias,0,by,0\nsensor-bias,0,bz,0.05\n' ;;
   esac
 }
-effects=(elastic elastic "elastic viscoelastic" "elastic viscoelastic" "elastic sensor-bias")
-echo "name,body,data,effects,options,common_options,true_E" >manifest.csv
-start=$SECONDS
-for ((i = 0; i < count; ++i)); do
-  m=$((i % 5)) b=$((i % 3)) E=$((8000 + 40 * i))
+recording() { # NUMBER: its data, broken where its number says so
+  local i=$1 b=$(($1 % 3)) sx sy sz
   read -r sx sy sz <<<"${sizes[b]}"
-  awk -v i=$i -v sx="$sx" -v sy="$sy" -v sz="$sz" 'BEGIN { srand(i + 1)
+  awk -v i="$i" -v sx="$sx" -v sy="$sy" -v sz="$sz" 'BEGIN { srand(i + 1)
     print "# tool_radius: 0.004\n# force_noise: 0.002\npress,t,x,y,z,ux,uy,uz"
     for (p = 0; p < 4; ++p) {
       x = sx * (0.3 + 0.4 * rand()); y = sy * (0.3 + 0.4 * rand())
       for (k = 0; k <= 50; ++k) { t = k * 0.02; s = 0.0015 * (t < 0.3 ? t / 0.3 : 1)
-        printf "%d,%.2f,%.5f,%.5f,%s,%.6f,0,%.6f\n", p, t, x, y, sz, p % 2 ? s / 2 : 0, -s } } }' >motion.csv
-  material $m $E >truth.csv
-  "$bin/hs-simulate" -q motion.csv --body body$b.ply --model truth.csv --add-noise 0.002 --seed $((i + 1)) \
-    --cache none -o data$i.csv
+        printf "%d,%.2f,%.5f,%.5f,%s,%.6f,0,%.6f\n", p, t, x, y, sz, p % 2 ? s / 2 : 0, -s } } }' >motion$i.csv
+  material $((i % 5)) $((8000 + 40 * i)) >truth$i.csv
+  "$bin/hs-simulate" -q motion$i.csv --body body$b.ply --model truth$i.csv --rim-edge 0.15 --add-noise 0.002 \
+    --seed $((i + 1)) --threads 1 --cache none -o data$i.csv
   if ((i % 20 == 7)); then
     case $((i / 20 % 5)) in
-      0) head -c 2000 data$i.csv >cut && mv cut data$i.csv ;;
+      0) head -c 2000 data$i.csv >cut$i && mv cut$i data$i.csv ;;
       1) sed -i '9s/,[^,]*$/,nan/' data$i.csv ;;
       2) rm data$i.csv ;;
       3) sed -i 's/ux/vx/' data$i.csv ;;
       4) : >data$i.csv ;;
     esac
   fi
-  echo "recording $i,body$b.ply,data$i.csv,${effects[m]},,,$E" >>manifest.csv
-done
-echo "$count recordings made in $((SECONDS - start)) s"
-
-batch() { # OUT JOBS
-  XDG_CACHE_HOME=$work/cache-$1 make --no-print-directory -s -j"$2" -f "$root/Makefile.pipeline" batch \
-    BIN="$bin" MANIFEST=manifest.csv OUT="$1" BATCH_FLAGS="--stages $stage" 2>"$1.log" || true
 }
-seconds() { local from=$EPOCHREALTIME; "$@"; awk -v a="$from" -v b="$EPOCHREALTIME" 'BEGIN { print b - a }'; }
-one=$(seconds batch one 1)
-two=$(seconds batch two 2)
-grep "recordings done\|median" two.log
-awk -v a="$one" -v b="$two" 'BEGIN { printf "-j1 %.1f s, -j2 %.1f s: parallel efficiency %.0f %%\n", a, b, 50 * a / b }'
+effects=(elastic elastic "elastic viscoelastic" "elastic viscoelastic" "elastic sensor-bias")
+echo "name,body,data,effects,options,common_options,true_E" >manifest.csv
+for ((i = 0; i < count; ++i)); do
+  echo "recording $i,body$((i % 3)).ply,data$i.csv,${effects[i % 5]},,,$((8000 + 40 * i))" >>manifest.csv
+  while (($(jobs -rp | wc -l) >= 2)); do wait -n; done
+  recording $i &
+done
+wait
+broken=$(((count + 12) / 20))
+row() { printf '%-30s %s\n' "$1" "$2"; }
+since() { awk -v a="$1" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }'; }
+row 'recordings' "$count, of them $broken broken; made in $(since "$begin") s"
+
+batch() { # OUT JOBS: its wall time in `wall`, processor time in `cpu`, exit code in `code`
+  local from=$EPOCHREALTIME TIMEFORMAT='%U %S'
+  code=0
+  { time XDG_CACHE_HOME=$work/cache-$1 make --no-print-directory -s -j"$2" -f "$root/Makefile.pipeline" batch \
+    BIN="$bin" MANIFEST=manifest.csv OUT="$1" BATCH_FLAGS="--stages $stage" 2>"$1.log"; } 2>"$1.time" || code=$?
+  wall=$(since "$from") cpu=$(awk '{ printf "%.1f", $1 + $2 }' "$1.time")
+}
+batch one 1
+wall1=$wall
+row '-j1' "$wall s, $cpu s of processor time"
+batch two 2
+row '-j2' "$wall s, $cpu s of processor time"
+row 'parallel efficiency of -j2' "$(awk -v a="$wall1" -v b="$wall" 'BEGIN { printf "%.0f %%", 50 * a / b }') (load of the machine: $(cut -d' ' -f1 /proc/loadavg))"
+# What runs alone whatever -j is: the rules before, the summary and overview after.
+from=$EPOCHREALTIME
+"$bin/hs-batch" manifest.csv --prepare -q --out two --bin "$bin" --stages "$stage"
+"$bin/hs-batch" manifest.csv -q --out two --stages "$stage" --html again.html -o again.csv || true
+row 'rules and overview, serial' "$(since "$from") s"
+row 'exit code of make' "$code"
+row 'said at the end' "$(sed -n 's/^hs-batch: \(.* recordings done.*\)/\1/p' two.log)"
+row 'a line for each failure' "$(grep -c '^hs-batch: failed: ' two.log) of $broken"
+row 'E within 5 % of the truth' "$(awk -F, 'NR > 1 && $3 == "done" { ++n; e = $5 / $NF - 1; good += e < 0.05 && e > -0.05 }
+  END { printf "%d of %d done", good, n }' two/summary.csv)"
+grep 'median error' two.log | head -n 1 | sed 's/^hs-batch: //' | while read -r line; do row 'errors' "$line"; done
 for part in 1 2 3; do
   setsid env XDG_CACHE_HOME="$work/cache-killed" make -s -j2 -f "$root/Makefile.pipeline" batch BIN="$bin" \
     MANIFEST=manifest.csv OUT=killed BATCH_FLAGS="--stages $stage" >/dev/null 2>&1 &
-  sleep "$(awk -v t="$two" 'BEGIN { print t / 5 }')"
+  sleep "$(awk -v t="$wall" 'BEGIN { print t / 5 }')"
   kill -KILL -- -$!
   wait $! 2>/dev/null || true
+  row "killed by SIGKILL ($part)" "$(find killed/recordings -name model.csv | wc -l) models were there"
 done
 batch killed 2
 same() { cmp -s <(sed "s#\b$1/#two/#g" "$1/summary.csv") two/summary.csv && echo "the same bytes" || echo "DIFFERENT"; }
-echo "killed three times and resumed: $(same killed); -j1 against -j2: $(same one)"
-awk -F, 'NR > 1 && $3 == "done" { n++; e = $5 / $NF - 1; if (e < 0) e = -e; if (e < 0.05) good++ }
-  END { printf "%d done, E within 5 %% of the truth in %d\n", n, good }' two/summary.csv
+row 'summary of killed and resumed' "$(same killed)"
+row 'summary of -j1 and of -j2' "$(same one)"
+row 'all of this' "$(since "$begin") s"

@@ -17,7 +17,7 @@ packages=(
   libgtest-dev libbenchmark-dev mandoc
 )
 dev_packages=(clang-format clang-tidy clang libclang-rt-14-dev ccache chromium debootstrap
-  calculix-ccx gmsh tetgen python3-scipy lintian zsh fish slurm-wlm munge parallel)
+  calculix-ccx gmsh tetgen python3-scipy lintian zsh fish slurm-wlm munge parallel strace sqlite3)
 
 say() { printf 'install-deps: %s\n' "$*"; }
 fail() { printf 'install-deps: %s\n' "$*" >&2; exit 1; }

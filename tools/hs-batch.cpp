@@ -82,7 +82,10 @@ ToolSpec specification() {
   spec.tables = {
       {"Manifest (input)",
        {{"name", "name of the recording, any text, no two alike"},
-        {"data", "its recording CSV; paths are relative to the manifest's folder"},
+        {"data", "its recording CSV; paths are relative to the manifest's folder; or"},
+        {"raw",
+         "a table of another machine, which hs-import makes into data; body and scan may then be "
+         "empty when import_options state a --block"},
         {"body", "body from hs-tetmesh; or"},
         {"scan", "its scan, of which the body is made (once for rows with equal scan and options)"},
         {"tool", "radius of the tool, 0.004 [m] or 4mm; empty: as the recording says"},
@@ -91,7 +94,8 @@ ToolSpec specification() {
         {"common_options",
          "flags of hs-identify, hs-diagnose and hs-simulate alike: --rim-edge 0.2"},
         {"scan_unit", "unit of the scan, m when empty"},
-        {"scan_options, reconstruct_options, tetmesh_options, diagnose_options, simulate_options, "
+        {"import_options, scan_options, reconstruct_options, tetmesh_options, diagnose_options, "
+         "simulate_options, "
          "compare_options",
          "further flags of these tools"},
         {"...", "other columns are carried through to the summary"}}},
@@ -165,7 +169,7 @@ Overview overview_of(const Arguments& arguments, const Batch& batch,
     if (o.state == RecordingState::kNotRun) page.not_run.push_back(name);
     if (o.state == RecordingState::kFailed) page.failures.push_back({name, o.message, o.command});
     if (o.state != RecordingState::kDone) continue;
-    OverviewRow row{name, "", o.effects, o.verdict, o.missing};
+    OverviewRow row{name, "", o.effects, o.verdict, o.missing, batch.manifest.rows[r].effects};
     row.rmse = o.rmse;
     row.held_out = o.held_out;
     row.noise = o.noise;
@@ -219,8 +223,7 @@ int summarise(const Arguments& arguments, const Batch& batch) {
       say(arguments, "hs-batch",
           fmt::format("failed: {}: {}", batch.manifest.rows[r].name, outcomes[r].message));
   say(arguments, "hs-batch", verdict);
-  if (const std::string errors = overview_line(overview); !errors.empty())
-    say(arguments, "hs-batch", errors);
+  for (const std::string& line : overview_lines(overview)) say(arguments, "hs-batch", line);
   return static_cast<int>(failed + open > 0 ? ExitCode::kCheckFailed : ExitCode::kDone);
 }
 

@@ -89,7 +89,12 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   improve_options.progress = [&](const std::string& what) {
     if (arguments.verbose()) say(arguments, "hs-identify", what);
   };
-  Improvement improvement = improve(plan.start, w, draft, improve_options);
+  Model start = plan.start;
+  if (start.parameters.empty()) {
+    start = elastic_model(w.dataset, all_episodes(w.dataset), *w.body);
+    for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
+  }
+  Improvement improvement = improve(start, w, draft, improve_options);
   for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
     const ImprovementStep& step = improvement.steps[k];
     const std::string label = effects_label(step.fitted.model);

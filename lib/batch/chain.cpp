@@ -25,10 +25,11 @@ class Planner {
     chain_.clear();
     if (row.problem.empty()) {
       folder_ = "recordings/" + row.folder;
-      const bool own = !row.body.empty();
-      const int body = own ? -1 : add_body();
-      body_ = own ? row.body : path_of(body);
-      add_model(body);
+      const int data = row.raw.empty() ? -1 : add_data();
+      const int body = row.block ? add_block(data) : row.body.empty() ? add_body(data) : -1;
+      data_ = data < 0 ? row.data : path_of(data);
+      body_ = body < 0 ? row.body : path_of(body);
+      add_model(data, body);
     }
     batch_.chain.push_back(chain_);
   }
@@ -45,7 +46,7 @@ class Planner {
     const auto found =
         std::find_if(kBatchStages.begin(), kBatchStages.end(),
                      [&](const BatchStage& s) { return s.step == std::string(stage); });
-    const Words& own = row_->options[static_cast<std::size_t>(found - kBatchStages.begin())];
+    const Words& own = options_of(*row_, stage);
     const auto is_threads = [](const std::string& word) {
       return word == "--threads" || word.rfind("--threads=", 0) == 0;
     };
@@ -69,12 +70,32 @@ class Planner {
     return chain_.back();
   }
 
-  int add_body() {
+  // A table of another machine becomes data, and its block a surface.
+  int add_data() {
+    Words words{row_->raw};
+    if (row_->tool_radius > 0)
+      words.insert(words.end(), {"--tool-radius", format_number(row_->tool_radius)});
+    if (row_->block) words.insert(words.end(), {"--surface", surface_of_block()});
+    return add_step("data", "data.csv", words, {row_->raw}, {}, false);
+  }
+
+  std::string surface_of_block() const {
+    return batch_.options.folder + "/" + folder_ + "/block.ply";
+  }
+
+  int add_block(int data) {
+    return add_step("body", "body.ply", {surface_of_block()}, {}, {data}, false);
+  }
+
+  // The body of a scan, which other rows may share.
+  int add_body(int data) {
     std::string key = row_->scan + "\n" + row_->scan_unit;
-    for (std::size_t s = 0; s < 3; ++s) key += "\n" + shell_line(row_->options[s]);
+    for (const char* step : {"points", "surface", "body"})
+      key += "\n" + shell_line(options_of(*row_, step));
     const auto [known, added] = bodies_.emplace(key, Words::size_type{0});
     if (added) {
       const std::string recordings = folder_;
+      chain_.clear();
       folder_ = "bodies/" + plain_name(last_part(row_->scan) + "\n" + key);
       const int points = add_step("points", "points.ply", {row_->scan, "--unit", row_->scan_unit},
                                   {row_->scan}, {}, false);
@@ -86,12 +107,14 @@ class Planner {
       steps_of_bodies_.push_back(chain_);
     }
     chain_ = steps_of_bodies_[known->second];
-    return chain_.back();
+    const int body = chain_.back();
+    if (data >= 0) chain_.insert(chain_.begin(), data);
+    return body;
   }
 
-  void add_model(int body) {
+  void add_model(int data, int body) {
     const ManifestRow& row = *row_;
-    Words common{row.data, "--body", body_};
+    Words common{data_, "--body", body_};
     if (row.tool_radius > 0)
       common.insert(common.end(), {"--tool-radius", format_number(row.tool_radius)});
     common.insert(common.end(), row.common.begin(), row.common.end());
@@ -101,22 +124,22 @@ class Planner {
     };
     const Words given{row.data, row.body};
     const int model =
-        add_step("model", "model.csv", with({"--effects", row.effects}), given, {body}, true);
+        add_step("model", "model.csv", with({"--effects", row.effects}), given, {data, body}, true);
     int diagnosis = -1;
     if (batch_.options.diagnosis)
       diagnosis = add_step("diagnosis", "effects.csv", with({"--model", path_of(model)}), given,
-                           {body, model}, true);
+                           {data, body, model}, true);
     if (!batch_.options.report) return;
     const int forces = add_step("forces", "forces.csv", with({"--model", path_of(model)}), given,
-                                {body, model}, true);
-    Words compare{row.data, "--simulated", path_of(forces), "--body", body_, "--title=" + row.name};
+                                {data, body, model}, true);
+    Words compare{data_, "--simulated", path_of(forces), "--body", body_, "--title=" + row.name};
     if (diagnosis >= 0) compare.insert(compare.end(), {"--diagnosis", path_of(diagnosis)});
-    add_step("report", "report.html", compare, given, {body, forces, diagnosis}, false);
+    add_step("report", "report.html", compare, given, {data, body, forces, diagnosis}, false);
   }
 
   Batch& batch_;
   const ManifestRow* row_ = nullptr;
-  std::string folder_, body_;
+  std::string folder_, data_, body_;
   std::vector<int> chain_;
   std::map<std::string, std::size_t> bodies_;
   std::vector<std::vector<int>> steps_of_bodies_;

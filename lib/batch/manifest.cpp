@@ -19,7 +19,7 @@
 namespace hapsim {
 namespace {
 
-const std::vector<std::string> kColumns{"name", "body",    "scan",      "data",
+const std::vector<std::string> kColumns{"name", "body",    "scan",      "data",          "raw",
                                         "tool", "effects", "scan_unit", "common_options"};
 
 bool is_known(const std::string& column) {
@@ -30,9 +30,11 @@ bool is_known(const std::string& column) {
 
 // A column that is a letter away from a known one is a mistake, not a column of the user's own.
 void check_columns(const CsvTable& table) {
+  const bool raw = table.find("raw") >= 0;
   for (const char* column : {"name", "data"})
-    if (table.find(column) < 0) fail_missing_column(table.name, column, table.header, kColumns);
-  if (table.find("body") < 0 && table.find("scan") < 0)
+    if (table.find(column) < 0 && !(raw && column == std::string("data")))
+      fail_missing_column(table.name, column, table.header, kColumns);
+  if (table.find("body") < 0 && table.find("scan") < 0 && !raw)
     fail_input(table.name, "there is neither a column 'body' nor a column 'scan'",
                "name the body, or the scan of which it is made, in every row");
   std::vector<std::string> known = kColumns;
@@ -76,6 +78,28 @@ std::string joined_by_commas(std::string text) {
   return list;
 }
 
+bool states_block(const std::vector<std::string>& words) {
+  return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--block" || word.rfind("--block=", 0) == 0;
+  });
+}
+
+void require_sources(const ManifestRow& row, const std::string& where) {
+  if (row.data.empty() && row.raw.empty())
+    fail_input(where, "no data are named", "fill in the column data, or raw");
+  if (!row.data.empty() && !row.raw.empty())
+    fail_input(where, "data and raw exclude each other", "fill in one of the two");
+  if (!row.body.empty() && !row.scan.empty())
+    fail_input(where, "body and scan exclude each other", "fill in one of the two");
+  if (row.body.empty() && row.scan.empty() && !row.block)
+    fail_input(where, "there is neither body nor scan",
+               row.raw.empty() ? "fill in one of the two"
+                               : "fill in one of the two, or --block in import_options");
+  for (const auto& [what, path] : {std::pair{"data", &row.data}, std::pair{"raw", &row.raw},
+                                   std::pair{"body", &row.body}, std::pair{"scan", &row.scan}})
+    if (!path->empty()) require_file(what, *path, where);
+}
+
 void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::string& where) {
   const auto cell = [&](const char* column) -> std::string {
     const int c = table.find(column);
@@ -85,17 +109,12 @@ void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::str
     row.options[s] = split_words(cell(kBatchStages[s].column), where);
   row.common = split_words(cell("common_options"), where);
   row.data = from_here(table.name, cell("data"));
+  row.raw = from_here(table.name, cell("raw"));
   row.body = from_here(table.name, cell("body"));
   row.scan = from_here(table.name, cell("scan"));
   if (!cell("scan_unit").empty()) row.scan_unit = cell("scan_unit");
   if (!cell("effects").empty()) row.effects = joined_by_commas(cell("effects"));
   if (row.name.empty()) fail_input(where, "the recording has no name", "give each row a name");
-  if (row.data.empty()) fail_input(where, "no data are named", "fill in the column data");
-  if (row.body.empty() == row.scan.empty())
-    fail_input(
-        where,
-        row.body.empty() ? "there is neither body nor scan" : "body and scan exclude each other",
-        "fill in one of the two");
   if (const std::string tool = cell("tool"); !tool.empty()) {
     try {
       row.tool_radius = parse_length(tool, "tool");
@@ -108,14 +127,18 @@ void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::str
       fail_input(where, "the tool's radius " + shown(tool) + " is not between 0 and 1 m",
                  "write it with its unit: 4mm");
   }
-  require_file("data", row.data, where);
-  if (row.body.empty())
-    require_file("scan", row.scan, where);
-  else
-    require_file("body", row.body, where);
+  row.block = !row.raw.empty() && row.body.empty() && row.scan.empty() &&
+              states_block(options_of(row, "data"));
+  require_sources(row, where);
 }
 
 }  // namespace
+
+const std::vector<std::string>& options_of(const ManifestRow& row, const std::string& step) {
+  const auto found = std::find_if(kBatchStages.begin(), kBatchStages.end(),
+                                  [&](const BatchStage& s) { return step == s.step; });
+  return row.options[static_cast<std::size_t>(found - kBatchStages.begin())];
+}
 
 std::string plain_name(const std::string& text) {
   constexpr std::size_t kLongest = 80;

@@ -16,7 +16,8 @@ struct BatchStage {
   const char* tool;    // "hs-identify"
   const char* column;  // "options"
 };
-inline constexpr std::array<BatchStage, 7> kBatchStages{{
+inline constexpr std::array<BatchStage, 8> kBatchStages{{
+    {"data", "hs-import", "import_options"},
     {"points", "hs-scan2ply", "scan_options"},
     {"surface", "hs-reconstruct", "reconstruct_options"},
     {"body", "hs-tetmesh", "tetmesh_options"},
@@ -33,6 +34,8 @@ struct ManifestRow {
   std::string name;
   std::string folder;  // the name as one word that is plain to make and shell
   std::string body, scan, data;
+  std::string raw;     // a table of another machine, instead of data
+  bool block = false;  // the body is the block that import_options state
   std::string scan_unit = "m";
   double tool_radius = 0;           // [m]; 0: the recording's own
   std::string effects = "elastic";  // separated by commas
@@ -42,15 +45,19 @@ struct ManifestRow {
   std::string problem;              // why it cannot run: "batch.csv:7: what is wrong; what to do"
 };
 
+// The row's flags for the tool of a step.
+const std::vector<std::string>& options_of(const ManifestRow& row, const std::string& step);
+
 struct Manifest {
   std::string name;
   std::vector<std::string> extra_header;
   std::vector<ManifestRow> rows;
 };
 
-// Columns name, data, and body or scan; tool, effects, scan_unit and the stages' options may be
-// absent or empty. What is wrong with one row (a missing file, a name given twice, an open quote)
-// becomes its `problem`. Error(kBadInput): missing column, malformed CSV, no rows.
+// Columns name, data or raw, and body or scan (a raw table may state --block instead); tool,
+// effects, scan_unit and the stages' options may be absent or empty. What is wrong with one row (a
+// missing file, a name given twice, an open quote) becomes its `problem`. Error(kBadInput): missing
+// column, malformed CSV, no rows.
 Manifest read_manifest(Input& input);
 
 // `text` as a name of plain letters; where letters had to be replaced, or cut off, a hash of the

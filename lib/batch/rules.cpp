@@ -1,6 +1,7 @@
 #include "batch/rules.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,10 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void write_if_changed(const fs::path& path, const std::string& text) {
-  std::ifstream old(path, std::ios::binary);
+bool holds(const fs::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
   std::ostringstream bytes;
-  if (old && bytes << old.rdbuf() && bytes.str() == text) return;
+  return file && bytes << file.rdbuf() && bytes.str() == text;
+}
+
+void write_if_changed(const fs::path& path, const std::string& text) {
+  if (holds(path, text)) return;
   Output output(path.string());
   output.write(text);
   output.commit();
@@ -91,30 +96,70 @@ awk -v count="${{SLURM_ARRAY_TASK_COUNT:-1}}" -v id="${{SLURM_ARRAY_TASK_ID:-1}}
   'NR % count == id % count' targets | xargs make --no-print-directory -k -f batch.mk
 )";
 
-// Whether the chain failed for a reason that stays, and after all that the failed step builds on.
-bool fails_again(const Batch& batch, const std::vector<int>& chain, const StepFailure& failure) {
-  if (failure.code < 2 || failure.code > 4) return false;
-  const fs::path folder = batch.options.folder;
-  const auto step_of = [&](int s) -> const BatchStep& {
-    return batch.steps[static_cast<std::size_t>(s)];
-  };
-  const auto last = std::find_if(chain.begin(), chain.end(),
-                                 [&](int s) { return step_of(s).name == failure.step; });
-  if (last == chain.end()) return false;
-  std::error_code error;
-  const auto failed = fs::last_write_time(folder / step_of(*last).folder / "failure", error);
-  if (error) return false;
-  const auto older = [&](const fs::path& input) {
-    const auto time = fs::last_write_time(input, error);
-    return !error && time <= failed;
-  };
-  for (auto s = chain.begin(); s != last + 1; ++s) {
-    const BatchStep& step = step_of(*s);
-    if (!older(folder / step.folder / (step.name + ".sh"))) return false;
-    for (const std::string& input : step.given)
-      if (!older(input)) return false;
+const BatchStep& step_at(const Batch& batch, int s) {
+  return batch.steps[static_cast<std::size_t>(s)];
+}
+
+// A step's command, and the size and time of each file of the user's that it reads. make sees only
+// files that are newer; with these an older copy that was put back, and one that changed after the
+// clock was stepped back, are noticed too.
+std::string script_of(const BatchStep& step, const std::string& version) {
+  std::string script = "# hapsim " + version + "\n";
+  for (const std::string& path : step.given) {
+    struct stat info {};
+    if (stat(path.c_str(), &info) == 0)
+      script += fmt::format("# {}: {} bytes, {}.{:09}\n", path, info.st_size, info.st_mtim.tv_sec,
+                            info.st_mtim.tv_nsec);
   }
-  return true;
+  return script + step.command + "\n";
+}
+
+fs::path script_path(const Batch& batch, const BatchStep& step) {
+  return fs::path(batch.options.folder) / step.folder / (step.name + ".sh");
+}
+
+// Removes what is to be made anew: the results and failures of the steps whose script is another
+// now, and of all that build on them. Before any script is written: a kill on the way then leaves
+// nothing stale behind.
+void remove_stale(const Batch& batch, const std::vector<std::string>& scripts) {
+  const fs::path folder = batch.options.folder;
+  std::set<std::string> stale;  // outputs
+  for (std::size_t s = 0; s < batch.steps.size(); ++s) {
+    const BatchStep& step = batch.steps[s];
+    const bool on_stale = std::any_of(step.made.begin(), step.made.end(),
+                                      [&](const auto& input) { return stale.count(input) != 0; });
+    if (!on_stale && holds(script_path(batch, step), scripts[s])) continue;
+    stale.insert(step.output);
+    std::error_code error;  // what is not there need not be removed
+    fs::remove(folder / step.output, error);
+    if (const auto failure = find_failure(batch, {static_cast<int>(s)}))
+      fs::remove(folder / step.folder / "failure", error);
+  }
+}
+
+bool is_ahead(const fs::path& path) {
+  std::error_code error;
+  const auto time = fs::last_write_time(path, error);
+  return !error && time > fs::file_time_type::clock::now();
+}
+
+void write_scripts(const Batch& batch, const std::vector<std::string>& scripts) {
+  for (const BatchStep& step : batch.steps)
+    make_folder(fs::path(batch.options.folder) / step.folder);
+  remove_stale(batch, scripts);
+  for (std::size_t s = 0; s < batch.steps.size(); ++s) {
+    const fs::path path = script_path(batch, batch.steps[s]);
+    write_if_changed(path, scripts[s]);
+    // One from before the clock was stepped back would have its step made again and again.
+    std::error_code error;
+    if (is_ahead(path)) fs::last_write_time(path, fs::file_time_type::clock::now(), error);
+  }
+}
+
+// Whether the chain failed for a reason that stays: its failure outlived the removal of the stale.
+bool fails_again(const Batch& batch, const std::vector<int>& chain) {
+  const std::optional<StepFailure> failure = find_failure(batch, chain);
+  return failure && failure->code >= 2 && failure->code <= 4;
 }
 
 }  // namespace
@@ -132,11 +177,9 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
                       : "PATH=" + shell_quoted(fs::absolute(bin).lexically_normal().string()) +
                             ":$PATH\n"));
   write_if_changed(folder / "array.sh", fmt::format(kArrayScript, absolute));
-  for (const BatchStep& step : batch.steps) {
-    make_folder(folder / step.folder);
-    write_if_changed(folder / step.folder / (step.name + ".sh"),
-                     "# hapsim " + version + "\n" + step.command + "\n");
-  }
+  std::vector<std::string> scripts;
+  for (const BatchStep& step : batch.steps) scripts.push_back(script_of(step, version));
+  write_scripts(batch, scripts);
 
   PrepareReport report;
   std::string all, bodies, targets, rules;
@@ -147,8 +190,7 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
       ++report.refused;
       continue;
     }
-    const std::optional<StepFailure> failure = find_failure(batch, batch.chain[r]);
-    if (failure && fails_again(batch, batch.chain[r], *failure)) {
+    if (fails_again(batch, batch.chain[r])) {
       ++report.failed_before;
       continue;
     }
@@ -158,17 +200,19 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
     targets += target + "\n";
     for (const int s : batch.chain[r]) {
       if (!written.insert(s).second) continue;
-      const BatchStep& step = batch.steps[static_cast<std::size_t>(s)];
+      const BatchStep& step = step_at(batch, s);
       std::string made, given;
-      if (step.name == "body") bodies += " " + step.output;
+      // Those that several recordings may share.
+      if (step.name == "body" && step.folder.rfind("bodies/", 0) == 0) bodies += " " + step.output;
       for (const std::string& input : step.made) made += " " + input;
-      for (const std::string& input : step.given) given += " " + prerequisite(folder, input);
+      // A file from the future is newer than whatever is made of it.
+      for (const std::string& input : step.given)
+        if (!is_ahead(input)) given += " " + prerequisite(folder, input);
       rules += fmt::format("{0}: {1}/{2}.sh{3}{4}\n\t@$(STEP) step.sh {1} {2} {0}{4}\n",
                            step.output, step.folder, step.name, given, made);
     }
     rules += fmt::format("{}: {}\n\t@echo finished {}\n", target,
-                         batch.steps[static_cast<std::size_t>(batch.chain[r].back())].output,
-                         row.folder);
+                         step_at(batch, batch.chain[r].back()).output, row.folder);
   }
   Output output((folder / "batch.mk").string());
   output.write("# Written by hs-batch.\nSTEP := sh\nall:" + all + "\nbodies:" + bodies +

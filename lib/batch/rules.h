@@ -19,8 +19,9 @@ struct PrepareReport {
 //   targets, array.sh   the recordings, and a task of a job array of Slurm that makes its share
 //   step.sh             runs one step: keeps what it says in STEP.log beside the output, and in
 //                       `failure` the step, exit code and line of a failure
-//   .../STEP.sh         the step's command; written only when it has changed, so that what is made
-//                       by another command, or by another version of hapsim, is made again
+//   .../STEP.sh         the step's command, and the size and time of the user's files that it
+//                       reads. Where that is another than before, or hapsim's version is, the
+//                       step's result is removed with all that builds on it, and is made again
 // A step that failed by bad input, wrong usage or no convergence is left out with all that builds
 // on it, until its command or one of its inputs changes. `bin` goes before the PATH; may be empty.
 PrepareReport write_rules(const Batch& batch, const std::string& bin, const std::string& version);

@@ -32,10 +32,10 @@ struct Common {
   int complete = 0;
 };
 
-Common common_of(const Overview& o) {
+Common common_of(const std::vector<OverviewRow>& rows) {
   std::vector<double> rmse, ratio, held_out;
   std::map<std::string, int> verdicts;
-  for (const OverviewRow& row : o.rows) {
+  for (const OverviewRow& row : rows) {
     rmse.push_back(row.rmse);
     ratio.push_back(row.noise > 0 ? row.rmse / row.noise : std::nan(""));
     held_out.push_back(row.held_out);
@@ -48,8 +48,22 @@ Common common_of(const Overview& o) {
   return c;
 }
 
+// The rows by the effects that they ask for, in the order in which these first appear; nothing when
+// all ask for the same.
+std::vector<std::pair<std::string, std::vector<OverviewRow>>> by_effects(const Overview& o) {
+  std::vector<std::pair<std::string, std::vector<OverviewRow>>> groups;
+  for (const OverviewRow& row : o.rows) {
+    auto group = std::find_if(groups.begin(), groups.end(),
+                              [&](const auto& g) { return g.first == row.asked; });
+    if (group == groups.end()) group = groups.insert(group, {row.asked, {}});
+    group->second.push_back(row);
+  }
+  if (groups.size() == 1) groups.clear();
+  return groups;
+}
+
 Report header_of(const Overview& o) {
-  const Common c = common_of(o);
+  const Common c = common_of(o.rows);
   Report report;
   report.title = o.title;
   report.verdict = o.verdict;
@@ -70,6 +84,23 @@ Report header_of(const Overview& o) {
 
 std::string cell(const std::string& text, bool is_number) {
   return fmt::format("<td{}>{}</td>", is_number ? " class='n'" : "", escape_html(text));
+}
+
+std::string page_groups(const Overview& o) {
+  const auto groups = by_effects(o);
+  if (groups.empty()) return "";
+  std::string out =
+      "<section><h2>By the effects asked for</h2><div class='scroll'><table><thead><tr>"
+      "<th>effects</th><th class='n'>recordings</th><th class='n'>median error [N]</th>"
+      "<th class='n'>over noise</th><th class='n'>unseen [N]</th><th>models</th></tr></thead>"
+      "<tbody>\n";
+  for (const auto& [asked, rows] : groups) {
+    const Common c = common_of(rows);
+    out += "<tr>" + cell(asked, false) + cell(std::to_string(rows.size()), true) +
+           cell(number(c.rmse), true) + cell(number(c.ratio), true) +
+           cell(number(c.held_out), true) + cell(c.verdicts, false) + "</tr>\n";
+  }
+  return out + "</tbody></table></div></section>\n";
 }
 
 std::string page_rows(const Overview& o) {
@@ -120,20 +151,27 @@ std::string page_failures(const Overview& o) {
 
 }  // namespace
 
-std::string overview_line(const Overview& overview) {
-  const Common c = common_of(overview);
-  if (!std::isfinite(c.rmse)) return "";
-  return fmt::format(
-      "median error {} N{}{}", number(c.rmse),
-      std::isfinite(c.ratio) ? fmt::format(", {} times the noise", number(c.ratio)) : "",
-      c.verdicts.empty() ? "" : "; models: " + c.verdicts);
+std::vector<std::string> overview_lines(const Overview& overview) {
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& of, const std::vector<OverviewRow>& rows) {
+    const Common c = common_of(rows);
+    if (!std::isfinite(c.rmse)) return;
+    lines.push_back(fmt::format(
+        "{}median error {} N{}{}", of, number(c.rmse),
+        std::isfinite(c.ratio) ? fmt::format(", {} times the noise", number(c.ratio)) : "",
+        c.verdicts.empty() ? "" : "; models: " + c.verdicts));
+  };
+  add("", overview.rows);
+  for (const auto& [asked, rows] : by_effects(overview))
+    add(fmt::format("{} ({}): ", asked, rows.size()), rows);
+  return lines;
 }
 
 void write_overview(std::ostream& out, const Overview& overview) {
   const Report header = header_of(overview);
   write_head(out, header.title);
-  out << page_header(header) << page_failures(overview) << page_rows(overview)
-      << page_provenance(header) << "<script>\n"
+  out << page_header(header) << page_failures(overview) << page_groups(overview)
+      << page_rows(overview) << page_provenance(header) << "<script>\n"
       << assets::kTable << "</script>\n</body></html>\n";
 }
 

@@ -15,6 +15,7 @@ struct OverviewRow {
   std::string name;
   std::string link;  // to the recording's own report, relative to the page; "" for none
   std::string effects, verdict, missing;
+  std::string asked;  // the effects asked for: "elastic", "auto"
   double rmse = std::numeric_limits<double>::quiet_NaN();      // [N]
   double held_out = std::numeric_limits<double>::quiet_NaN();  // [N]
   double noise = std::numeric_limits<double>::quiet_NaN();     // [N]
@@ -36,8 +37,9 @@ struct Overview {
   std::vector<std::pair<std::string, std::string>> provenance;
 };
 
-// "median error 0.021 N, 1.1 times the noise; models: 20 complete, 3 incomplete"; "" without any.
-std::string overview_line(const Overview& overview);
+// "median error 0.021 N, 1.1 times the noise; models: 20 complete, 3 incomplete", and where the
+// rows ask for different effects such a line for each. Empty without any error.
+std::vector<std::string> overview_lines(const Overview& overview);
 
 // One HTML file that needs no network: key numbers, how often each verdict, failures, and the
 // recordings with the largest error first (a click on a column's head sorts by it).

@@ -17,6 +17,9 @@ awk 'BEGIN { OFS = ","; print "x,y,z"; for (i = 0; i < 4000; ++i) print 0.06 * r
 awk 'BEGIN { print "time [s],force [N],displacement [mm]"; for (i = 0; i < 400; ++i) print i * 0.01 "," (i > 100 ? (i - 100) * 0.01 : 0) "," i * 0.02 }' >machine.csv
 hs-scan2ply -q scan.csv -o points.ply || exit 1
 printf 'name,body,data,options,common_options\na,body.ply,data.csv,--folds 0,--rim-edge 0.3\n' >manifest.csv
+awk 'BEGIN { srand(3); print "x,y,z,E,nu,E_std,nu_std,n"; for (i = 0; i < 20; ++i)
+  printf "%.2f,%.2f,0.04,%.0f,%.3f,200,0.01,90\n", 0.01 * (i % 4), 0.01 * int(i / 4), (i < 10 ? 8000 : 16000) + 300 * rand(), 0.4 + 0.02 * rand() }' >samples.csv
+hs-identify -q data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1 --library lab.db -o identified.csv || exit 1
 declare -A command=(
   [hs-tetmesh]='hs-tetmesh box.off --max-volume 1e-8'
   [hs-scan2ply]='hs-scan2ply scan.csv'
@@ -29,11 +32,14 @@ declare -A command=(
   [hs-check]='hs-check model.csv --golden model.csv'
   [hs-export]='hs-export model.csv --body body.ply --data data.csv --format calculix'
   [hs-batch]='hs-batch manifest.csv --out batch'
+  [hs-cluster]='hs-cluster samples.csv'
+  [hs-library]='hs-library lab.db'
+  [hs-fuse]='hs-fuse forces.csv --slow data.csv'
 )
 tools=($(printf '%s\n' "${!command[@]}" | sort))
 declare -A input=([hs-tetmesh]=box.off [hs-scan2ply]=scan.csv [hs-reconstruct]=points.ply [hs-import]=machine.csv [hs-simulate]=data.csv
   [hs-identify]=data.csv [hs-diagnose]=data.csv [hs-compare]=data.csv [hs-check]=model.csv [hs-export]=model.csv
-  [hs-batch]=manifest.csv)
+  [hs-batch]=manifest.csv [hs-cluster]=samples.csv [hs-library]=lab.db [hs-fuse]=forces.csv)
 
 row() { printf '%-28s %-14s %s\n' "$1" "$2" "$3"; }
 temporaries() { find . -name '.hapsim-*.tmp' | wc -l; }
@@ -111,6 +117,26 @@ for tool in hs-simulate hs-compare; do
   [[ $code == 0 ]] && same out.rows expected.rows || complain "stopped and continued: $tool (exit $code)"
   row 'stopped and continued' $tool "exit $code, the same result"
 done
+# System calls that a signal interrupts before they have done anything: every other one of those that
+# read the input, write, wait for a child or lock.
+if strace -qq -o trace true 2>/dev/null; then
+  for tool in "${tools[@]}"; do
+    ${command[$tool]} -q -o expected 2>/dev/null; calm=$?
+    calls=0
+    for at in "-P $work/${input[$tool]} -e inject=openat,read,pread64:error=EINTR:when=1+2" \
+      '-e inject=write,writev,fsync,fdatasync,fcntl,flock,wait4,poll,select,ppoll:error=EINTR:when=1+2'; do
+      # The path as strace sees it: the whole one.
+      XDG_CACHE_HOME=$work/fresh-$tool strace -f -qq -o trace $at ${command[$tool]/${input[$tool]}/$work/${input[$tool]}} -q -o out 2>err; code=$?
+      calls=$((calls + $(grep -c INJECTED trace)))
+      [[ $code == "$calm" ]] && same out expected || complain "interrupted: $tool (exit $code)"
+      [[ $(temporaries) == 0 ]] || complain "interrupted: $tool leaves a temporary file"
+    done
+    ((calls > 0)) || complain "interrupted: no system call of $tool was"
+    row 'interrupted system call' $tool "exit $code, the same result ($calls interrupted)"
+  done
+else
+  echo 'SKIPPED: strace cannot trace here, so no system call is interrupted (apt-get install strace)'
+fi
 # Killed at any moment: by SIGTERM nothing is left; by SIGKILL what was there is whole.
 for tool in hs-tetmesh hs-simulate hs-identify; do
   XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o whole 2>/dev/null

@@ -16,6 +16,11 @@ expect 2 'the windows of the relaxation times overlap' data.csv "${common[@]}" -
 expect 2 '--terms many is not a number of terms' data.csv "${common[@]}" --terms many
 expect 2 '--windows 3 is no window' data.csv "${common[@]}" --windows 3
 
+# What is held stays held while effects are added; with four presses there are none to add.
+expect 0 'error' data.csv "${common[@]}" --effects auto --fix nu=0.45
+grep -q '^elastic,0,nu,0.45,.*,fixed$' out.csv || complain '--effects auto with --fix'
+expect 2 "the model has no parameter 'tau1'" data.csv "${common[@]}" --effects auto --fix tau1=3
+
 # Two recordings of one body fitted together are the one that they were cut from.
 awk -F, '/^[#p]/ || $1 < 2' data.csv >first.csv
 awk -F, '/^[#p]/ || $1 >= 2' data.csv | sed 's/^2,/0,/; s/^3,/1,/' >second.csv

@@ -9,11 +9,13 @@
 #include "geometry/body_input.h"
 #include "geometry/mesh_file.h"
 #include "geometry/surface.h"
+#include "import/import.h"
 #include "io/csv.h"
 #include "io/ply.h"
 #include "io/recording.h"
 #include "io/stl.h"
 #include "io/vtu.h"
+#include "model/location_file.h"
 #include "model/model.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
@@ -35,6 +37,19 @@ void csv(const std::string& bytes) {
   Input input = input_of(bytes);
   const CsvTable table = read_csv(input);
   if (!table.header.empty()) table.numbers(table.header[0]);
+}
+
+// Tables of other machines and robots, and what becomes of them.
+void import(const std::string& bytes) {
+  Input input = input_of(bytes);
+  ImportOptions options;
+  options.at = Vec3(0, 0, 0);
+  import_recording(read_raw_table(input), options);
+}
+
+void locations(const std::string& bytes) {
+  Input input = input_of(bytes);
+  read_locations(input);
 }
 
 // What was read is written, and that must be read again.
@@ -123,15 +138,17 @@ void records(const std::string& bytes) {
 
 }  // namespace
 
+// What users write by hand or get from other programs comes first.
 const std::vector<Reader>& readers() {
-  static const std::vector<Reader> all{{"csv", csv},        {"recording", recording},
-                                       {"model", model},    {"manifest", manifest},
-                                       {"ply", ply},        {"stl", stl},
-                                       {"off", off},        {"mesh", mesh},
-                                       {"vtu", vtu},        {"pcd", pcd},
-                                       {"urdf", urdf},      {"scan", scan},
-                                       {"volume", volume},  {"motion", motion},
-                                       {"records", records}};
+  static const std::vector<Reader> all{{"csv", csv},           {"recording", recording},
+                                       {"import", import},     {"scan", scan},
+                                       {"mesh", mesh},         {"ply", ply},
+                                       {"stl", stl},           {"model", model},
+                                       {"manifest", manifest}, {"locations", locations},
+                                       {"vtu", vtu},           {"pcd", pcd},
+                                       {"records", records},   {"motion", motion},
+                                       {"urdf", urdf},         {"off", off},
+                                       {"volume", volume}};
   return all;
 }
 

@@ -44,7 +44,7 @@ TEST_F(ManifestTest, RowsAreReadWithTheirPathsFromHere) {
   EXPECT_EQ(row.body, folder_ + "b.ply");
   EXPECT_DOUBLE_EQ(row.tool_radius, 0.004);
   EXPECT_EQ(row.effects, "elastic,tip");
-  EXPECT_EQ(row.options[3], (std::vector<std::string>{"--fix", "nu=0.4"}));
+  EXPECT_EQ(options_of(row, "model"), (std::vector<std::string>{"--fix", "nu=0.4"}));
   EXPECT_EQ(m.extra_header, std::vector<std::string>{"weight"});
   EXPECT_EQ(row.extra, std::vector<std::string>{"80"});
 }
@@ -98,6 +98,26 @@ TEST_F(ManifestTest, EqualScansShareTheirBody) {
   EXPECT_NE(model.command.find("--threads 1"), std::string::npos);
   EXPECT_EQ(model.made.size(), 1U);
   EXPECT_EQ(plan_batch(m, {"out", false, false}).chain[0].size(), 4U);
+}
+
+TEST_F(ManifestTest, TablesOfMachinesAreImportedFirst) {
+  const Manifest m = read(
+      "name,raw,scan,data,import_options,tool\nblock,a.csv,,,--block 60x50x40mm,4mm\n"
+      "scanned,a.csv,s.csv,,,\nboth,a.csv,s.csv,a.csv,,\nbare,a.csv,,,--unit mm,\n");
+  const Batch batch = plan_batch(m, {"out", false, false});
+  ASSERT_EQ(batch.chain[0].size(), 3U);  // data, body, model
+  const BatchStep& data = batch.steps[static_cast<std::size_t>(batch.chain[0][0])];
+  EXPECT_EQ(data.output, "recordings/block/data.csv");
+  for (const char* words : {"hs-import ", "--surface out/recordings/block/block.ply",
+                            "--tool-radius 0.004", "--block 60x50x40mm"})
+    EXPECT_NE(data.command.find(words), std::string::npos) << data.command;
+  const BatchStep& model = batch.steps[static_cast<std::size_t>(batch.chain[0][2])];
+  EXPECT_EQ(model.made,
+            (std::vector<std::string>{"recordings/block/data.csv", "recordings/block/body.ply"}));
+  EXPECT_EQ(model.command.rfind("hs-identify out/recordings/block/data.csv --body", 0), 0U);
+  EXPECT_EQ(batch.chain[1].size(), 5U);  // data, points, surface, body, model
+  EXPECT_NE(m.rows[2].problem.find("data and raw exclude"), std::string::npos);
+  EXPECT_NE(m.rows[3].problem.find("--block in import_options"), std::string::npos);
 }
 
 TEST_F(ManifestTest, WholeManifestsAreRefused) {

@@ -55,7 +55,8 @@ class RulesTest : public ::testing::Test {
 TEST_F(RulesTest, CommandsAreWrittenOnlyWhenTheyChange) {
   EXPECT_EQ(write_rules(batch_, "", "1").ready, 1U);
   const fs::path script = fs::path(folder_) / "out/recordings/x/model.sh";
-  EXPECT_NE(bytes("out/recordings/x/model.sh").find("# hapsim 1\nhs-identify "), std::string::npos);
+  EXPECT_EQ(bytes("out/recordings/x/model.sh").rfind("# hapsim 1\n", 0), 0U);
+  EXPECT_NE(bytes("out/recordings/x/model.sh").find("\nhs-identify "), std::string::npos);
   EXPECT_NE(bytes("out/batch.mk").find("recordings/x/model.csv: recordings/x/model.sh "),
             std::string::npos);
   const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
@@ -78,6 +79,32 @@ TEST_F(RulesTest, WhatWouldFailAgainIsLeftOutUntilSomethingChanges) {
   fs::last_write_time(fs::path(folder_) / "a.csv",
                       fs::file_time_type::clock::now() + std::chrono::hours(2));
   EXPECT_EQ(write_rules(batch_, "", "1").ready, 1U);
+}
+
+TEST_F(RulesTest, WhatAnOtherFileGaveIsRemoved) {
+  const std::string model = "out/recordings/x/model.csv";
+  write_rules(batch_, "", "1");
+  write(model, "m\n");
+  write_rules(batch_, "", "1");
+  EXPECT_EQ(bytes(model), "m\n");
+  // Older than the model: make alone would keep that.
+  const auto yesterday = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  fs::last_write_time(fs::path(folder_) / "a.csv", yesterday);
+  write_rules(batch_, "", "1");
+  EXPECT_EQ(bytes(model), "");
+}
+
+TEST_F(RulesTest, NothingIsMadeAgainBecauseTheClockWasAhead) {
+  write_rules(batch_, "", "1");
+  const auto now = fs::file_time_type::clock::now(), ahead = now + std::chrono::hours(3);
+  const fs::path script = fs::path(folder_) / "out/recordings/x/model.sh";
+  fs::last_write_time(script, ahead);
+  write_rules(batch_, "", "1");
+  EXPECT_LT(fs::last_write_time(script), now + std::chrono::hours(1));
+  EXPECT_NE(bytes("out/batch.mk").find("/a.csv"), std::string::npos);
+  fs::last_write_time(fs::path(folder_) / "a.csv", ahead);
+  write_rules(batch_, "", "1");
+  EXPECT_EQ(bytes("out/batch.mk").find("/a.csv"), std::string::npos);
 }
 
 TEST_F(RulesTest, FailuresOfTheMachineAreTriedAgain) {

@@ -42,5 +42,22 @@ TEST(Overview, LargestErrorFirstAndTextIsText) {
   EXPECT_NE(html.find("</html>"), std::string::npos);
 }
 
+TEST(Overview, EachKindOfModelHasItsOwnMedian) {
+  Overview page;
+  page.rows = {{"a", "", "elastic", "incomplete", "", "elastic"},
+               {"a2", "", "elastic+tip", "complete", "", "auto"},
+               {"b", "", "elastic", "incomplete", "", "elastic"}};
+  page.rows[0].rmse = 0.3;
+  page.rows[1].rmse = 0.1;
+  page.rows[2].rmse = 0.5;
+  const std::vector<std::string> expected{"median error 0.3 N; models: 1 complete, 2 incomplete",
+                                          "elastic (2): median error 0.4 N; models: 2 incomplete",
+                                          "auto (1): median error 0.1 N; models: 1 complete"};
+  EXPECT_EQ(overview_lines(page), expected);
+  page.rows.erase(page.rows.begin() + 1);
+  EXPECT_EQ(overview_lines(page).size(), 1U);
+  EXPECT_TRUE(overview_lines({}).empty());
+}
+
 }  // namespace
 }  // namespace hapsim

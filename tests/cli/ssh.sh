@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# ssh.sh BIN: the batch by GNU parallel over SSH, as README.md says, on two hosts that are this machine behind
+# an sshd of its own on loopback: the same summary as by make alone; connections that are cut on the way, and
+# the same commands again, lose nothing.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+. "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
+skip() { echo "SKIPPED: $*"; exit 77; }
+PATH=$bin:$PATH:/usr/sbin
+command -v sshd >/dev/null || skip 'sshd is not installed (apt-get install openssh-server)'
+command -v parallel >/dev/null || skip 'GNU parallel is not installed (apt-get install parallel)'
+
+# Keys, server and client, all below this folder.
+port=$((20000 + $$ % 20000))
+ssh-keygen -q -t ed25519 -N '' -f host_key && ssh-keygen -q -t ed25519 -N '' -f key && cp key.pub authorized_keys ||
+  skip 'no keys can be made'
+[[ $(id -u) != 0 ]] || mkdir -p /run/sshd
+cat >sshd_config <<CONF
+Port $port
+ListenAddress 127.0.0.1
+HostKey $work/host_key
+AuthorizedKeysFile $work/authorized_keys
+PidFile $work/sshd.pid
+StrictModes no
+UsePAM no
+PasswordAuthentication no
+PermitRootLogin prohibit-password
+MaxStartups 100
+CONF
+cat >ssh_config <<CONF
+Host node1 node2
+  HostName 127.0.0.1
+  Port $port
+  User $(id -un)
+  IdentityFile $work/key
+  IdentitiesOnly yes
+  UserKnownHostsFile $work/known_hosts
+  StrictHostKeyChecking accept-new
+  BatchMode yes
+  LogLevel ERROR
+CONF
+serve() { "$(command -v sshd)" -f sshd_config -E sshd.log && for _ in {1..50}; do ssh -F ssh_config node1 true 2>err && return; sleep 0.1; done; }
+# The server and, with `all`, the connections that it has taken.
+stop() {
+  [[ -s sshd.pid ]] || return 0
+  local server; server=$(cat sshd.pid)
+  [[ ${1:-} != all ]] || kill -KILL $(pgrep -P "$server") 2>/dev/null
+  kill -KILL "$server" 2>/dev/null
+  rm -f sshd.pid
+}
+trap '[[ $BASHPID != "$$" ]] || { stop all; rm -rf "$work"; }' EXIT
+serve || skip "sshd does not answer: $(tail -n 1 sshd.log err)"
+
+hs-tetmesh -q box.off --max-volume 2e-8 -o box.ply || exit 1
+awk 'BEGIN { print "# tool_radius: 0.004\n# force_noise: 0.002\npress,t,x,y,z,ux,uy,uz"
+  for (p = 0; p < 3; ++p) for (i = 0; i <= 8; ++i)
+    printf "%d,%.2f,%.3f,0.025,0.04,0,0,%.6f\n", p, 0.05 * i, 0.02 + 0.01 * p, -i * 1e-4 }' >motion.csv
+printf 'effect,region,parameter,value\nelastic,0,E,9000\nelastic,0,nu,0.4\n' >truth.csv
+awk 'BEGIN { srand(3); print "x,y,z"; for (i = 0; i < 3000; ++i) { f = int(3 * rand()); a = rand(); b = rand(); s = rand() < 0.5
+  x = f == 0 ? s : a; y = f == 1 ? s : f == 0 ? a : b; z = f == 2 ? s : b; print 60 * x "," 50 * y "," 40 * z } }' >scan.csv
+echo 'name,body,scan,scan_unit,data,options,common_options' >recordings.csv
+for i in 1 2 3 4 5 6 7 8; do
+  hs-simulate -q motion.csv --body box.ply --model truth.csv --rim-edge 0.3 --add-noise 0.002 --seed $i -o $i.csv || exit 1
+  ((i < 6)) && echo "recording $i,box.ply,,,$i.csv,--folds 0,--rim-edge 0.3" >>recordings.csv
+done
+for i in 6 7; do echo "from scan $i,,scan.csv,mm,$i.csv,--folds 0,--rim-edge 0.3" >>recordings.csv; done
+sed -i 's/^1,.*/1,nonsense/' 8.csv
+echo 'broken,box.ply,,,8.csv,--folds 0,--rim-edge 0.3' >>recordings.csv
+
+# The commands of README.md, with these hosts and where these tools are.
+grep -q '^parallel --sshlogin 4/node1,8/node2 --wd \. make -C batch -k -f batch.mk {} <batch/targets$' "$root/README.md" ||
+  complain 'README.md says something else than what is tried here'
+over_ssh() { # OUT
+  hs-batch recordings.csv --prepare --out "$1" --stages model --bin "$bin" -q && make -s -C "$1" -f batch.mk -k -j2 bodies >log 2>&1
+  parallel --ssh "ssh -F $work/ssh_config" --sshlogin 1/node1,1/node2 --wd . make -C "$1" -k -f batch.mk {} <"$1/targets" >log 2>&1
+  hs-batch recordings.csv --out "$1" --stages model --html "$1/overview.html" -o "$1/summary.csv" 2>err
+}
+same() { cmp -s <(sed "s/\b$1\b/here/g" "$1/summary.csv") here/summary.csv || complain "the summary of $1 is another"; }
+make --no-print-directory -s -j2 -f "$root/Makefile.pipeline" batch BIN="$bin" MANIFEST=recordings.csv OUT=here \
+  BATCH_FLAGS='--stages model' >log 2>err
+grep -q '7 of 8 recordings done, 1 failed' err || complain 'the batch by itself'
+over_ssh far && complain 'a failure must be told by the exit code'
+grep -q '7 of 8 recordings done, 1 failed' err || { complain 'the batch over SSH'; cat log; }
+[[ $(grep -c 'Accepted publickey' sshd.log) -ge 8 ]] || complain 'the recordings did not go over SSH'
+same far
+# Cut on the way.
+over_ssh cut & far=$!
+for _ in {1..200}; do [[ $(find cut/recordings -name model.csv 2>/dev/null | wc -l) -ge 2 ]] && break; sleep 0.05; done
+stop all
+wait $far
+serve || complain 'sshd does not come again'
+over_ssh cut
+same cut
+((failures == 0)) && echo 'ssh: passed'
+exit $((failures > 0))
