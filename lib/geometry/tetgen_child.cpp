@@ -98,6 +98,7 @@ bool write_all(int file, const void* data, std::size_t count) {
   const char* p = static_cast<const char*>(data);
   while (count > 0) {
     const ssize_t n = write(file, p, count);
+    if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     p += n;
     count -= static_cast<std::size_t>(n);

@@ -67,8 +67,9 @@ double number_of(const Cell& cell) {
 Database::Database(const std::string& path, const DatabaseFormat& format, Mode mode,
                    double patience)
     : handle_(std::make_unique<Handle>()), path_(path), format_(format), patience_(patience) {
-  const int flags =
-      mode == Mode::kRead ? SQLITE_OPEN_READONLY : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  // A reader too undoes what a killed writer left; where it may not write, SQLite opens the file
+  // for reading alone.
+  const int flags = SQLITE_OPEN_READWRITE | (mode == Mode::kWrite ? SQLITE_OPEN_CREATE : 0);
   // Without URI names: a path is a path.
   if (const int code = sqlite3_open_v2(path.c_str(), &handle_->db, flags, nullptr);
       code != SQLITE_OK)

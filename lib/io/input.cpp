@@ -45,9 +45,7 @@ class ReadBuffer : public std::streambuf {
   int_type underflow() override {
     if (gptr() < egptr()) return traits_type::to_int_type(*gptr());
     if (fd_ < 0) return traits_type::eof();
-    ssize_t got;
-    do got = read(fd_, bytes_.data(), bytes_.size());
-    while (got < 0 && errno == EINTR);
+    const ssize_t got = uninterrupted([&] { return read(fd_, bytes_.data(), bytes_.size()); });
     if (got < 0) fail_system(name_, "cannot be read", errno);
     setg(bytes_.data(), bytes_.data(), bytes_.data() + got);
     return got == 0 ? traits_type::eof() : traits_type::to_int_type(*gptr());
@@ -65,7 +63,7 @@ int open_for_reading(const std::string& path) {
       fail_usage("standard input can feed one input only", "name a file for the other");
     return STDIN_FILENO;
   }
-  const int fd = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const int fd = uninterrupted([&] { return open(path.c_str(), O_RDONLY | O_CLOEXEC); });
   if (fd < 0) fail_system(path, "cannot be opened", errno);
   return fd;
 }

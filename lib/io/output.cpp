@@ -63,8 +63,7 @@ class WriteBuffer : public std::streambuf {
     if (terminal_ && std::memchr(bytes, '\0', n) != nullptr)
       fail_usage("the result is binary and standard output is a terminal", "use -o FILE or a pipe");
     while (n > 0) {
-      const ssize_t done = ::write(fd_, bytes, n);
-      if (done < 0 && errno == EINTR) continue;
+      const ssize_t done = uninterrupted([&] { return ::write(fd_, bytes, n); });
       if (done < 0 && errno == EPIPE) throw ClosedPipe();
       if (done < 0) fail_system(name_, "cannot be written", errno);
       bytes += done;
@@ -117,7 +116,7 @@ struct Output::Impl {
       fail_system(path, "cannot be written", EISDIR);
     if (exists && access(path.c_str(), W_OK) != 0) fail_system(path, "cannot be written", errno);
     if (exists && !S_ISREG(info.st_mode)) {
-      fd = open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+      fd = uninterrupted([&] { return open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY); });
       if (fd < 0) fail_system(path, "cannot be written", errno);
       return;
     }
@@ -132,12 +131,14 @@ struct Output::Impl {
   void close_checked() {
     const int closing = to_stdout ? dup(fd) : fd;
     if (!to_stdout) fd = -1;
-    if (closing < 0 || close(closing) != 0) fail_system(name, "cannot be written", errno);
+    // Interrupted it is closed all the same.
+    if (closing < 0 || (close(closing) != 0 && errno != EINTR))
+      fail_system(name, "cannot be written", errno);
   }
 
   void commit() {
     stream.flush();
-    if (temp && fsync(fd) != 0 && errno != EINVAL && errno != EROFS)
+    if (temp && uninterrupted([&] { return fsync(fd); }) != 0 && errno != EINVAL && errno != EROFS)
       fail_system(name, "cannot be written", errno);
     close_checked();
     if (!temp) return;
@@ -145,9 +146,12 @@ struct Output::Impl {
       fail_system(name, "cannot be put in its place", errno);
     temp->kept();
     temp.reset();
-    const int folder = open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const int folder = uninterrupted(
+        [&] { return open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
     if (folder < 0) return;
-    fsync(folder);  // the rename survives a power cut; the data are safe either way
+    uninterrupted([&] {
+      return fsync(folder);
+    });  // the rename survives a power cut; the data are safe either way
     close(folder);
   }
 

@@ -66,7 +66,8 @@ TempFile::TempFile(const std::string& folder, const std::string& target) {
         folder + "/.hapsim-" + std::to_string(getpid()) + "-" + std::to_string(serial++) + ".tmp";
     // Registered first, so that no signal finds the file unknown.
     slot_ = claim_slot(path_);
-    fd_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    fd_ = uninterrupted(
+        [&] { return open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     if (fd_ < 0 && slot_ >= 0) slots[static_cast<std::size_t>(slot_)].owner.store(0);
   } while (fd_ < 0 && errno == EEXIST);
   if (fd_ < 0) fail_system(target, "cannot be created", errno);

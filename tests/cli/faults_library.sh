@@ -15,7 +15,7 @@ identify=(hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --thread
 "${identify[@]}" --library one.db --material one -o m.csv || exit 1
 
 row() { printf '%-28s %-12s %s\n' "$1" "$2" "$3"; }
-entries() { hs-library "$1" -q 2>err | tail -n +2 | cut -d, -f1 | tr '\n' ' '; } # DATABASE
+entries() { hs-library "$1" -q 2>list.err | tail -n +2 | cut -d, -f1 | tr '\n' ' '; } # DATABASE
 whole() { # WHAT DATABASE
   hs-library "$2" -q -o list.csv 2>err || complain "$1: the library cannot be read"
   [[ ! -x $(command -v sqlite3) || $(sqlite3 "$2" 'pragma integrity_check') == ok ]] || complain "$1: the database is damaged"
@@ -50,7 +50,7 @@ killed() {
     for n in {1..40}; do
       rm -f lab.db* && cp many.db lab.db
       # In a shell of its own, which says nothing of the kill.
-      (strace -f -qq -o trace -e trace=$call -e inject=$call:signal=KILL:when="$n" "$@" 2>err) 2>/dev/null && break
+      (strace -f -qq -o trace -e trace=$call -e inject=$call:signal=KILL:when="$n" "$@" 2>err; exit $?) 2>/dev/null && break
       grep -q SIGKILL trace || complain "killed: $tool was not"
       count=$((count + 1))
       whole "killed at $call $n" lab.db
@@ -58,6 +58,7 @@ killed() {
       hs-library -q lab.db --remove 1 2>err || complain "killed at $call $n: nobody can write any more"
     done
   done
+  rm -f .hapsim-*.tmp
   ((count > 5)) || complain "killed: $tool was ended only $count times"
   row 'killed while it writes' "$tool" "$count kills: the old entries or the new, whole"
 }
@@ -72,7 +73,7 @@ fi
 mkdir full
 if mount -t tmpfs -o size=128k tmpfs full 2>/dev/null; then
   trap '[[ $BASHPID != "$$" ]] || { umount "$work/full"; rm -rf "$work"; }' EXIT
-  for left in 0 4096 8192; do
+  for left in 0 8192 49152; do
     rm -f full/* && cp many.db full/lab.db
     head -c 200000 /dev/zero >full/filler 2>/dev/null
     truncate -s -$left full/filler
