@@ -38,7 +38,7 @@ Host node1 node2
   BatchMode yes
   LogLevel ERROR
 CONF
-serve() { "$(command -v sshd)" -f sshd_config -E sshd.log && for _ in {1..50}; do ssh -F ssh_config node1 true 2>err && return; sleep 0.1; done; }
+serve() { "$(command -v sshd)" -f "$work/sshd_config" -E "$work/sshd.log" && for _ in {1..50}; do ssh -F ssh_config node1 true 2>err && return; sleep 0.1; done; }
 # The server and, with `all`, the connections that it has taken.
 stop() {
   [[ -s sshd.pid ]] || return 0
