@@ -162,6 +162,21 @@ bool fails_again(const Batch& batch, const std::vector<int>& chain) {
   return failure && failure->code >= 2 && failure->code <= 4;
 }
 
+// Made once for all recordings that need it.
+bool is_shared(const BatchStep& step) {
+  return step.folder.rfind("bodies/", 0) == 0;
+}
+
+std::string rule_of(const BatchStep& step, const fs::path& folder) {
+  std::string made, given;
+  for (const std::string& input : step.made) made += " " + input;
+  // A file from the future is newer than whatever is made of it.
+  for (const std::string& input : step.given)
+    if (!is_ahead(input)) given += " " + prerequisite(folder, input);
+  return fmt::format("{0}: {1}/{2}.sh{3}{4}\n\t@$(STEP) step.sh {1} {2} {0}{4}\n", step.output,
+                     step.folder, step.name, given, made);
+}
+
 }  // namespace
 
 PrepareReport write_rules(const Batch& batch, const std::string& bin, const std::string& version) {
@@ -198,25 +213,29 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
     const std::string target = "recording-" + row.folder;
     all += " " + target;
     targets += target + "\n";
+    std::string own, body;  // what the recording shares with others
     for (const int s : batch.chain[r]) {
-      if (!written.insert(s).second) continue;
       const BatchStep& step = step_at(batch, s);
-      std::string made, given;
-      // Those that several recordings may share.
-      if (step.name == "body" && step.folder.rfind("bodies/", 0) == 0) bodies += " " + step.output;
-      for (const std::string& input : step.made) made += " " + input;
-      // A file from the future is newer than whatever is made of it.
-      for (const std::string& input : step.given)
-        if (!is_ahead(input)) given += " " + prerequisite(folder, input);
-      rules += fmt::format("{0}: {1}/{2}.sh{3}{4}\n\t@$(STEP) step.sh {1} {2} {0}{4}\n",
-                           step.output, step.folder, step.name, given, made);
+      if (!is_shared(step)) {
+        own += rule_of(step, folder);
+        continue;
+      }
+      if (step.name == "body") body = step.output;
+      if (!written.insert(s).second) continue;
+      if (step.name == "body") bodies += " " + step.output;
+      rules += rule_of(step, folder);
     }
-    rules += fmt::format("{}: {}\n\t@echo finished {}\n", target,
-                         step_at(batch, batch.chain[r].back()).output, row.folder);
+    const std::string file = "recordings/" + row.folder + "/rules.mk";
+    write_if_changed(folder / file,
+                     fmt::format("STEP := sh\nMAKEFLAGS += -rR\n.PHONY: recording\nrecording: {}\n"
+                                 "\t@echo finished {}\n{}{}",
+                                 step_at(batch, batch.chain[r].back()).output, row.folder,
+                                 body.empty() ? "" : body + ":\n", own));
+    rules += fmt::format("{}: {}\n\t+@$(MAKE) -f {}\n", target, body, file);
   }
   Output output((folder / "batch.mk").string());
   output.write("# Written by hs-batch.\nSTEP := sh\nall:" + all + "\nbodies:" + bodies +
-               "\n.PHONY: all bodies" + all + "\nMAKEFLAGS += -rR\n" + rules);
+               "\n.PHONY: all bodies" + all + "\nMAKEFLAGS += -rR --no-print-directory\n" + rules);
   output.commit();
   Output list((folder / "targets").string());
   list.write(targets);

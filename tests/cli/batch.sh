@@ -134,6 +134,17 @@ SH
 ln -s "$bin/hs-batch" fake/
 (bin=fake; batch together two.csv; exit $code) || complain 'two recordings at once'
 
+# Recordings are gone through one after the other (two with -j2), so that what is done grows steadily.
+{ echo name,body,data; for name in a b c d e; do echo "$name,box.ply,8000.csv"; done; } >orderly.csv
+head='#!/bin/sh\nwhile [ "$1" != -o ]; do shift; done\n'
+printf "$head"'printf "# rmse: 1\\neffect,region,parameter,value\\nelastic,0,E,1\\n" >"$2"\n' >fake/hs-identify
+printf "$head"'echo rank,effect,verdict >"$2"\n' >fake/hs-diagnose && chmod +x fake/hs-diagnose
+"$bin/hs-batch" orderly.csv --prepare --stages diagnosis --out orderly --bin fake -q
+make -s -k -j2 -C orderly -f batch.mk >log 2>err
+[[ $(grep -c '^step [a-e]$' log) == 10 && $(grep -c '^finished' log) == 5 &&
+  $(grep -n -m1 '^finished' log | cut -d: -f1) -lt $(grep -n -m1 '^step d' log | cut -d: -f1) ]] ||
+  complain "the order of steps: $(tr '\n' ' ' <log)"
+
 # Manifests that cannot be read at all.
 refused() { # TEXT
   local text=$1

@@ -57,8 +57,9 @@ TEST_F(RulesTest, CommandsAreWrittenOnlyWhenTheyChange) {
   const fs::path script = fs::path(folder_) / "out/recordings/x/model.sh";
   EXPECT_EQ(bytes("out/recordings/x/model.sh").rfind("# hapsim 1\n", 0), 0U);
   EXPECT_NE(bytes("out/recordings/x/model.sh").find("\nhs-identify "), std::string::npos);
-  EXPECT_NE(bytes("out/batch.mk").find("recordings/x/model.csv: recordings/x/model.sh "),
-            std::string::npos);
+  EXPECT_NE(
+      bytes("out/recordings/x/rules.mk").find("recordings/x/model.csv: recordings/x/model.sh "),
+      std::string::npos);
   const auto old = fs::file_time_type::clock::now() - std::chrono::hours(2);
   fs::last_write_time(script, old);
   write_rules(batch_, "", "1");
@@ -101,10 +102,10 @@ TEST_F(RulesTest, NothingIsMadeAgainBecauseTheClockWasAhead) {
   fs::last_write_time(script, ahead);
   write_rules(batch_, "", "1");
   EXPECT_LT(fs::last_write_time(script), now + std::chrono::hours(1));
-  EXPECT_NE(bytes("out/batch.mk").find("/a.csv"), std::string::npos);
+  EXPECT_NE(bytes("out/recordings/x/rules.mk").find("/a.csv"), std::string::npos);
   fs::last_write_time(fs::path(folder_) / "a.csv", ahead);
   write_rules(batch_, "", "1");
-  EXPECT_EQ(bytes("out/batch.mk").find("/a.csv"), std::string::npos);
+  EXPECT_EQ(bytes("out/recordings/x/rules.mk").find("/a.csv"), std::string::npos);
 }
 
 TEST_F(RulesTest, FailuresOfTheMachineAreTriedAgain) {
@@ -121,7 +122,7 @@ TEST_F(RulesTest, NamesThatMakeMisreadsAreReachedByALink) {
   const Batch odd = plan(manifest("x", "odd $(x) #1:%.csv"));
   ASSERT_FALSE(odd.chain[0].empty());
   write_rules(odd, "", "1");
-  const std::string rules = bytes("out/batch.mk");
+  const std::string rules = bytes("out/recordings/x/rules.mk");
   EXPECT_EQ(rules.find("odd $(x)"), std::string::npos);
   const std::size_t link = rules.find("links/");
   ASSERT_NE(link, std::string::npos);
