@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work"
 begin=$EPOCHREALTIME
 
-# The presses are simulated on a finer mesh at the tool's rim (0.15 of its radius) than they are identified on.
+# The presses are simulated on a finer mesh at the tool's rim (the default) than they are identified on (0.3).
 sizes=("0.06 0.05 0.04" "0.08 0.06 0.03" "0.05 0.05 0.05")
 for b in 0 1 2; do
   awk -v size="${sizes[b]}" 'BEGIN {
@@ -41,7 +41,7 @@ recording() { # NUMBER: its data, broken where its number says so
       for (k = 0; k <= 50; ++k) { t = k * 0.02; s = 0.0015 * (t < 0.3 ? t / 0.3 : 1)
         printf "%d,%.2f,%.5f,%.5f,%s,%.6f,0,%.6f\n", p, t, x, y, sz, p % 2 ? s / 2 : 0, -s } } }' >motion$i.csv
   material $((i % 5)) $((8000 + 40 * i)) >truth$i.csv
-  "$bin/hs-simulate" -q motion$i.csv --body body$b.ply --model truth$i.csv --rim-edge 0.15 --add-noise 0.002 \
+  "$bin/hs-simulate" -q motion$i.csv --body body$b.ply --model truth$i.csv --add-noise 0.002 \
     --seed $((i + 1)) --threads 1 --cache none -o data$i.csv
   if ((i % 20 == 7)); then
     case $((i / 20 % 5)) in
@@ -56,7 +56,7 @@ recording() { # NUMBER: its data, broken where its number says so
 effects=(elastic elastic "elastic viscoelastic" "elastic viscoelastic" "elastic sensor-bias")
 echo "name,body,data,effects,options,common_options,true_E" >manifest.csv
 for ((i = 0; i < count; ++i)); do
-  echo "recording $i,body$((i % 3)).ply,data$i.csv,${effects[i % 5]},,,$((8000 + 40 * i))" >>manifest.csv
+  echo "recording $i,body$((i % 3)).ply,data$i.csv,${effects[i % 5]},,--rim-edge 0.3,$((8000 + 40 * i))" >>manifest.csv
   while (($(jobs -rp | wc -l) >= 2)); do wait -n; done
   recording $i &
 done
