@@ -2,6 +2,7 @@
 # faults.sh BIN: what each tool does when the machine fails: a full disk, a reader that goes away, an
 # unreadable input, two writers of one file, a kill at any moment. Prints a table of fault, tool, outcome.
 # After any of it an output is whole or as it was before, and nothing temporary is left.
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
 PATH=$bin:$PATH
 
@@ -160,5 +161,24 @@ for tool in hs-tetmesh hs-simulate hs-identify; do
   XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o after 2>/dev/null && same after whole || complain "$tool after kills"
   row "killed ($cut of 10 in time)" $tool 'old or new, whole; the cache serves on'
 done
+# The clock was three hours ahead while a batch ran and has been set right; then a recording changes. make alone
+# would take the old results for newer than it.
+batch() { # prints E; its files' times as they are
+  make --no-print-directory -s -f "$root/Makefile.pipeline" batch BIN="$bin" MANIFEST=manifest.csv OUT=clock \
+    BATCH_FLAGS='--stages model -q' >/dev/null 2>err || complain 'clock: the batch'
+  awk -F, 'NR == 2 { printf "%.0f", $5 }' clock/summary.csv
+}
+cp -p data.csv data.kept
+first=$(batch)
+find clock -exec touch -h -d '+3 hours' {} +
+awk -F, -v OFS=, '/^[0-9]/ { $11 *= 1.2 } 1' data.kept >data.csv
+second=$(batch)
+((second > 11 * first / 10)) || complain "clock: the changed recording is not noticed ($first, then $second)"
+find clock -exec touch -h -d '+3 hours' {} +
+touch before && [[ $(batch) == "$second" && -z $(find clock/recordings -name model.csv -newer before ! -newermt '+1 hour') ]] ||
+  complain 'clock: what is done is made again'
+mv data.kept data.csv  # as old as it was
+[[ $(batch) == "$first" ]] || complain 'clock: an older recording that is put back is not noticed'
+row 'clock stepped back' hs-batch 'what changed is made again, nothing else is'
 ((failures == 0)) && echo 'faults: passed'
 exit $((failures > 0))
