@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # faults.sh BIN: what each tool does when the machine fails: a full disk, a reader that goes away, an
-# unreadable input, two writers of one file, a kill at any moment. Prints a table of fault, tool, outcome.
+# unreadable input, two writers of one file, interrupted system calls, a kill at any moment, a clock that is
+# stepped back. Prints a table of fault, tool, outcome.
 # After any of it an output is whole or as it was before, and nothing temporary is left.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
