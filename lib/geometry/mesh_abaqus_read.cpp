@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/error.h"
@@ -83,8 +84,7 @@ class Deck {
 
   long integer(std::string_view text, const char* what) const {
     double value = 0;
-    if (!parse_number(text, value) || value != static_cast<double>(static_cast<long>(value)) ||
-        value < 1 || value > 2147483647)
+    if (!parse_number(text, value) || value < 1 || value > 2147483647 || value != std::floor(value))
       fail(fmt::format("{} is no {}", shown(text), what), "write the mesh again");
     return static_cast<long>(value);
   }
