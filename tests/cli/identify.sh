@@ -16,7 +16,7 @@ expect 2 'the windows of the relaxation times overlap' data.csv "${common[@]}" -
 expect 2 '--terms many is not a number of terms' data.csv "${common[@]}" --terms many
 expect 2 '--windows 3 is no window' data.csv "${common[@]}" --windows 3
 
-# What is held stays held while effects are added; with four presses there are none to add.
+# What is held stays held while effects are added.
 expect 0 'error' data.csv "${common[@]}" --effects auto --fix nu=0.45
 grep -q '^elastic,0,nu,0.45,.*,fixed$' out.csv || complain '--effects auto with --fix'
 expect 2 "the model has no parameter 'tau1'" data.csv "${common[@]}" --effects auto --fix tau1=3
