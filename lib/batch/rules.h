@@ -16,8 +16,7 @@ struct PrepareReport {
 // Writes below the batch's folder
 //   batch.mk            rules for `make -C FOLDER -f batch.mk`; the command STEP runs a step, by
 //                       default in a shell of its own
-//   .../rules.mk        a recording's own steps, for a make of its own: one make for all would
-//   begin
+//   .../rules.mk        a recording's own steps, for a make of its own: one for all would begin
 //                       every recording before it went on with the first
 //   targets, array.sh   the recordings, and a task of a job array of Slurm that makes its share
 //   step.sh             runs one step: keeps what it says in STEP.log beside the output, and in
