@@ -23,9 +23,11 @@ constexpr std::size_t kMorePlaces = 6;
 
 struct Candidates {
   Dataset dataset;
-  std::vector<std::string> names;            // one an episode
-  std::unique_ptr<BodyStiffness> elsewhere;  // when it has more positions than the recording
-  const BodyStiffness& body(const Workspace& w) const { return elsewhere ? *elsewhere : *w.body; }
+  std::vector<std::string> names;             // one an episode
+  std::unique_ptr<SetupStiffness> elsewhere;  // when it has more positions than the recording
+  const SetupStiffness& body(const Workspace& w) const {
+    return elsewhere ? *elsewhere : w.body->setup(0);
+  }
 };
 
 // Whether the model says something of places that were not pressed that no other model says.
@@ -39,21 +41,28 @@ bool depends_on_place(const Model& model) {
 
 // The recording's positions and some between and around them, solved for every model. None that
 // cannot be pressed.
-std::unique_ptr<BodyStiffness> more_positions(const std::vector<Model>& models,
-                                              const Workspace& w) {
+std::unique_ptr<SetupStiffness> more_positions(const std::vector<Model>& models,
+                                               const Workspace& w) {
   if (std::none_of(models.begin(), models.end(), depends_on_place)) return nullptr;
-  std::vector<Vec3> places = w.body->positions();
-  for (const Vec3& p : unpressed_places(w.library->surface(), w.body->contacts(),
+  const SetupStiffness& pressed = w.body->setup(0);
+  std::vector<Vec3> places = pressed.positions();
+  for (const Vec3& p : unpressed_places(pressed.surface(), pressed.contacts(),
                                         w.dataset.recording.tool_radius(), kMorePlaces)) {
     try {
-      w.body->with_positions({p});
+      pressed.with_positions({p});
       places.push_back(p);
     } catch (const Error&) {  // an edge, a gap: nothing to press on
     }
   }
-  std::unique_ptr<BodyStiffness> body = w.body->with_positions(places);
+  std::unique_ptr<SetupStiffness> body = pressed.with_positions(places);
   for (const Model& m : models) body->solve(material_of(m));
   return body;
+}
+
+std::vector<Vec3> normals_of(const SetupStiffness& body) {
+  std::vector<Vec3> normals;
+  for (const PreparedContact& c : body.contacts()) normals.push_back(c.normal);
+  return normals;
 }
 
 // Every path at every position, each as if it came right after the recording.
@@ -63,9 +72,9 @@ Candidates make_candidates(const std::vector<Model>& models, const Workspace& w)
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   Candidates candidates;
   candidates.elsewhere = more_positions(models, w);
-  const BodyStiffness& body = candidates.body(w);
+  const SetupStiffness& body = candidates.body(w);
   const std::vector<Vec3>& positions = body.positions();
-  const std::vector<Vec3> normals = body.normals();
+  const std::vector<Vec3> normals = normals_of(body);
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
@@ -170,7 +179,7 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
     known.push_back(known_information(plain.back(), w));
   }
   const Candidates candidates = make_candidates(plain, w);
-  const BodyStiffness& body = candidates.body(w);
+  const SetupStiffness& body = candidates.body(w);
   const std::size_t presses = candidates.dataset.episodes.size();
   // By press and ordered pair of models (a model with itself when it is alone).
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -181,8 +190,12 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
   for (std::size_t k = 0; k < presses; ++k) {
     const Selection one{static_cast<int>(k)};
     std::vector<Signal> signals;
-    for (const Model& m : plain)
-      signals.push_back(model_forces(m, candidates.dataset, one, body, true));
+    for (const Model& m : plain) {
+      const MaterialSpec material = material_of(m);
+      signals.push_back(model_forces(
+          m, candidates.dataset, one, [&](std::size_t p) { return body.at(p, material); }, true,
+          body.threads()));
+    }
     for (const auto& [a, b] : pairs) {
       const Weights weights(candidates.dataset, one, signals[b].f, w.noise.value, w.floor);
       Eigen::MatrixXd r = signals[a].f - signals[b].f, J = signals[b].df;
@@ -239,7 +252,7 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
   motion.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
   const DataSummary summary = summarise(w.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
-  const std::vector<Vec3> normals = body.normals();
+  const std::vector<Vec3> normals = normals_of(body);
   const std::vector<PressPath> all_paths = press_paths(summary.depth);
   double start = 0;
   for (const std::size_t k : chosen) {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "model/body_stiffness.h"
+#include "fem/contact_library.h"
 
 namespace hapsim {
 
