@@ -71,9 +71,9 @@ inline int run_follow(const Arguments& arguments) {
   options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
   const PreparedBody body(mesh, model, options);
   WatchOptions watch_options;
-  watch_options.rate = arguments.number("--rate");
-  watch_options.learning = arguments.number("--learning");
-  watch_options.false_alarms = arguments.number("--false-alarms");
+  watch_options.test.rate = arguments.number("--rate");
+  watch_options.test.learning = arguments.number("--learning");
+  watch_options.test.false_alarms = arguments.number("--false-alarms");
   watch_options.adapts = !arguments.given("--hold");
   ModelWatch watch(body, watch_options);
   Metadata metadata = lines.metadata();
@@ -86,7 +86,7 @@ inline int run_follow(const Arguments& arguments) {
   const auto line_said = [&](const std::string& text) { say(arguments, "hs-compare", text); };
   MotionLine line;
   std::string text;
-  std::size_t told = 0;
+  std::size_t told = 0, refined = 0;  // events
   bool learned = false;
   while (lines.next(line)) {
     const Vec3 measured = lines.force();
@@ -102,7 +102,17 @@ inline int run_follow(const Arguments& arguments) {
       line_said(
           fmt::format("usual error {:.3g} N; alarm when the cumulative sum is above {:.3g}, "
                       "{:g} false ones an hour",
-                      watch.usual_error(), watch.limit(), watch_options.false_alarms));
+                      watch.usual_error(), watch.limit(), watch_options.test.false_alarms));
+    }
+    if (refined < watch.events().size() && watch.events()[refined].settled) {
+      const WatchEvent& e = watch.events()[refined++];
+      if (e.change == Change::kMoved)
+        line_said(fmt::format(
+            "{:.3f} s: shift by ({:.3g}, {:.3g}, {:.3g}) mm after {} presses, standard error "
+            "({:.2g}, {:.2g}, {:.2g}) mm; the usual error is learned anew",
+            line.t, 1e3 * e.correction.shift.x(), 1e3 * e.correction.shift.y(),
+            1e3 * e.correction.shift.z(), e.presses, 1e3 * e.shift_error.x(),
+            1e3 * e.shift_error.y(), 1e3 * e.shift_error.z()));
     }
     for (; told < watch.events().size(); ++told) {
       const WatchEvent& e = watch.events()[told];
@@ -117,7 +127,8 @@ inline int run_follow(const Arguments& arguments) {
     Output events(arguments.text("--events"));
     CsvWriter csv(events.stream(), {},
                   {"begun", "alarm", "named", "change", "stiffness", "bias_x", "bias_y", "bias_z",
-                   "shift_x", "shift_y", "shift_z", "error"});
+                   "shift_x", "shift_y", "shift_z", "error", "shift_error_x", "shift_error_y",
+                   "shift_error_z", "presses", "updated"});
     for (const WatchEvent& e : watch.events()) {
       std::vector<std::string> row{format_number(e.begun), format_number(e.alarm),
                                    format_number(e.named), change_name(e.change),
@@ -125,6 +136,9 @@ inline int run_follow(const Arguments& arguments) {
       for (const Vec3* v : {&e.correction.bias, &e.correction.shift})
         for (int k = 0; k < 3; ++k) row.push_back(format_number((*v)[k]));
       row.push_back(format_number(e.error_with));
+      for (int k = 0; k < 3; ++k) row.push_back(format_number(e.shift_error[k]));
+      row.push_back(std::to_string(e.presses));
+      row.push_back(e.updated < 0 ? "" : format_number(e.updated));
       csv.row(row);
     }
     events.commit();

@@ -108,10 +108,21 @@ inline ToolSpec compare_specification() {
        .help = "Exit code 1 when the typical error exceeds X: 0.05N, 5% (of the force's rms), or "
                "1.5noise."}};
   for (const Option& option : follow_flags()) spec.options.push_back(option);
-  spec.tables = {{"Residuals (output)",
-                  {{"...", "the columns of the measured recording"},
-                   {"sx, sy, sz", "simulated force [N]"},
-                   {"rx, ry, rz", "measured minus simulated force [N]"}}}};
+  spec.tables = {
+      {"Residuals (output)",
+       {{"...", "the columns of the measured recording"},
+        {"sx, sy, sz", "simulated force [N]"},
+        {"rx, ry, rz", "measured minus simulated force [N]"}}},
+      {"Changes (--events)",
+       {{"begun, alarm, named", "when it changed, was noticed and was named [s]"},
+        {"change", "moved, gone, material, sensor or unexplained"},
+        {"stiffness", "factor of all moduli from now on"},
+        {"bias_x ...", "of the sensor [N]"},
+        {"shift_x ...", "of the body [m]"},
+        {"error", "left by the correction [N]"},
+        {"shift_error_x ...", "standard error of the shift [m]: large where no press tells"},
+        {"presses", "that the correction rests on; a shift is refined with each"},
+        {"updated", "when it was known to a third of the usual error [s]"}}}};
   spec.examples = {
       {"hs-compare data.csv --simulated forces.csv -o residuals.csv", "Residuals and a summary."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated - "

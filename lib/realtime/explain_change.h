@@ -1,0 +1,31 @@
+// Which change explains what a stream shows since.
+#pragma once
+
+#include <string>
+
+#include "realtime/corrected_model.h"
+
+namespace hapsim {
+
+enum class Change { kNone, kMoved, kGone, kMaterial, kSensor, kUnexplained };
+std::string change_name(Change change);  // "moved", "gone", "material", "sensor", "unexplained"
+
+struct Explanation {
+  Change change = Change::kUnexplained;
+  Correction correction;            // in all
+  Vec3 shift_error = Vec3::Zero();  // of a body that has moved: standard error [m]
+  double force_error = 0;           // that this leaves, see ShiftFit
+  double chi = 0;                   // of a residual component
+  double margin = 0;                // of the criterion to the next best hypothesis
+  double error = 0;                 // root mean square of a residual component [N]
+};
+
+// The samples since a change, explained by each hypothesis: body moved, gone, all moduli changed,
+// sensor's zero changed, from what was `known` before; the one with the least chi-square plus log n
+// a parameter is believed, as in the diagnosis of whole recordings. kUnexplained where even that
+// leaves too much.
+Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
+                           const std::vector<WatchedSample>& window, const Correction& known,
+                           double usual_share);
+
+}  // namespace hapsim

@@ -1,0 +1,92 @@
+// A stream of presses on a body that changes while it is watched.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "base/random.h"
+#include "effects/catalogue.h"
+#include "realtime/force_loop.h"
+#include "realtime/motion_source.h"
+#include "support/block_mesh.h"
+
+namespace hapsim::test {
+
+// A block whose top is bent down towards its edges.
+inline TetMesh dome_mesh(int cells) {
+  TetMesh mesh = block_mesh({0.08, 0.08, 0.04}, cells, cells, (2 * cells + 2) / 3, 1);
+  for (Vec3& p : mesh.nodes)
+    p.z() *= 1 - 0.4 * (Vec3(p.x() - 0.04, p.y() - 0.04, 0).squaredNorm()) / (0.04 * 0.04);
+  return mesh;
+}
+
+inline std::unique_ptr<PreparedBody> prepared_dome(int cells) {
+  Model model;
+  model.parameters = effect_rows(*find_effect("elastic"), 1, {2e4, 0.45});
+  for (const Parameter& p : effect_rows(*find_effect("viscoelastic"), 1, {6e3, 0.15}))
+    model.parameters.push_back(p);
+  PreparedBodyOptions options;
+  options.tool_radius = 0.004;
+  return std::make_unique<PreparedBody>(dome_mesh(cells), model, options);
+}
+
+struct World {
+  double stiffness = 1;
+  Vec3 bias = Vec3::Zero(), shift = Vec3::Zero();
+  bool gone = false;
+};
+
+// Presses at random places, one a second, each some 0.4 s in contact; the world changes at `when`
+// [s].
+class PressStream {
+ public:
+  PressStream(const PreparedBody& truth, std::uint64_t seed)
+      : loop_(truth), random_(seed), truth_(truth) {}
+  World before, after;
+  double when = 1e9;
+  double noise = 0.015;  // [N]
+
+  std::pair<MotionLine, Vec3> next() {
+    const double in_press = 1e-3 * static_cast<double>(count_ % 1000);
+    if (count_ % 1000 == 0) {
+      const Vec3 above(0.02 + 0.04 * random_.uniform(), 0.02 + 0.04 * random_.uniform(), 0.06);
+      const SurfaceSide side = truth_.distance().at(above);
+      place_ = side.point;
+      normal_ = side.normal;
+      side_ = 0.3 * (random_.uniform() - 0.5);
+      depth_ = 0.003 + 0.003 * random_.uniform();
+      ++press_;
+    }
+    const double t = 1e-3 * static_cast<double>(count_++);
+    const World& world = t < when ? before : after;
+    MotionLine line;
+    line.press = press_;
+    line.t = t;
+    line.point = place_;
+    // Down and up again on a straight line, 8 mm clear of the body at first, moved or not.
+    const double way = kClear - (kClear + depth_) * std::pow(std::sin(3.1416 * in_press), 2);
+    line.in_air = way >= 0;
+    line.u = way * (normal_ - side_ * Vec3(1, 0.5, 0));
+    Vec3 f = Vec3::Zero();
+    if (!world.gone) f = world.stiffness * loop_.step(t, line.point + line.u - world.shift);
+    touches_ = f != Vec3::Zero();
+    f += world.bias;
+    for (int k = 0; k < 3; ++k) f[k] += noise * random_.normal();
+    return {line, f};
+  }
+  bool touches() const { return touches_; }  // the last one
+
+ private:
+  static constexpr double kClear = 0.008;  // [m]
+  ForceLoop loop_;
+  Random random_;
+  const PreparedBody& truth_;
+  long count_ = 0;
+  int press_ = 0;
+  Vec3 place_, normal_;
+  double side_ = 0, depth_ = 0;
+  bool touches_ = false;
+};
+
+}  // namespace hapsim::test
