@@ -65,7 +65,10 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
   LiveOptions live;
   if (arguments.has("--rate")) live.rate = arguments.number("--rate");
   live.remembers = in.remembers();
-  if (live.rate > 0) say(arguments, "hs-simulate", enter_real_time());
+  if (live.rate > 0) {
+    widen_pipes();
+    say(arguments, "hs-simulate", enter_real_time());
+  }
   in.metadata.remove("force_noise");
   in.metadata.set("simulated", label);
   Output output(arguments.output());
