@@ -31,6 +31,7 @@ declare -A command=(
   [hs-identify]='hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1'
   [hs-diagnose]='hs-diagnose data.csv --body body.ply --model model.csv --rim-edge 0.3 --flips 99'
   [hs-compare]='hs-compare data.csv --simulated forces.csv'
+  [hs-fuse]='hs-fuse forces.csv --slow data.csv --delay 0.1'
   [hs-check]='hs-check model.csv --golden model.csv'
   [hs-export]='hs-export model.csv --body body.ply --data data.csv --format calculix'
   [hs-batch]='hs-batch manifest.csv --out batch'
@@ -97,7 +98,7 @@ for tool in "${tools[@]}"; do
   row 'input missing or unreadable' $tool "exit $code, the old file is whole"
 done
 # Two that write one file: it is one of both, whole.
-for tool in hs-tetmesh hs-simulate hs-export; do
+for tool in hs-tetmesh hs-simulate hs-fuse hs-export; do
   ${command[$tool]} -q -o alone 2>/dev/null
   for try in 1 2 3; do
     ${command[$tool]} -q -o both 2>err & ${command[$tool]} -q -o both 2>err2 & wait
@@ -163,6 +164,33 @@ for tool in hs-tetmesh hs-simulate hs-identify; do
   XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o after 2>/dev/null && same after whole || complain "$tool after kills"
   row "killed ($cut of 10 in time)" $tool 'old or new, whole; the cache serves on'
 done
+# An operator whose output cannot be written, or that is killed on the way: the teleoperator lives on and
+# serves the next one.
+awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"
+  for (i = 0; i < 600; ++i) printf "1,%.3f,0.03,0.025,0.04,0,0,%.9g\n", i / 1000, -0.001 * (1 - cos(0.02 * i)) }' >hand.csv
+hs-tetmesh -q box.off --edge 0.015 -o coarse.ply
+hs-link --listen 0 --body coarse.ply --model model.csv --tool-radius 0.004 --idle 5 2>far.err &
+far=$!
+for _ in {1..100}; do grep -q listening far.err && break; sleep 0.1; done
+operator="hs-link hand.csv --peer $(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err) --body coarse.ply -q"
+$operator -o /dev/full 2>err; code=$?
+told '/dev/full' hs-link 5
+row 'output to a full device' hs-link "exit $code, $(cut -c1-60 err | head -n 1)"
+for signal in TERM KILL; do
+  for delay in 0.05 0.3; do
+    echo old >out
+    $operator -o out 2>err &
+    sleep $delay; kill -$signal $! 2>/dev/null; wait $! 2>/dev/null
+    # What was felt until then may stay: whole lines.
+    [[ $(head -c 4 out) == "old" || $(tail -c 1 out | od -An -c) == *'\n'* ]] || complain "SIG$signal: hs-link leaves half a line"
+    [[ $signal == KILL || $(temporaries) == 0 ]] || complain "SIGTERM: hs-link leaves a temporary file"
+    rm -f .hapsim-*.tmp
+  done
+done
+$operator -o out 2>err || complain 'hs-link after kills'
+[[ $(grep -c '^1,' out) == 600 ]] || complain 'hs-link after kills: not every line was answered'
+wait $far || complain 'the teleoperator died with its operators'
+row 'operator killed 4 times' hs-link 'the teleoperator serves the next one'
 # The clock was three hours ahead while a batch ran and has been set right; then a recording changes. make alone
 # would take the old results for newer than it.
 batch() { # prints E; its files' times as they are
