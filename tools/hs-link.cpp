@@ -11,6 +11,7 @@
 #include "effects/catalogue.h"
 #include "io/csv.h"
 #include "io/udp.h"
+#include "link_specification.h"
 #include "model/edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/impaired_channel.h"
@@ -21,143 +22,6 @@
 
 namespace hapsim {
 namespace {
-
-ToolSpec specification() {
-  ToolSpec spec;
-  spec.name = "hs-link";
-  spec.summary = "telepresence: an operator and a teleoperator over UDP";
-  spec.input = "operator: motion (press,t,x,y,z,ux,uy,uz[,contact]), a line a sample";
-  spec.description = {
-      "Two processes. The teleoperator (--listen) presses a body, --body with --model, by the "
-      "motions that come and answers each with the force. The operator (--peer) sends its motion "
-      "at "
-      "--rate by the clock and feels the newest force that has come back, late by what the network "
-      "takes.",
-      "From the answers the operator identifies the modulus of its own --body, and moduli of "
-      "relaxation at the times of --times, while it runs: unit forces are computed beforehand, so "
-      "that costs microseconds. Once --samples answers are there the identified body is felt, at "
-      "once, without a jump; later answers go on improving it.",
-      "A network as bad as wished is put before the real one on the sending side of each process: "
-      "--delay, --jitter, --loss, --duplicate, --reorder. Packets carry sender, number and time "
-      "and "
-      "a check; old, foreign and damaged ones are counted and dropped. A peer that dies and comes "
-      "back is served again.",
-      "Every line of the operator goes out at once: on standard output nothing but the last one "
-      "can be "
-      "lost, however it ends."};
-  spec.options = {
-      {.flag = "--listen",
-       .kind = OptionKind::kText,
-       .value = "HOST:PORT",
-       .help = "Teleoperator: where motions come to. Port 0 takes a free one and says which."},
-      {.flag = "--peer",
-       .kind = OptionKind::kText,
-       .value = "HOST:PORT",
-       .help = "Operator: where the teleoperator listens."},
-      {.flag = "--body",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "Body: the one that is pressed, or the one that is identified.",
-       .required = true},
-      {.flag = "--model",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "Teleoperator: the body's model."},
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kNumber,
-       .value = "M",
-       .help = "Radius of the flat tool [m]; the operator's otherwise from its motion.",
-       .minimum = 1e-6,
-       .maximum = 1},
-      {.flag = "--samples",
-       .kind = OptionKind::kInteger,
-       .value = "N",
-       .help = "Operator: answers in contact before the identified body is felt; 0: never.",
-       .default_text = "500",
-       .minimum = 0,
-       .maximum = 1e9},
-      {.flag = "--rate",
-       .kind = OptionKind::kNumber,
-       .value = "HZ",
-       .help = "Operator: motion lines a second.",
-       .default_text = "1000",
-       .minimum = 1,
-       .maximum = 20000},
-      {.flag = "--identified",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "Operator: writes the identified model."},
-      {.flag = "--delay",
-       .kind = OptionKind::kNumber,
-       .value = "S",
-       .help = "Least time of a packet on its way there [s].",
-       .default_text = "0",
-       .minimum = 0,
-       .maximum = 3},
-      {.flag = "--jitter",
-       .kind = OptionKind::kNumber,
-       .value = "S",
-       .help = "Size of what comes on top of it, changing within a tenth of a second [s].",
-       .default_text = "0",
-       .minimum = 0,
-       .maximum = 1},
-      {.flag = "--loss",
-       .kind = OptionKind::kNumber,
-       .value = "SHARE",
-       .help = "Share of packets that are lost.",
-       .default_text = "0",
-       .minimum = 0,
-       .maximum = 1},
-      {.flag = "--duplicate",
-       .kind = OptionKind::kNumber,
-       .value = "SHARE",
-       .help = "Share of packets that come twice.",
-       .default_text = "0",
-       .minimum = 0,
-       .maximum = 1},
-      {.flag = "--reorder",
-       .kind = OptionKind::kNumber,
-       .value = "SHARE",
-       .help = "Share of packets with a jitter of their own, that overtake or are overtaken.",
-       .default_text = "0",
-       .minimum = 0,
-       .maximum = 1},
-      {.flag = "--add-noise",
-       .kind = OptionKind::kNumber,
-       .value = "N",
-       .help = "Teleoperator: adds Gaussian noise of this standard deviation [N] to every force "
-               "component.",
-       .default_text = "0",
-       .minimum = 0},
-      {.flag = "--seed",
-       .kind = OptionKind::kInteger,
-       .value = "N",
-       .help = "Seed of the network's chance and of the noise.",
-       .default_text = "1",
-       .minimum = 0},
-      {.flag = "--idle",
-       .kind = OptionKind::kNumber,
-       .value = "S",
-       .help = "Teleoperator: ends when nothing has come for so long; 0: only by a signal.",
-       .default_text = "5",
-       .minimum = 0,
-       .maximum = 1e6}};
-  for (const Option& option : online_flags("Operator")) spec.options.push_back(option);
-  spec.tables = {{"Output of the operator",
-                  {{"press, t, x, y, z, ux, uy, uz", "the motion"},
-                   {"fx, fy, fz", "what is felt [N]"},
-                   {"contact", "1 in contact, 0 in the air"},
-                   {"mx, my, mz", "the newest force that has come [N]"},
-                   {"predicted", "1 where the identified body is felt"}}}};
-  spec.examples = {
-      {"hs-link --listen 9000 --body real.ply --model hidden.csv --tool-radius 0.004 --delay 0.15",
-       "The far side, with half of the delay."},
-      {"hs-link motion.csv --peer 9000 --body body.ply --delay 0.15 --jitter 0.05 --loss 0.05 -o "
-       "felt.csv",
-       "The near side."}};
-  spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};
-  return spec;
-}
 
 std::atomic<bool> stopped{false};
 void on_signal(int) {
@@ -359,5 +223,5 @@ int run(const Arguments& arguments) {
 }  // namespace hapsim
 
 int main(int argc, char** argv) {
-  return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
+  return hapsim::run_tool(hapsim::link_specification(), argc, argv, hapsim::run);
 }
