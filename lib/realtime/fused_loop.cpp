@@ -52,12 +52,14 @@ Vec3 FusedLoop::advance(double t, const Vec3& u) noexcept {
 void FusedLoop::work() {
   try {
     std::unique_ptr<SlowPress> press;
-    Sample newest, sample;
+    Sample newest, first, sample;
     long contact = 0;
     double last = 0;
+    Vec3 force = Vec3::Zero();
     while (!stop_) {
       bool any = false;
       while (there_.pop(sample)) {
+        if (sample.contact != newest.contact) first = sample;
         newest = sample;
         any = true;
       }
@@ -69,9 +71,12 @@ void FusedLoop::work() {
       if (newest.contact != contact) {
         press = make_(newest.point);
         contact = newest.contact;
-        last = newest.t;
+        // From where the contact began: coming in half-way, a body that relaxes would take the way
+        // so far for a jump.
+        force = press->step(first.u, 0);
+        last = first.t;
       }
-      const Vec3 force = press->step(newest.u, newest.t > last ? newest.t - last : 0);
+      if (newest.t > last) force = press->step(newest.u, newest.t - last);
       last = newest.t;
       slow_steps_.add(monotonic_ns() - start);
       back_.push({contact, newest.t, newest.point, force});

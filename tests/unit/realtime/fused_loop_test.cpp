@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <vector>
 
 #include "base/error.h"
 
@@ -49,6 +50,36 @@ TEST(FusedLoop, IsPutRightByItsThread) {
   EXPECT_GT(loop.report().observations, 20);
   EXPECT_GT(loop.slow_steps().count(), loop.report().observations);
   EXPECT_NEAR(f, 2.5, 0.1);  // the fast source alone says 2
+}
+
+// A solver that is long in being made, and notes what it is first asked.
+class Noting : public SlowPress {
+ public:
+  explicit Noting(std::vector<double>& asked) : asked_(asked) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  }
+  Vec3 step(const Vec3& u, double dt) override {
+    asked_.insert(asked_.end(), {u.z(), dt});
+    return -500 * u;
+  }
+
+ private:
+  std::vector<double>& asked_;
+};
+
+TEST(FusedLoop, ItsSolverBeginsWhereTheContactDid) {
+  const Acfm model = springs();
+  AcfmLoop fast(model);
+  std::vector<double> asked;
+  FusedLoop loop(fast, [&](const Vec3&) { return std::make_unique<Noting>(asked); }, {});
+  run(loop, 0.005, 200);
+  loop.stop();
+  ASSERT_GE(asked.size(), 4u);
+  EXPECT_EQ(asked[0], 0);
+  EXPECT_EQ(asked[1], 0);
+  // Then its own way in its own time: 25 mm/s.
+  EXPECT_LT(asked[2], 0);
+  EXPECT_NEAR(asked[2], -0.025 * asked[3], 1e-12);
 }
 
 TEST(FusedLoop, GoesOnWhenItsThreadFails) {
