@@ -34,8 +34,15 @@ bad='--delay 0.15 --jitter 0.05 --loss 0.05 --duplicate 0.02 --reorder 0.02'
 hs-link --listen "$port" --body real.ply --model hidden.csv --tool-radius 0.004 --add-noise 0.01 --idle 3 $bad &
 sleep 1
 hs-link motion.csv --peer "$port" --body ball.ply --times 0.15 --samples 6000 $bad \
-  --identified identified.csv -o felt.csv
+  --identified identified.csv -o felt.csv 2>said.txt
+cat said.txt >&2
 wait
+{
+  echo 'figure,thesis,ours'
+  sed -n 's/.*after it: .*error \([0-9.]*\) N rms.*/sphere: error once identified [N],0.2 to 0.3,\1/p' said.txt
+  sed -n "s/.*after it: .* \(-*[0-9.]*\) ms behind the body's force.*/sphere: felt behind the force [ms],300 before,\1/p" said.txt
+  sed -n 's/.*identified after .* in at most \([0-9.]*\) ms.*/sphere: identification [ms],150,\1/p' said.txt
+} >summary.csv
 grep -E '^(elastic|viscoelastic)' identified.csv
 awk -f "$here/plot.awk" -v title='Telepresence: 300 ms delay, the body identified while it runs' felt.csv >felt.svg
 echo "$out: felt.csv identified.csv felt.svg"

@@ -58,6 +58,15 @@ for kind in slow fast; do
   hs-simulate $kind.csv $fe -o $kind.exact.csv
   echo "$kind motion:"
   hs-simulate $kind.csv --model acfm.csv -q |
-    hs-fuse - --slow $kind.fe.csv --delay 0.02 --parameters filter.csv --exact $kind.exact.csv -o $kind.fused.csv 2>&1
+    hs-fuse - --slow $kind.fe.csv --delay 0.02 --parameters filter.csv --exact $kind.exact.csv -o $kind.fused.csv 2>$kind.txt
+  cat $kind.txt
+  awk -f "$here/../plot.awk" -v title="Organ, $kind motion" -v over=t -v press=1 \
+    $kind.exact.csv $kind.fused.csv $kind.fe.csv >$kind.svg
 done
+{
+  echo 'figure,thesis,ours'
+  for kind in slow fast; do
+    sed -n "s/.*fused  *error *\([0-9.]*\) N .*step \([0-9.]*\) N.*/organ: error fused ($kind) [N],about 0.1,\1\norgan: largest step in a ms ($kind) [N],0.5 to 0.8,\2/p" $kind.txt
+  done
+} >summary.csv
 echo 'The thesis: errors of about 0.1 N, steps of 0.5 to 0.8 N in a millisecond without fusing.'

@@ -45,4 +45,16 @@ echo 'model                      error                  on unseen places'
 row 'elastic' elastic.txt
 row 'one Maxwell element' one.txt
 row 'as many as the data ask' auto.txt
+{
+  echo 'figure,thesis,ours'
+  for model in elastic one auto; do
+    sed -n "s/.*: error \([0-9.]*\) N .*/foam: error of $model [N],a curve,\1/p" $model.txt
+  done
+} >summary.csv
+# Force over time of a deep press, measured and by each model (its Fig. 6.15, 6.16).
+for model in elastic one auto; do
+  hs-simulate data.csv --body block.ply --model $model.csv -q -o with-$model.csv
+done
+awk -f "$here/../plot.awk" -v title='Foam pressed and held, identified elastic and viscoelastic' -v over=t -v press=4 \
+  data.csv with-elastic.csv with-one.csv with-auto.csv >foam.svg
 echo 'The thesis: elastic leaves the relaxation; one element is better and not enough (its Fig. 6.15, 6.16).'

@@ -32,4 +32,19 @@ hs-identify data.csv --body block.ply --add regions --regions 2 --fix nu=0.3 --f
 grep -E '  *E |E \(region|: error' said.txt || true
 awk -F, '$1 == "regions" && $3 ~ /^y/ { ++n; right += $2 == ($4 > 0.1) }
   END { printf "places in the right region: %d of %d (the thesis: all 20)\n", right, n }' model.csv
+{
+  echo 'figure,thesis,ours'
+  sed -n 's/.*: error \([0-9.]*\) N .*/two regions: error [N],0.1 to 0.3,\1/p' said.txt
+  awk -F, '$1 == "regions" && $3 ~ /^y/ { ++n; right += $2 == ($4 > 0.1) }
+    END { printf "two regions: places in the right one,20 of 20,%d of %d\n", right, n }' model.csv
+} >summary.csv
+# The places in plan view, coloured by the region they were given, and the hidden boundary.
+awk -F, 'BEGIN { print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 300 460\" font-family=\"sans-serif\" font-size=\"12\">"
+    print "<rect width=\"300\" height=\"460\" fill=\"white\"/><text x=\"30\" y=\"20\">Regions found at 20 places</text>"
+    print "<rect x=\"30\" y=\"30\" width=\"240\" height=\"420\" fill=\"none\" stroke=\"black\"/>"
+    print "<path d=\"M30 250H270\" stroke=\"black\" stroke-dasharray=\"6 4\"/>" }
+  $1 == "regions" && $3 ~ /^x/ { x[substr($3, 2), $2] = $4 }
+  $1 == "regions" && $3 ~ /^y/ { printf "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"8\" fill=\"%s\"/>\n",
+    30 + 2000 * x[substr($3, 2), $2], 450 - 2000 * $4, $2 ? "#d55e00" : "#0072b2" }
+  END { print "</svg>" }' model.csv >regions.svg
 echo 'hidden: E = 20 and 40 kPa, the boundary at y = 100 mm; noise 0.05 N. The thesis: error 0.1 to 0.3 N.'

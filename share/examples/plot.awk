@@ -1,4 +1,5 @@
-# plot.awk -v title=TEXT FORCES.csv...: force over depth along z as SVG, a curve a file.
+# plot.awk -v title=TEXT [-v over=t] [-v press=N] FORCES.csv...: force along z over depth, or over time, as
+# SVG, a curve a file; of all presses or one.
 BEGIN {
   FS = ","
   split("#0072b2 #d55e00 #009e73 #cc79a7 #e69f00 #56b4e9", colour, " ")
@@ -6,9 +7,10 @@ BEGIN {
 FNR == 1 { ++files; header = 0; name[files] = FILENAME; sub(/.*\//, "", name[files]); sub(/\.csv$/, "", name[files]) }
 /^#/ { next }
 !header { header = 1; for (i = 1; i <= NF; ++i) column[$i] = i; next }
+press && $column["press"] != press { next }
 {
   n = ++count[files]
-  x[files, n] = -1000 * $column["uz"]
+  x[files, n] = over == "t" ? $column["t"] : -1000 * $column["uz"]
   y[files, n] = $column["fz"]
   if (x[files, n] > most_x) most_x = x[files, n]
   if (y[files, n] > most_y) most_y = y[files, n]
@@ -24,7 +26,7 @@ END {
   print "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 660 380\" font-family=\"sans-serif\" font-size=\"12\">"
   print "<rect width=\"660\" height=\"380\" fill=\"white\"/>"
   printf "<text x=\"60\" y=\"24\" font-size=\"14\">%s</text>\n", title
-  print "<text x=\"270\" y=\"368\" text-anchor=\"middle\">depth [mm]</text>"
+  printf "<text x=\"270\" y=\"368\" text-anchor=\"middle\">%s</text>\n", over == "t" ? "time [s]" : "depth [mm]"
   print "<text x=\"16\" y=\"190\" text-anchor=\"middle\" transform=\"rotate(-90 16 190)\">force [N]</text>"
   step = round_step(most_x)
   for (v = 0; v <= most_x * 1.001; v += step)
