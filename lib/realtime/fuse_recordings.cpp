@@ -172,8 +172,9 @@ LearnedFusion learn_fusion(const Recording& fast, const SlowSource& slow,
     const SimplexSearchResult found = simplex_search(
         x,
         [&](const Eigen::VectorXd& y) {
-          return Run(fast, at(y))(rows).report.deviance[a] +
-                 (y - x).squaredNorm() / (kPrior * kPrior);
+          FusionParameters p = at(y);  // the filter's own: what is let in of it comes after
+          p.weighs = false;
+          return Run(fast, p)(rows).report.deviance[a] + (y - x).squaredNorm() / (kPrior * kPrior);
         },
         options);
     result.parameters = at(found.x);

@@ -8,7 +8,11 @@ namespace {
 
 constexpr double kChiSquare3 = 7.814727903;  // 95 % point of three degrees of freedom
 constexpr double kWalkFloor = 0.1;
-constexpr double kLargestNis = 10;  // one outlier does not blow all variances up
+constexpr double kShareStart = 0.5;   // of what is added, until it has shown its worth
+constexpr double kShareKnown = 2;     // observations that this is worth
+constexpr double kShareSpread = 0.3;  // to the next class of rates
+constexpr double kShareMemory = 40;   // observations
+constexpr double kLargestNis = 10;    // one outlier does not blow all variances up
 
 }  // namespace
 
@@ -35,6 +39,8 @@ Fusion::Fusion(const FusionParameters& parameters, std::size_t history)
       filter_{Filter(history), Filter(history), Filter(history)},
       ring_(history) {
   scale_.fill(1);
+  agreed_.fill(kShareStart * kShareKnown);
+  added_.fill(kShareKnown);
   begin(0);
 }
 
@@ -94,19 +100,41 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& fast) noexcept {
   now.t = t;
   now.fast = fast;
   now.rate = rate;
+  const double share = parameters_.weighs ? share_at(rate) : 1;
+  share_ += parameters_.blend > 0 ? (1 - std::exp(-dt / parameters_.blend)) * (share - share_)
+                                  : share - share_;
+  now.added = added();
   now.given = estimate();
-  now.variance = variance();
+  // What is held back may be right.
+  now.variance = variance() + std::pow(1 - share_, 2) * now.added.cwiseAbs2();
   u_ = u;
   pending_ *= parameters_.blend > 0 ? std::exp(-dt / parameters_.blend) : 0;
   return now.given + pending_;
 }
 
-Vec3 Fusion::estimate() const noexcept {
+// Between the classes' middles straight in the logarithm of the rate.
+double Fusion::share_at(double rate) const noexcept {
+  const auto of = [&](int k) {
+    const auto i = static_cast<std::size_t>(std::clamp(k, 0, 7));
+    return std::clamp(agreed_[i] / added_[i], 0.0, 1.0);
+  };
+  const double x = rate > 0 ? std::log2(rate / 1e-3) + 0.5 : 0;
+  if (x <= 0) return of(0);
+  const double k = std::floor(x);
+  return of(static_cast<int>(k)) +
+         (x - k) * (of(static_cast<int>(k) + 1) - of(static_cast<int>(k)));
+}
+
+Vec3 Fusion::added() const noexcept {
   const Vec3& fast = sample(next_ - 1).fast;
   Vec3 f;
   for (int a = 0; a < 3; ++a)
-    f[a] = fast[a] + features(a, fast[a]).dot(filter_[static_cast<std::size_t>(a)].x());
+    f[a] = features(a, fast[a]).dot(filter_[static_cast<std::size_t>(a)].x());
   return f;
+}
+
+Vec3 Fusion::estimate() const noexcept {
+  return sample(next_ - 1).fast + share_ * added();
 }
 
 Vec3 Fusion::variance() const noexcept {
@@ -138,6 +166,7 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
   const Vec3 fast = before.fast + share * (after.fast - before.fast);
   const Vec3 was = estimate();
   Vec3 deviance;
+  double agreed = 0, had_added = 0;
   Vec3 normalised = Vec3::Zero();
   for (int a = 0; a < 3; ++a) {
     const AxisFusion& p = parameters_.axis[static_cast<std::size_t>(a)];
@@ -152,9 +181,19 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
     const double given = before.given[a] + share * (after.given[a] - before.given[a]);
     const double S = before.variance[a] + share * (after.variance[a] - before.variance[a]) + r;
     normalised[a] = (slow[a] - given) / std::sqrt(S);
+    const double put = before.added[a] + share * (after.added[a] - before.added[a]);
+    agreed += put * (slow[a] - fast[a]) / S;
+    had_added += put * put / S;
     deviance[a] = std::log(S) + normalised[a] * normalised[a];
   }
-  double& scale = scale_[rate_class(after.rate)];
+  const std::size_t k_rate = rate_class(after.rate);
+  for (std::size_t k = 0; k < agreed_.size(); ++k) {
+    // What holds at a rate holds at others nearly as much.
+    const double near = std::pow(kShareSpread, k > k_rate ? k - k_rate : k_rate - k);
+    agreed_[k] += near * (agreed - (agreed_[k] - kShareStart * kShareKnown) / kShareMemory);
+    added_[k] += near * (had_added - (added_[k] - kShareKnown) / kShareMemory);
+  }
+  double& scale = scale_[k_rate];
   normalised /= std::sqrt(scale);
   const double nis = normalised.squaredNorm();
   scale *= std::exp(kScaleStep * (std::min(nis / 3, kLargestNis) - 1));

@@ -32,7 +32,8 @@ struct WatchEvent {
 // and the model corrected. Three presses tell a moved body along their normals only, so its shift
 // is found anew after each further press, until kRefinedPresses of them, together with where the
 // surface there lies; then the test learns anew what is usual. Every correction takes over
-// gradually. Not real-time where it names or refines (some 50 ms, in that step alone).
+// gradually. Not real-time where it names or refines (some 50 ms, 150 at most, in that
+// step alone).
 class ModelWatch {
  public:
   static constexpr int kRefinedPresses = 15;

@@ -31,7 +31,6 @@ declare -A command=(
   [hs-identify]='hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1'
   [hs-diagnose]='hs-diagnose data.csv --body body.ply --model model.csv --rim-edge 0.3 --flips 99'
   [hs-compare]='hs-compare data.csv --simulated forces.csv'
-  [hs-fuse]='hs-fuse forces.csv --slow data.csv --delay 0.1'
   [hs-check]='hs-check model.csv --golden model.csv'
   [hs-export]='hs-export model.csv --body body.ply --data data.csv --format calculix'
   [hs-batch]='hs-batch manifest.csv --out batch'

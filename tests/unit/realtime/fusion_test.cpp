@@ -63,6 +63,24 @@ TEST(Fusion, BeatsItsSourcesAndTheirExtrapolationAtSlowAndFastMotion) {
   }
 }
 
+// The fast source's error turns its sign in just the time by which the slow one is late: what was
+// missing then is wrong by now, and putting it in would double the error.
+TEST(Fusion, IsNoWorseThanTheFastSourceWhereTheSlowOneComesTooLate) {
+  Case c = presses(1, 20);
+  c.fast.f = c.exact.f;
+  for (std::size_t i = 0; i < c.fast.f.size(); ++i)
+    c.fast.f[i] += Vec3(0, 0, 0.1 * std::sin(31.416 * c.fast.t[i]));
+  const auto rms = [&](double delay, bool weighs = true) {
+    FusionParameters p;
+    p.weighs = weighs;
+    return force_quality(c.fast, fuse(c.fast, {&c.slow, delay}, p).force, c.exact.f).rms;
+  };
+  const double alone = force_quality(c.fast, c.fast.f, c.exact.f).rms;
+  EXPECT_LT(rms(0.1), 1.1 * alone);
+  EXPECT_GT(rms(0.1, false), 1.3 * alone);
+  EXPECT_LT(rms(0.005), 0.6 * alone);  // in time it is of use
+}
+
 TEST(Fusion, StatesItsOwnErrorOnAnyMotion) {
   const Case lesson = presses(0.2, 20, 0.01);
   const LearnedFusion learned = learn_fusion(lesson.fast, {&lesson.slow, 0.02}, {});
