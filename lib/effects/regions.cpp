@@ -20,14 +20,16 @@ class Regions : public Effect {
         .assumptions =
             "regions reach through the whole depth; boundaries half-way between pressed "
             "positions of different regions",
-        .parameters = {{"x", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
-                       {"y", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
-                       {"local", "1",
-                        "1: each contact feels its own modulus alone, between key points one "
-                        "interpolated from "
-                        "the nearest (location samples, thesis 5.2.1; Franke, 1982); 0 or absent: "
-                        "regions act on each other through the body",
-                        0, 0, 0, 1, 1, false}},
+        .parameters =
+            {{"x", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
+             {"y", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
+             {"local", "1",
+              "1: each contact feels its own modulus alone, between key points one "
+              "interpolated from "
+              "the nearest (location samples, thesis 5.2.1; moving least squares: Lancaster "
+              "and Salkauskas, 1981); 0 or absent: "
+              "regions act on each other through the body",
+              0, 0, 0, 1, 1, false}},
         .terms = true,
         .needs_positions = true,
         .one_body = true,

@@ -25,9 +25,10 @@ struct LocalModulus {
   double value = 0;                           // [Pa]
   std::vector<std::pair<int, double>> share;  // region, and its share of log E; sums to 1
 };
-// The moduli of the nearest key points, in plan view: their logarithms weighted by inverse squared
-// distances that fade out (Franke and Little's form of Shepard's interpolation, 1968; Franke, Math.
-// Comp. 38, 1982). At a key point it is that one's own.
+// Of the nearest key points, in plan view: a plane through their log E, weighted by inverse squared
+// distances that fade out (moving least squares: Lancaster and Salkauskas, Math. Comp. 37, 1981;
+// weights: Franke and Nielson, 1980), its slope held back a little. At a key point it is that one's
+// own; a gradual change is gone on with a little beyond them.
 LocalModulus local_modulus(const MaterialSpec& material, const Vec3& p);
 
 }  // namespace hapsim
