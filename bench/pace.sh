@@ -47,4 +47,7 @@ for body in cuboid heart; do
     done
   done
 done
+# What the machine does to any loop, where the benches are built.
+bench=$bin/../bench/bench_realtime
+[[ ! -x $bench ]] || "$bench" machine "$seconds" | tail -n 1
 sed -n 's/^hs-simulate: \(memory .*\)/(\1)/p' said

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <sstream>
@@ -268,14 +269,46 @@ void day(const Named& body, int terms) {
              1e-3 * ms_since(start), difference / largest);
 }
 
+// What the machine itself does to a loop that only sleeps until each millisecond.
+void bare_loop(int seconds) {
+  const std::string how = enter_real_time();
+  std::vector<double> late;
+  timespec due;
+  clock_gettime(CLOCK_MONOTONIC, &due);
+  for (int i = 0; i < 1000 * seconds; ++i) {
+    due.tv_nsec += 1000000;
+    if (due.tv_nsec >= 1000000000) due.tv_nsec -= 1000000000, ++due.tv_sec;
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
+    timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    late.push_back(1e6 * static_cast<double>(now.tv_sec - due.tv_sec) +
+                   1e-3 * static_cast<double>(now.tv_nsec - due.tv_nsec));
+  }
+  leave_real_time();
+  std::sort(late.begin(), late.end());
+  const auto at = [&](double share) {
+    return late[static_cast<std::size_t>(share * static_cast<double>(late.size() - 1))];
+  };
+  fmt::print(
+      "a loop that does nothing ({}): median {:.1f} us, 99.9 % {:.0f}, longest {:.0f}; {} of {} "
+      "later "
+      "than 1 ms\n",
+      how, at(0.5), at(0.999), late.back(),
+      late.end() - std::upper_bound(late.begin(), late.end(), 1000.0), late.size());
+}
+
 }  // namespace
 
-// bench_realtime, or bench_realtime day.
+// bench_realtime, bench_realtime day, or bench_realtime machine [SECONDS].
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // each line when it is known
   prepare_blas_for_many_threads();
   fmt::print("machine: {}, {} threads; {}\n", machine(), std::thread::hardware_concurrency(),
              blas_name());
+  if (argc > 1 && std::string(argv[1]) == "machine") {
+    bare_loop(argc > 2 ? std::atoi(argv[2]) : 20);
+    return 0;
+  }
   const Surface block = boundary_surface(test::block_mesh({0.12, 0.21, 0.06}, 1, 1, 1, 1));
   const Named cuboid = named("cuboid", body_of(block, 568));
   const Named organ = named("organ", body_of(test::lump(12), 1763));

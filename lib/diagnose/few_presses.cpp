@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "diagnose/departures.h"
+#include "diagnose/effect_sets.h"
 #include "diagnose/round.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
@@ -15,166 +14,20 @@ namespace hapsim {
 namespace {
 
 constexpr std::size_t kBeam = 3;       // sets that are grown on
-constexpr double kCrookedest = 0.05;   // force sensor, of its range; the worst on sale are at 0.01
 constexpr double kFalseAlarms = 0.01;  // chance of any, where nothing is missing
 
-using Names = std::vector<std::string>;  // sorted; a name twice is a term more
-
-struct Set {
-  Names added;
-  FitResult fitted;
-  Eigen::VectorXd residual;  // [N]
-  std::size_t parameters = 0;
-};
-
-Names with(Names names, const std::string& name) {
-  names.insert(std::upper_bound(names.begin(), names.end(), name), name);
-  return names;
-}
-Names without(Names names, const std::string& name) {
-  names.erase(std::find(names.begin(), names.end(), name));
-  return names;
-}
-
-// Told by comparing presses.
-bool needs_many(const EffectCard& card) {
-  return card.by_press || card.from_locations;
-}
-
-// Sets of effects on top of a model, each fitted once.
-class Sets {
- public:
-  Sets(const Baseline& base, Workspace& w, const DiagnoseOptions& options)
-      : w_(w), options_(options), departs_(stiffness_departures(base.fitted.model, w).anywhere()) {
-    keep({}, base.fitted);
-  }
-
-  // Nothing when the effect cannot be seen there or comes out implausible.
-  const Set* grown(const Set& from, const Effect& effect) {
-    const Names names = with(from.added, effect.card().name);
-    if (const auto known = all_.find(names); known != all_.end()) return &known->second;
-    if (refused_.count(names) > 0) return nullptr;
-    if (options_.progress) options_.progress(effect.card().name);
-    std::string lack;
-    auto candidate = try_effect(effect, {from.fitted, {}}, w_, lack);
-    if (candidate) {
-      refine(*candidate, w_);
-      lack = implausible(candidate->fitted.model, effect, w_.dataset);
-      if (lack.empty()) lack = unlike_a_sensor(candidate->fitted.model, effect);
-      if (lack.empty()) return keep(names, candidate->fitted);
-    } else if (from.added.empty()) {
-      lack_[effect.card().name] = lack;
-    }
-    refused_[names] = lack;
-    return nullptr;
-  }
-  // Why the set is not grown by it.
-  std::string refusal(const Set& from, const Effect& effect) const {
-    return refused_.at(with(from.added, effect.card().name));
-  }
-
-  // The set of these names, grown one by one in any order; nothing when none of them leads there.
-  const Set* find(const Names& names) {
-    if (const auto known = all_.find(names); known != all_.end()) return &known->second;
-    if (refused_.count(names) > 0) return nullptr;
-    for (const std::string& name : names)
-      if (const Set* smaller = find(without(names, name)))
-        if (const Set* set = grown(*smaller, require_effect(name))) return set;
-    refused_.emplace(names, "");
-    return nullptr;
-  }
-  // That set, or the largest below it that there is.
-  const Set* find_below(Names names) {
-    for (; !names.empty(); names.pop_back())
-      if (const Set* set = find(names)) return set;
-    return find({});
-  }
-
-  // What could be added to a set here.
-  std::vector<const Effect*> growth(const Set& from) {
-    std::vector<const Effect*> effects = untried(from.fitted.model);
-    std::erase_if(effects, [&](const Effect* e) {
-      const EffectCard& card = e->card();
-      return needs_many(card) || (card.solved && !departs_) || lack_.count(card.name) > 0;
-    });
-    return effects;
-  }
-
-  // The set's chi-square plus log n a parameter; what the best one leaves is the unit.
-  double criterion(const Set& set) const {
-    Eigen::VectorXd r = set.residual;
-    Weights(w_.dataset, all_episodes(w_.dataset),
-            measured_forces(w_.dataset, all_episodes(w_.dataset)),
-            std::max(w_.noise.value, least_->fitted.rmse), w_.floor)
-        .whiten(r);
-    return r.squaredNorm() / memory_ +
-           static_cast<double>(set.parameters) * std::log(std::max(independent_, 2.0));
-  }
-  const std::map<std::string, std::string>& lack() const { return lack_; }
-  bool departs() const { return departs_; }       // some position asks for another stiffness
-  std::size_t tried() const { return singles_; }  // effects, on top of the model alone
-
- private:
-  // One press cannot tell a sensor that is not straight from a material that stiffens, but a sensor
-  // is a sensor.
-  std::string unlike_a_sensor(const Model& model, const Effect& effect) const {
-    if (effect.card().name != "sensor-curve") return "";
-    Model straight = model;
-    std::erase_if(straight.parameters,
-                  [&](const Parameter& p) { return p.effect == effect.card().name; });
-    const Selection all = all_episodes(w_.dataset);
-    const Eigen::VectorXd f = model_forces(model, w_.dataset, all, *w_.body, false).f;
-    const Eigen::VectorXd g = model_forces(straight, w_.dataset, all, *w_.body, false).f;
-    // Off the straight line from nothing to the largest force (terminal-based linearity).
-    const double full = f.cwiseAbs().maxCoeff();
-    const double gain = full / g.cwiseAbs().maxCoeff();
-    const double bend = (f - gain * g).cwiseAbs().maxCoeff() / full;
-    if (bend < kCrookedest) return "";
-    return fmt::format(
-        "a force sensor that is {:.0f} % of its reading off a straight line is none: "
-        "a material or a contact that stiffens does that",
-        100 * bend);
-  }
-
-  const Set* keep(const Names& names, const FitResult& fitted) {
-    const Selection all = all_episodes(w_.dataset);
-    Set set{names, fitted,
-            measured_forces(w_.dataset, all) -
-                model_forces(fitted.model, w_.dataset, all, *w_.body, false).f,
-            fitted.model.free_parameters().size()};
-    const Set* kept = &all_.emplace(names, std::move(set)).first->second;
-    singles_ += names.size() == 1;
-    if (least_ == nullptr || fitted.rmse < least_->fitted.rmse) {
-      least_ = kept;
-      memory_ = autocorrelation_time(kept->residual, w_);
-      independent_ = independent_samples(kept->residual, memory_);
-    }
-    return kept;
-  }
-
-  Workspace& w_;
-  const DiagnoseOptions& options_;
-  bool departs_;
-  std::map<Names, Set> all_;
-  std::map<Names, std::string> refused_;
-  std::map<std::string, std::string> lack_;  // effects that these data cannot test
-  std::size_t singles_ = 0;
-  const Set* least_ = nullptr;
-  double memory_ = 1, independent_ = 1;
-};
-
-const Set& best_set(Sets& sets, const Gates& gates) {
-  const Set* best = sets.find({});
-  std::vector<const Set*> beam{best};
+const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
+  const EffectSet* best = sets.find({});
+  std::vector<const EffectSet*> beam{best};
   for (int level = 0; level < gates.most_effects && !beam.empty(); ++level) {
-    std::vector<const Set*> next;
-    for (const Set* set : beam)
+    std::vector<const EffectSet*> next;
+    for (const EffectSet* set : beam)
       for (const Effect* effect : sets.growth(*set))
-        if (const Set* grown = sets.grown(*set, *effect);
+        if (const EffectSet* grown = sets.grown(*set, *effect);
             grown != nullptr && std::find(next.begin(), next.end(), grown) == next.end())
           next.push_back(grown);
-    std::vector<std::pair<double, const Set*>> ranked;
-    for (const Set* set : next) ranked.emplace_back(sets.criterion(*set), set);
+    std::vector<std::pair<double, const EffectSet*>> ranked;
+    for (const EffectSet* set : next) ranked.emplace_back(sets.criterion(*set), set);
     std::stable_sort(ranked.begin(), ranked.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     if (ranked.size() > kBeam) ranked.resize(kBeam);
@@ -188,8 +41,8 @@ const Set& best_set(Sets& sets, const Gates& gates) {
 }
 
 // What the effect does on top of a set without it.
-Finding judged(const Effect& effect, const Set& with_it, const Set& without_it, std::size_t tried,
-               Workspace& w) {
+Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& without_it,
+               std::size_t tried, Workspace& w) {
   const Baseline base{without_it.fitted, {}};
   Candidate candidate{&effect, with_it.fitted, {}, without_it.fitted.model.has(effect.card().name)};
   const Yardstick yardstick = make_yardstick(base, {candidate}, w);
@@ -221,20 +74,20 @@ bool passes(const Finding& f, const Gates& gates) {
 
 struct Member {
   Finding finding;
-  const Set* rest;  // the set without it
+  const EffectSet* rest;  // the set without it
 };
 
 // Of several terms first the effect as a whole, then each further term. The largest first.
-std::vector<Member> members_of(const Set& set, Sets& sets, Workspace& w) {
+std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, Workspace& w) {
   std::vector<Member> members;
   for (std::size_t i = 0; i < set.added.size(); ++i) {
     const std::string& name = set.added[i];
-    Names rest = set.added;
+    EffectNames rest = set.added;
     if (i > 0 && set.added[i - 1] == name)
       rest = without(rest, name);
     else
       std::erase(rest, name);
-    const Set* found = sets.find_below(rest);
+    const EffectSet* found = sets.find_below(rest);
     members.push_back({judged(require_effect(name), set, *found, sets.tried(), w), found});
   }
   std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
@@ -259,14 +112,14 @@ bool confounds(const Effect& effect, const Effect& with) {
 }
 
 // What can take a member's place.
-std::vector<Rival> rivals_of(const Member& member, const Set& best, Sets& sets, const Gates& gates,
-                             Workspace& w) {
+std::vector<Rival> rivals_of(const Member& member, const EffectSet& best, EffectSets& sets,
+                             const Gates& gates, Workspace& w) {
   const Effect& own = require_effect(member.finding.effect);
   std::vector<Rival> rivals;
   for (const Effect* effect : sets.growth(*member.rest)) {
     if (effect == &own || contains(*effect, own.card().name) || contains(own, effect->card().name))
       continue;
-    const Set* other = sets.grown(*member.rest, *effect);
+    const EffectSet* other = sets.grown(*member.rest, *effect);
     if (other == nullptr || sets.criterion(*other) > sets.criterion(best) + gates.criterion_gain)
       continue;
     rivals.push_back({judged(*effect, *other, *member.rest, sets.tried(), w), other->fitted.model});
@@ -279,8 +132,8 @@ std::vector<Rival> rivals_of(const Member& member, const Set& best, Sets& sets, 
 FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
                                 const DiagnoseOptions& options) {
   const Gates& gates = options.gates;
-  Sets sets(base, w, options);
-  const Set* best = &best_set(sets, gates);
+  EffectSets sets(base, w, options);
+  const EffectSet* best = &best_set(sets, gates);
   FewPresses result;
 
   std::vector<Member> members = members_of(*best, sets, w);
@@ -290,7 +143,7 @@ FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
   }
 
   result.end = best->fitted;
-  Names settled;
+  EffectNames settled;
   for (Member& member : members) {
     Finding& f = member.finding;
     f.verdict = Verdict::kMissing;
@@ -314,7 +167,7 @@ FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
   }
   for (const Effect* effect : sets.growth(*best)) {
     if (std::find(settled.begin(), settled.end(), effect->card().name) != settled.end()) continue;
-    const Set* more = sets.grown(*best, *effect);
+    const EffectSet* more = sets.grown(*best, *effect);
     if (more == nullptr) {
       Finding f;
       f.effect = effect->card().name;
@@ -337,7 +190,7 @@ FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
     f.effect = card.name;
     f.verdict = Verdict::kNotTestable;
     f.evidence = lacking_for(card, w.dataset);
-    if (f.evidence.empty() && needs_many(card))
+    if (f.evidence.empty() && needs_many_presses(card))
       f.evidence = fmt::format("too few presses: record {} or more", kLeastPresses);
     if (const auto lack = sets.lack().find(card.name); lack != sets.lack().end())
       f.evidence = lack->second;

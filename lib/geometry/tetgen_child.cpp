@@ -242,7 +242,11 @@ TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& opt
       throw Error(ExitCode::kIo, "TetGen", std::string("no pipe: ") + std::strerror(errno),
                   "close other programs");
     child = fork();
-    if (child == 0) run_child(input, options, ends[1]);
+    if (child == 0) {
+      // With a reader of its own the child would wait for ever on a parent that was killed.
+      close(ends[0]);
+      run_child(input, options, ends[1]);
+    }
     close(ends[1]);
   }
   if (child < 0) {

@@ -190,6 +190,10 @@ $operator -o out 2>err || complain 'hs-link after kills'
 [[ $(grep -c '^1,' out) == 600 ]] || complain 'hs-link after kills: not every line was answered'
 wait $far || complain 'the teleoperator died with its operators'
 row 'operator killed 4 times' hs-link 'the teleoperator serves the next one'
+# TetGen's process ends with the one that asked it.
+left() { for p in $(pgrep -x hs-tetmesh); do [[ $(readlink /proc/$p/cwd) == "$PWD" ]] && echo $p; done; }
+for _ in {1..50}; do [[ -z $(left) ]] && break; sleep 0.2; done
+[[ -z $(left) ]] || complain 'a killed hs-tetmesh leaves a process'
 # The clock was three hours ahead while a batch ran and has been set right; then a recording changes. make alone
 # would take the old results for newer than it.
 batch() { # prints E; its files' times as they are
