@@ -101,16 +101,6 @@ struct Rival {
   Model model;
 };
 
-// Without a second press the form of a curve alone tells effects apart, and laws are forms for many
-// materials: an effect that the member's card lists as taken for it is a rival as long as what it
-// leaves is less than this share of what it changes.
-constexpr double kOfAnyForm = 0.25;
-
-bool confounds(const Effect& effect, const Effect& with) {
-  const auto& list = effect.card().confounders;
-  return std::find(list.begin(), list.end(), with.card().name) != list.end();
-}
-
 // What can take a member's place.
 std::vector<Rival> rivals_of(const Member& member, const EffectSet& best, EffectSets& sets,
                              const Gates& gates, Workspace& w) {

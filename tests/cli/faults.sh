@@ -9,9 +9,7 @@ PATH=$bin:$PATH
 
 # What every tool reads and makes.
 hs-tetmesh -q box.off --max-volume 1e-8 -o body.ply || exit 1
-awk 'BEGIN { print "# tool_radius: 0.004\n# force_noise: 0.002\npress,t,x,y,z,ux,uy,uz"
-  for (p = 0; p < 3; ++p) for (i = 0; i <= 40; ++i)
-    printf "%d,%.2f,%.3f,0.025,0.04,0,0,%.6f\n", p, 0.05 * i, 0.02 + 0.01 * p, -i * 4e-5 }' >motion.csv
+box_presses 40 4e-5 >motion.csv
 printf 'effect,region,parameter,value\nelastic,0,E,8000\nelastic,0,nu,0.4\n' >model.csv
 hs-simulate -q motion.csv --body body.ply --model model.csv --rim-edge 0.3 --add-noise 0.002 -o data.csv || exit 1
 cp data.csv forces.csv

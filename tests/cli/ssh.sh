@@ -51,12 +51,9 @@ trap '[[ $BASHPID != "$$" ]] || { stop all; rm -rf "$work"; }' EXIT
 serve || skip "sshd does not answer: $(tail -n 1 sshd.log err)"
 
 hs-tetmesh -q box.off --max-volume 2e-8 -o box.ply || exit 1
-awk 'BEGIN { print "# tool_radius: 0.004\n# force_noise: 0.002\npress,t,x,y,z,ux,uy,uz"
-  for (p = 0; p < 3; ++p) for (i = 0; i <= 8; ++i)
-    printf "%d,%.2f,%.3f,0.025,0.04,0,0,%.6f\n", p, 0.05 * i, 0.02 + 0.01 * p, -i * 1e-4 }' >motion.csv
+box_presses 8 1e-4 >motion.csv
 printf 'effect,region,parameter,value\nelastic,0,E,9000\nelastic,0,nu,0.4\n' >truth.csv
-awk 'BEGIN { srand(3); print "x,y,z"; for (i = 0; i < 3000; ++i) { f = int(3 * rand()); a = rand(); b = rand(); s = rand() < 0.5
-  x = f == 0 ? s : a; y = f == 1 ? s : f == 0 ? a : b; z = f == 2 ? s : b; print 60 * x "," 50 * y "," 40 * z } }' >scan.csv
+box_scan >scan.csv
 echo 'name,body,scan,scan_unit,data,options,common_options' >recordings.csv
 for i in 1 2 3 4 5 6 7 8; do
   hs-simulate -q motion.csv --body box.ply --model truth.csv --rim-edge 0.3 --add-noise 0.002 --seed $i -o $i.csv || exit 1
