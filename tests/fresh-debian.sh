@@ -48,9 +48,9 @@ trap cleanup EXIT
 mirror() {
   local from_sources from_lists
   from_sources=$(cat /etc/apt/sources.list.d/*.sources 2>/dev/null | awk '
-    /^URIs:/ {uri = $2} /^Suites:/ && $2 == "bookworm" && uri {print uri; exit} /^$/ {uri = ""}')
+    /^URIs:/ {uri = $2} /^Suites:/ && $2 == "bookworm" && uri && !n++ {print uri} /^$/ {uri = ""}')
   from_lists=$(cat /etc/apt/sources.list /etc/apt/sources.list.d/*.list 2>/dev/null |
-    sed -nE 's/^deb +(\[[^]]*\] +)?([^ ]+) +bookworm +.*/\2/p' | head -n 1)
+    awk '/^deb / {sub(/^deb +(\[[^]]*\] +)?/, ""); if ($2 == "bookworm" && !n++) print $1}')
   printf '%s\n' "${from_sources:-${from_lists:-http://deb.debian.org/debian}}"
 }
 

@@ -16,8 +16,8 @@ for package in "${packages[@]}"; do
   lintian --tag-display-limit 0 "$package" >"$out/tags" 2>"$out/log" || true
   ! grep '^E:' "$out/tags" || fail "lintian finds errors"
 done
+depends=$(dpkg-deb -f "$out"/hapsim_*.deb Depends)
 for library in coinor-libipopt1v5 libcholmod3 libtet1.5 libopenblas0-pthread; do
-  dpkg-deb -f "$out"/hapsim_*.deb Depends | grep -q "$library" ||
-    fail "the package does not depend on $library"
+  [[ $depends == *"$library"* ]] || fail "the package does not depend on $library"
 done
 echo "$(basename -a "${packages[@]}" | tr '\n' ' ')without errors"
