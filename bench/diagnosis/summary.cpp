@@ -13,8 +13,10 @@
 namespace hapsim::bench {
 namespace {
 
+constexpr double kFloors = 1.3;
 const char* const kHeader =
-    "truth,effects,level,seed,verdict,missing,rivals,now,after,sized,covered,seconds";
+    "truth,effects,level,seed,verdict,missing,rivals,now,after,presses,own_form,sized,covered,"
+    "seconds";
 
 std::vector<std::string> words(const std::string& text) {
   std::istringstream in(text);
@@ -69,7 +71,7 @@ struct Row {
 
 void print_rate(const char* what, int n, int of, const char* asked) {
   if (of > 0)
-    fmt::print("{:<58} {:>4} of {:>4} = {:5.1f} %  ({})\n", what, n, of, 100.0 * n / of, asked);
+    fmt::print("{:<66} {:>4} of {:>4} = {:5.1f} %  ({})\n", what, n, of, 100.0 * n / of, asked);
 }
 
 // Effects found of two that are hidden: in the list of missing ones or in a declared set.
@@ -106,7 +108,8 @@ std::vector<Trial> read_trials(const std::string& path) {
     const auto cell = [&](const char* name) { return table.columns[table.find(name)][r]; };
     trials.push_back({cell("truth"), cell("effects"), std::stod(cell("level")),
                       std::stoi(cell("seed")), cell("verdict"), cell("missing"), cell("rivals"),
-                      std::stod(cell("now")), std::stod(cell("after")), std::stoi(cell("sized")),
+                      std::stod(cell("now")), std::stod(cell("after")), std::stod(cell("presses")),
+                      std::stoi(cell("own_form")), std::stoi(cell("sized")),
                       std::stoi(cell("covered")), std::stod(cell("seconds"))});
   }
   return trials;
@@ -116,16 +119,19 @@ void append_trial(const std::string& path, const Trial& t) {
   const bool fresh = !std::filesystem::exists(path);
   std::ofstream out(path, std::ios::app);
   if (fresh) out << kHeader << '\n';
-  out << fmt::format("{},{},{:.3g},{},{},{},{},{:.3f},{:.3f},{},{},{:.2f}\n", t.truth, t.effects,
-                     t.level, t.seed, t.verdict, t.missing, t.rivals, t.now, t.after, t.sized,
-                     t.covered, t.seconds)
+  out << fmt::format("{},{},{:.3g},{},{},{},{},{:.3f},{:.3f},{:.3f},{},{},{},{:.2f}\n", t.truth,
+                     t.effects, t.level, t.seed, t.verdict, t.missing, t.rivals, t.now, t.after,
+                     t.presses, t.own_form, t.sized, t.covered, t.seconds)
       << std::flush;
 }
 
 void print_summary(const std::vector<Trial>& trials) {
   std::map<std::string, Row> rows;
   Row hidden;
-  int one = 0, nothing = 0, alarms = 0, clean = 0, right = 0, sized = 0, covered = 0;
+  int one = 0, nothing = 0, alarms = 0, sized = 0, covered = 0;
+  struct Clean {
+    int right = 0, places = 0, presses = 0;  // of right ones, errors that come down to the floor
+  } clean[2];                                // other forms, own forms
   std::vector<double> seconds;
   for (const Trial& t : trials) {
     seconds.push_back(t.seconds);
@@ -145,8 +151,10 @@ void print_summary(const std::vector<Trial>& trials) {
     sized += t.sized;
     covered += t.covered;
     if (o != kExact && o != kMore && o != kFamily) continue;
-    ++right;
-    clean += t.after <= 1.3;
+    Clean& form = clean[t.own_form];
+    ++form.right;
+    form.places += t.after <= kFloors;
+    form.presses += t.presses <= kFloors;
   }
   fmt::print("{:<32} {:>9}", "truth", "level");
   for (const char* name : kNames) fmt::print(" {:>9}", name);
@@ -167,7 +175,13 @@ void print_summary(const std::vector<Trial>& trials) {
              one - n[kWrong] - n[kUnnamed] - n[kMissed], one, "98 % asked");
   print_rate("declared ambiguous, the truth inside", n[kAmbiguous], one, "");
   print_rate("wrong while calling itself clear", n[kWrong] + n[kSecond], one, "at most 3 % asked");
-  print_rate("unseen error after adding within 1.3 x floor, if right", clean, right, "90 % asked");
+  for (const int own : {1, 0}) {
+    const char* const form = own ? "catalogue's forms" : "other forms";
+    print_rate(fmt::format("unseen presses within {} x floor, if right, {}", kFloors, form).c_str(),
+               clean[own].presses, clean[own].right, "90 % asked");
+    print_rate(fmt::format("unseen places within {} x floor, if right, {}", kFloors, form).c_str(),
+               clean[own].places, clean[own].right, "90 % asked");
+  }
   print_rate("sizes inside their 95 % intervals", covered, sized, "85 % asked");
   print_rate("false alarms where nothing is hidden", alarms, nothing, "at most 2 % asked");
   print_two(trials);

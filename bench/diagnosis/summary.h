@@ -14,6 +14,8 @@ struct Trial {
   std::string missing;         // effects called missing, in order, separated by spaces
   std::string rivals;          // effects called indistinguishable
   double now = 0, after = 0;   // error on unseen positions over the floor, before and after adding
+  double presses = 0;          // after, on unseen presses of positions that were pressed otherwise
+  int own_form = 0;            // 1: what is hidden has a form of the catalogue
   int sized = 0, covered = 0;  // sizes of right effects, and how many 95 % intervals hold the truth
   double seconds = 0;          // of the processor
 };

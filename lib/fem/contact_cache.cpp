@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Begins every entry; a new layout or a new meshing gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '7'};
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '8'};
 
 struct Head {
   char magic[8];

@@ -30,7 +30,7 @@ struct PlanGrid {
   int cell(const Vec3& p) const;  // clamped to the grid
   Vec3 centre(int cell) const;    // z = 0
 };
-PlanGrid plan_grid(const Surface& surface, int cells_along = 32);
+PlanGrid plan_grid(const Surface& surface, int cells_along = 96);
 
 // K u is the force that moves the tool by u; the body's force on the tool is -K u [N].
 struct StiffnessSolution {

@@ -8,68 +8,10 @@
 
 #include "base/error.h"
 #include "effects/catalogue.h"
+#include "model/extend_regions.h"
 
 namespace hapsim {
 namespace {
-
-// Regions from the training positions' own moduli: rows of key points and of E by region.
-Model with_locations(const Model& fitted, const Effect& effect, const Dataset& dataset,
-                     const Selection& selection, const BodyStiffness& body,
-                     const ExtendOptions& options) {
-  const auto samples = merged_places(
-      location_samples(fitted, dataset, selection, body, options.noise, options.floor));
-  const std::vector<int> label = region_labels(samples, options.regions, 8);
-  const int regions = 1 + *std::max_element(label.begin(), label.end());
-  Model model = fitted;
-  const Parameter modulus = *fitted.find("elastic", 0, "E");
-  std::erase_if(model.parameters, [](const Parameter& p) {
-    return p.effect == "elastic" && p.name == "E" && p.region > 0;
-  });
-  for (int r = 0; r < regions; ++r) {
-    double weight = 0, sum = 0;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (label[i] != r) continue;
-      const double relative = samples[i].error / samples[i].gain;
-      weight += 1 / (relative * relative);
-      sum += std::log(samples[i].gain) / (relative * relative);
-    }
-    const double value = modulus.value * std::exp(sum / weight);
-    if (Parameter* row = model.find("elastic", r, "E")) {
-      row->value = value;
-    } else {
-      Parameter added = modulus;
-      added.region = r;
-      added.value = value;
-      const auto last =
-          std::find_if(model.parameters.rbegin(), model.parameters.rend(),
-                       [](const Parameter& p) { return p.effect == "elastic" && p.name == "E"; });
-      model.parameters.insert(last.base(), added);
-    }
-  }
-  std::vector<int> number(regions, 0);
-  for (int r = 0; r < regions; ++r)
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      if (label[i] != r) continue;
-      ++number[r];
-      std::vector<Parameter> rows =
-          effect_rows(effect, 1, {samples[i].point.x(), samples[i].point.y(), 0});
-      rows.pop_back();  // `local` stands once for the model
-      for (Parameter& row : rows) {
-        row.name = row.name.substr(0, 1) + std::to_string(number[r]);
-        row.region = r;
-        row.state = ParameterState::kFixed;
-        model.parameters.push_back(row);
-      }
-    }
-  if (options.regions == kEverySite) {
-    // So many neighbouring moduli cannot be told apart through the body; each stands for its site.
-    Parameter local = effect_rows(effect, 1, {0, 0, 1}).back();
-    local.name = "local";
-    local.state = ParameterState::kFixed;
-    model.parameters.push_back(local);
-  }
-  return model;
-}
 
 constexpr double kLeastWarming = 0.5;  // [K]
 constexpr double kSideways = 0.2;      // of the depth
@@ -137,8 +79,7 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
     fail_usage("the data cannot show " + name, lack);
   if (fitted.has(name) && !(card.terms && !card.from_locations))
     fail_usage("the model has " + name + " already", "remove it first (--remove " + name + ")");
-  if (card.from_locations)
-    return {with_locations(fitted, effect, dataset, selection, body, options)};
+  if (card.from_locations) return {with_regions(fitted, dataset, selection, body, options)};
 
   Model base = fitted;
   // What the new effect contains gives way to it.

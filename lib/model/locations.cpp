@@ -66,34 +66,35 @@ std::vector<LocationSample> merged_places(const std::vector<LocationSample>& sam
   return merged;
 }
 
-std::vector<int> region_labels(const std::vector<LocationSample>& samples, int count, int most) {
+RegionLabels region_labels(const std::vector<LocationSample>& samples, int count, int most) {
   const int n = static_cast<int>(samples.size());
-  std::vector<int> every(samples.size());
-  std::iota(every.begin(), every.end(), 0);
-  if (count == kEverySite || n < 2) return every;
+  RegionLabels best;
+  best.label.resize(samples.size());
+  std::iota(best.label.begin(), best.label.end(), 0);
+  best.criterion = 2 * n * std::log(std::max(1, n));
+  if (count == kEverySite || n < 2) return best;
   std::vector<double> value, error;
   for (const LocationSample& s : samples) {
     value.push_back(std::log(s.gain));
     error.push_back(s.error / s.gain);
   }
-  if (count != kAutomaticRegions) return ward_clusters(value, error, std::min(count, n));
-  double best = 0;
-  std::vector<int> chosen;
-  for (int k = 2; k <= std::max(2, std::min(most, n / 2)); ++k) {
+  const int fewest = count == kAutomaticRegions ? 2 : std::min(count, n);
+  const int largest = count == kAutomaticRegions ? std::max(2, std::min(most, n / 2)) : fewest;
+  for (int k = fewest; k <= largest; ++k) {
     const std::vector<int> label = ward_clusters(value, error, k);
     std::vector<double> weight(k, 0), mean(k, 0);
     for (int i = 0; i < n; ++i) {
       weight[label[i]] += 1 / (error[i] * error[i]);
       mean[label[i]] += value[i] / (error[i] * error[i]);
     }
-    double criterion = 2 * k * std::log(n);  // a modulus and a boundary each
+    double criterion = 2 * k * std::log(n);
     for (int i = 0; i < n; ++i) {
       const double d = (value[i] - mean[label[i]] / weight[label[i]]) / error[i];
       criterion += d * d;
     }
-    if (chosen.empty() || criterion < best) best = criterion, chosen = label;
+    if (k == fewest || criterion < best.criterion) best = {label, criterion};
   }
-  return chosen;
+  return best;
 }
 
 }  // namespace hapsim

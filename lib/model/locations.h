@@ -25,8 +25,13 @@ std::vector<LocationSample> location_samples(const Model& model, const Dataset& 
 std::vector<LocationSample> merged_places(const std::vector<LocationSample>& samples);
 
 // How the samples fall into regions: the number that the samples ask for (2 to `most`) by the
-// information criterion, or each position by itself with `sites`. Gives each sample's region.
-std::vector<int> region_labels(const std::vector<LocationSample>& samples, int count, int most);
+// information criterion, or each position by itself.
+struct RegionLabels {
+  std::vector<int> label;  // region of each sample
+  // Squares over the samples' errors, and 2 log n a region (a modulus and a boundary each).
+  double criterion = 0;
+};
+RegionLabels region_labels(const std::vector<LocationSample>& samples, int count, int most);
 constexpr int kAutomaticRegions = 0;
 constexpr int kEverySite = -1;
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <memory>
 #include <string>
 
@@ -69,18 +68,6 @@ class Shadow {
   std::vector<char> covered_;
 };
 
-void add_key_point(Model& model, const Plan& p, int region, std::map<int, int>& number) {
-  std::vector<Parameter> rows = effect_rows(require_effect("regions"), 1, {p.x(), p.y(), 0});
-  rows.pop_back();  // `local` stands once for the model, and here not at all
-  ++number[region];
-  for (Parameter& row : rows) {
-    row.name = row.name.substr(0, 1) + std::to_string(number[region]);
-    row.region = region;
-    row.state = ParameterState::kFixed;
-    model.parameters.push_back(row);
-  }
-}
-
 }  // namespace
 
 PlaneClassifier region_classifier(const LocationTable& table, const std::vector<int>& label,
@@ -134,9 +121,21 @@ void label_body(TetMesh& body, const PlaneClassifier& classify) {
   }
 }
 
+void KeyPoints::add(const Eigen::Vector2d& p, int region) {
+  std::vector<Parameter> rows = effect_rows(require_effect("regions"), 1, {p.x(), p.y(), 0});
+  rows.pop_back();  // `local` stands once for the model, and here not at all
+  ++number_[region];
+  for (Parameter& row : rows) {
+    row.name = row.name.substr(0, 1) + std::to_string(number_[region]);
+    row.region = region;
+    row.state = ParameterState::kFixed;
+    model_.parameters.push_back(row);
+  }
+}
+
 void place_key_points(Model& model, const PlaneClassifier& classify,
                       const std::vector<BoundaryLine>& lines, int keys) {
-  std::map<int, int> number;  // of key points by region
+  KeyPoints key(model);
   for (const BoundaryLine& line : lines) {
     const std::vector<Plan> points = key_points(line, keys);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -149,8 +148,8 @@ void place_key_points(Model& model, const PlaneClassifier& classify,
         const int left = classify(points[i] + off * across);
         const int right = classify(points[i] - off * across);
         if (std::minmax(left, right) != std::minmax(line.a, line.b)) continue;
-        add_key_point(model, points[i] + off * across, left, number);
-        add_key_point(model, points[i] - off * across, right, number);
+        key.add(points[i] + off * across, left);
+        key.add(points[i] - off * across, right);
         break;
       }
     }

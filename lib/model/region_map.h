@@ -1,6 +1,7 @@
 // Regions over the plan view of a body: classifier, boundary, labels, model.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -30,7 +31,18 @@ std::vector<BoundaryLine> region_boundaries(const PlaneClassifier& classify,
 // Each tetrahedron's region from its centre's plan position.
 void label_body(TetMesh& body, const PlaneClassifier& classify);
 
-// Key points of the effect `regions` (fixed rows) for each of `keys` points along every line: one
+// Key points of the effect `regions`, appended to a model as fixed rows, numbered by region.
+class KeyPoints {
+ public:
+  explicit KeyPoints(Model& model) : model_(model) {}
+  void add(const Eigen::Vector2d& p, int region);
+
+ private:
+  Model& model_;
+  std::map<int, int> number_;  // by region
+};
+
+// Key points for each of `keys` points along every line: one
 // on either side, so that "nearest key point" has that boundary.
 void place_key_points(Model& model, const PlaneClassifier& classify,
                       const std::vector<BoundaryLine>& lines, int keys);

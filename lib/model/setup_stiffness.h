@@ -43,6 +43,7 @@ class SetupStiffness {
   const std::vector<PreparedContact>& contacts() const { return contacts_; }
   const std::vector<Vec3>& positions() const { return positions_; }
   const Surface& surface() const { return library_.surface(); }
+  const PlanGrid& grid() const { return library_.grid(); }  // of the contacts' plan_share
   // The move that the contact points' distances from the surface show.
   RigidMove move() const { return register_points(positions_, library_.surface()); }
 

@@ -72,6 +72,18 @@ TEST_F(Independent, RegionsAreNamed) {
   const Diagnosis d = diagnosed(c);
   EXPECT_EQ(d.findings.front().effect, "regions");
   EXPECT_EQ(d.findings.front().verdict, Verdict::kMissing);
+  // truth.json; the boundary, which is not straight, is found with the moduli.
+  const Model& found = d.rivals.front();
+  ASSERT_NE(found.find("elastic", 1, "E"), nullptr);
+  const double soft = found.find("elastic", 0, "E")->value;
+  const double stiff = found.find("elastic", 1, "E")->value;
+  const double nu = found.find("elastic", 0, "nu")->value;
+  std::printf("regions: E %.0f and %.0f Pa (14000 and 35000), nu %.3f (0.4), %.2f x noise\n", soft,
+              stiff, nu, d.rmse_end / d.noise);
+  EXPECT_NEAR(soft / 14000, 1, 0.03);
+  EXPECT_NEAR(stiff / 35000, 1, 0.03);
+  EXPECT_NEAR(nu, 0.4, 0.03);
+  EXPECT_LT(d.rmse_end, 1.3 * d.noise);
 }
 
 TEST_F(Independent, StiffeningIsNamed) {
