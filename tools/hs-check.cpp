@@ -18,14 +18,12 @@ ToolSpec specification() {
   spec.summary = "compare a model with a golden one, by tolerance and standard errors";
   spec.input = "model CSV, freshly identified";
   spec.description = {
-      "Two models of the same recording are never equal byte for byte: another compiler, machine "
-      "or "
-      "number of threads changes the last digits, and a new recording of the same object changes "
-      "more. A parameter counts as the same when it differs by no more than its tolerance, or than "
-      "--standard-errors times the standard error of the difference, whichever is more. Parameters "
-      "that only one model has differ, and so do those that are fixed in one and free in the "
-      "other. "
-      "The errors of the fit and on unseen data (metadata rmse, heldout) may be smaller, but not "
+      "On one machine the same call gives the same bytes. Another compiler or processor changes "
+      "the last digits, and a new recording of the same object changes more. A parameter counts "
+      "as the same when it differs by no more than its tolerance, or than --standard-errors "
+      "times the standard error of the difference, whichever is more. Parameters that only one "
+      "model has differ, and so do those that are fixed in one and free in the other. The "
+      "errors of the fit and on unseen data (metadata rmse, heldout) may be smaller, but not "
       "larger by more than --worse.",
       "Exit code 1 when anything differs, and a line for each that says what."};
   spec.options = {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <mutex>
 #include <new>
 
 #include "base/error.h"
@@ -64,7 +65,14 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
   common->method[0].ordering = CHOLMOD_METIS;
   common->method[1].ordering = CHOLMOD_AMD;
   common->postorder = 1;
-  cholmod_factor* order = cholmod_analyze(&small, common);
+  cholmod_factor* order = nullptr;
+  {
+    // METIS draws from the C library's rand(), which all threads share: side by side they would
+    // order, and so round, differently from run to run.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    order = cholmod_analyze(&small, common);
+  }
   impl_->check_memory();
   if (order == nullptr) fail_numerics("", "ordering the sparse matrix failed", "report this mesh");
   std::vector<int> permutation(static_cast<std::size_t>(pattern.size));

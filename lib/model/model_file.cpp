@@ -89,9 +89,10 @@ Model read_model(Input& input) {
         fail_input(where, fmt::format("{} '{}' is not a number", column, text), "mend the cell");
       return value;
     };
-    p.region = static_cast<int>(number("region", 0));
-    if (p.region < 0 || p.region > 100000)
+    const double region = number("region", 0);
+    if (!(region >= 0 && region <= 100000 && region == std::floor(region)))
       fail_input(where, "the region is not a small whole number", "number regions from 0");
+    p.region = static_cast<int>(region);
     const Effect* effect = find_effect(p.effect);
     const ParameterCard* card = effect == nullptr ? nullptr : parameter_card(*effect, p.name);
     p.unit = cell("unit", row);

@@ -49,14 +49,6 @@ told() {
   [[ $code == [0134] || $(grep -c "^$2: " err) == 1 ]] || complain "$1: $2 says it in one line"
   [[ $(temporaries) == 0 ]] || complain "$1: $2 leaves a temporary file"
 }
-# same A B: equal but for the last digits of numbers, which differ a little from run to run; those of the
-# metadata are cells too.
-same() {
-  cmp -s "$1" "$2" && return
-  [[ $(wc -l <"$1") == $(wc -l <"$2") ]] && paste -d, <(sed '/^#/s/: /,/' "$1") <(sed '/^#/s/: /,/' "$2") | awk -F, '{ n = NF / 2
-    for (k = 1; k <= n; ++k) { d = $k - $(k + n); if (d < 0) d = -d
-      if ($k != $(k + n) && (d == 0 || d > 1e-9 + 1e-6 * ($k > 0 ? $k : -$k))) bad = 1 } } END { exit bad }'
-}
 for tool in "${tools[@]}"; do
   ${command[$tool]} -q -o /dev/full >/dev/null 2>err; code=$?
   told '/dev/full' $tool 5
@@ -99,7 +91,7 @@ for tool in hs-tetmesh hs-simulate hs-fuse hs-export; do
   ${command[$tool]} -q -o alone 2>/dev/null
   for try in 1 2 3; do
     ${command[$tool]} -q -o both 2>err & ${command[$tool]} -q -o both 2>err2 & wait
-    same alone both || complain "two writers: $tool"
+    cmp -s alone both || complain "two writers: $tool"
   done
   [[ $(temporaries) == 0 ]] || complain "two writers: $tool leaves a temporary file"
   row 'two writers of one file' $tool 'one of both, whole'
@@ -115,7 +107,7 @@ for tool in hs-simulate hs-compare; do
   wait $victim; code=$?
   wait
   grep -v '^#' out >out.rows; grep -v '^#' expected >expected.rows
-  [[ $code == 0 ]] && same out.rows expected.rows || complain "stopped and continued: $tool (exit $code)"
+  [[ $code == 0 ]] && cmp -s out.rows expected.rows || complain "stopped and continued: $tool (exit $code)"
   row 'stopped and continued' $tool "exit $code, the same result"
 done
 # System calls that a signal interrupts before they have done anything: every other one of those that
@@ -130,7 +122,7 @@ if strace -qq -o trace true 2>/dev/null; then
       '-e inject=write,writev,fsync,fdatasync,flock,wait4,poll,select,ppoll:error=EINTR:when=1+2'; do
       XDG_CACHE_HOME=$work/fresh-$tool strace -f -qq -o trace $at $whole -q -o out 2>err; code=$?
       calls=$((calls + $(grep -c INJECTED trace)))
-      [[ $code == "$calm" ]] && same out expected || complain "interrupted: $tool (exit $code)"
+      [[ $code == "$calm" ]] && cmp -s out expected || complain "interrupted: $tool (exit $code)"
       [[ $(temporaries) == 0 ]] || complain "interrupted: $tool leaves a temporary file"
     done
     ((calls > 0)) || complain "interrupted: no system call of $tool was"
@@ -151,14 +143,14 @@ for tool in hs-tetmesh hs-simulate hs-identify; do
       sleep $delay; kill -$signal $! 2>/dev/null; wait $! 2>/dev/null; code=$?
       ((code < 128 && code != 4)) || cut=$((cut + 1))
       # An identification that has begun to fit leaves the best so far, marked.
-      [[ $(head -c 4 out) == "old" ]] || same out whole || { grep -q "^# converged: no" out && tail -n 1 out | grep -q ","; } ||
+      [[ $(head -c 4 out) == "old" ]] || cmp -s out whole || { grep -q "^# converged: no" out && tail -n 1 out | grep -q ","; } ||
         complain "SIG$signal: $tool leaves half a file"
       [[ $signal == KILL || $(temporaries) == 0 ]] || complain "SIGTERM: $tool leaves a temporary file"
       rm -f .hapsim-*.tmp
     done
   done
   # The cache that a killed process was writing does no harm.
-  XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o after 2>/dev/null && same after whole || complain "$tool after kills"
+  XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o after 2>/dev/null && cmp -s after whole || complain "$tool after kills"
   row "killed ($cut of 10 in time)" $tool 'old or new, whole; the cache serves on'
 done
 # An operator whose output cannot be written, or that is killed on the way: the teleoperator lives on and

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <vector>
 
+#include "base/parallel.h"
 #include "linalg/blas.h"
 
 namespace hapsim {
@@ -46,6 +48,38 @@ TEST(SparseCholesky, RefusesIndefinite) {
   const SymmetricSparse matrix = sparse(a);
   SparseCholesky cholesky(matrix);
   EXPECT_FALSE(cholesky.factorise(matrix));
+}
+
+// Springs between the neighbours of a grid of n x n x n nodes, one unknown a node.
+SymmetricSparse grid(int n) {
+  SymmetricSparse matrix;
+  matrix.size = n * n * n;
+  matrix.column_start.push_back(0);
+  for (int node = 0; node < matrix.size; ++node) {
+    const auto add = [&](int row, double value) {
+      matrix.row.push_back(row);
+      matrix.value.push_back(value);
+    };
+    add(node, 6.1);
+    if (node % n + 1 < n) add(node + 1, -1);
+    if (node / n % n + 1 < n) add(node + n, -1);
+    if (node / (n * n) + 1 < n) add(node + n * n, -1);
+    matrix.column_start.push_back(static_cast<int>(matrix.row.size()));
+  }
+  return matrix;
+}
+
+TEST(SparseCholesky, GivesTheSameBytesBesideOtherThreads) {
+  const SymmetricSparse matrix = grid(14);
+  const auto solution = [&] {
+    SparseCholesky cholesky(matrix, 1);
+    EXPECT_TRUE(cholesky.factorise(matrix));
+    return cholesky.solve(Eigen::VectorXd::LinSpaced(matrix.size, 0, 1));
+  };
+  const Eigen::MatrixXd alone = solution();
+  std::vector<Eigen::MatrixXd> beside(8);
+  in_parallel(beside.size(), 4, [&](std::size_t i) { beside[i] = solution(); });
+  for (const Eigen::MatrixXd& x : beside) EXPECT_EQ(x, alone);
 }
 
 TEST(Blas, IsOpenBlas) {
