@@ -142,18 +142,21 @@ void Database::fail(int code) const {
       fail_io(path_,
               fmt::format("another process has held this {} for {:g} s", format_.what, patience_),
               "wait until it has ended, or end it");
-    case SQLITE_NOTADB:
-    case SQLITE_CORRUPT:
-    case SQLITE_FORMAT:
-      fail_input(path_, "this is no " + format_.what + ", or it is damaged",
-                 "restore it from a copy, or name another file");
     case SQLITE_READONLY:
       fail_io(path_, "it may not be written", "give the file and its folder write permission");
     case SQLITE_CANTOPEN:
       fail_io(path_, "cannot be opened", "check the name and the permissions");
-    default:
+    case SQLITE_IOERR:
+    case SQLITE_FULL:
+    case SQLITE_PERM:
+    case SQLITE_NOMEM:
+    case SQLITE_PROTOCOL:
+    case SQLITE_NOLFS:
       fail_io(path_, handle_->db ? sqlite3_errmsg(handle_->db) : sqlite3_errstr(code),
               "check the disk and the permissions");
+    default:  // damage shows in many ways: no database, no such column, an unknown file format
+      fail_input(path_, "this is no " + format_.what + ", or it is damaged",
+                 "restore it from a copy, or name another file");
   }
 }
 

@@ -9,26 +9,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "base/random.h"
+#include "fuzz/mutant.h"
 #include "fuzz/readers.h"
 
 namespace fs = std::filesystem;
 using namespace hapsim;
-
-namespace {
-
-std::string mutant(const std::string& good, Random& random) {
-  std::string bad = good;
-  for (std::uint64_t n = 1 + random.integer(4); n > 0 && !bad.empty(); --n)
-    bad[random.integer(bad.size())] = static_cast<char>(random.integer(256));
-  if (random.coin() && !bad.empty()) bad.erase(random.integer(bad.size()), 1 + random.integer(8));
-  if (random.coin() && !bad.empty())
-    bad.insert(random.integer(bad.size()), bad, 0, std::min<std::size_t>(bad.size(), 64));
-  if (random.integer(8) == 0) bad.resize(random.integer(bad.size() + 1));
-  return bad;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2 && argc != 3) {
@@ -59,7 +44,8 @@ int main(int argc, char** argv) {
       std::ostringstream bytes;
       bytes << in.rdbuf();
       accepted += fuzz::read_or_refuse(reader, bytes.str()) ? 1 : 0;
-      for (int k = 0; k < mutants; ++k) fuzz::read_or_refuse(reader, mutant(bytes.str(), random));
+      for (int k = 0; k < mutants; ++k)
+        fuzz::read_or_refuse(reader, fuzz::mutant(bytes.str(), random));
     }
     std::printf("%-10s %zu cases, %zu read, %zu mutants\n", reader.name, files.size(), accepted,
                 files.size() * static_cast<std::size_t>(mutants));

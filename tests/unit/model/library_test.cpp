@@ -142,11 +142,19 @@ TEST_F(Library, DamageIsTold) {
     ModelLibrary library(path_, Mode::kWrite);
     for (int k = 0; k < 50; ++k) library.add(described("a", "", 4e-3), test::elastic(1e4, 0.4));
   }
-  // The middle of the file overwritten.
-  std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path_) / 2));
-  file << std::string(5000, '\xff');
-  file.close();
+  const auto overwrite = [&](std::uintmax_t from, const std::string& bytes) {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(from));
+    file << bytes;
+  };
+  // SQLite's number of its own format, to which it says neither 'corrupt' nor 'no database'.
+  const std::string format{'\0', '\0', '\0', '\4'}, other{'\0', '\0', '\0', '\x63'};
+  overwrite(44, other);
+  error_of([&] { ModelLibrary(path_, Mode::kRead); });
+  overwrite(44, format);
+  EXPECT_EQ(ModelLibrary(path_, Mode::kRead).entries().size(), 50u);
+  // The middle of the file.
+  overwrite(std::filesystem::file_size(path_) / 2, std::string(5000, '\xff'));
   error_of([&] { ModelLibrary(path_, Mode::kWrite).entries(); });
 }
 
