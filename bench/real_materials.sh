@@ -34,7 +34,7 @@ ramp() {
       if (d > 1.001 * deep[p]) { deep[p] = d; at[p] = $c["t"] - t0[p] } }
     END { for (p in at) if (at[p] > most) most = at[p]; print most + 0 }' "$work/data.csv"
 }
-median() { sort -g | awk '{ v[NR] = $1 } END { if (NR) print v[int((NR + 1) / 2)] }'; }
+median() { sort -g | awk '{ v[NR] = $1 } END { if (NR) print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'; }
 
 mapfile -t meat < <(tables '*/meat*/*.csv' '*/meat*.csv')
 if ((${#meat[@]} == 0)); then

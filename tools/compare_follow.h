@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
 #include "geometry/tetmesh.h"
@@ -143,8 +144,7 @@ inline int run_follow(const Arguments& arguments) {
     }
     events.commit();
   }
-  line_said(fmt::format("{} change{} noticed", watch.events().size(),
-                        watch.events().size() == 1 ? "" : "s"));
+  line_said(counted(watch.events().size(), "change", "changes") + " noticed");
   return 0;
 }
 

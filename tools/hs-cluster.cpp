@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
 #include "io/csv.h"
@@ -237,13 +238,13 @@ void report(const Arguments& arguments, const RegionEstimate& regions, std::size
   }
   if (regions.joined > 0)
     line(
-        fmt::format("{} sample{} unlike all others joined the nearest region: pressed across a "
+        fmt::format("{} unlike all others joined the nearest region: pressed across a "
                     "boundary, or a region of their own (press around, or give --regions)",
-                    regions.joined, regions.joined == 1 ? "" : "s"));
+                    counted(regions.joined, "sample", "samples")));
   for (std::size_t r = 0; r < regions.value.size(); ++r) {
     const RegionValue& v = regions.value[r];
-    line(fmt::format("region {}: {} sample{}, E = {:.4g} ± {:.2g} Pa, nu = {:.3g}{}", r, v.samples,
-                     v.samples == 1 ? "" : "s", v.E, v.E_std, v.nu,
+    line(fmt::format("region {}: {}, E = {:.4g} ± {:.2g} Pa, nu = {:.3g}{}", r,
+                     counted(v.samples, "sample", "samples"), v.E, v.E_std, v.nu,
                      v.nu_std > 0 ? fmt::format(" ± {:.2g}", v.nu_std) : " (held)"));
   }
 }

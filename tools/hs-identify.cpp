@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "common_options.h"
 #include "diagnose/improve.h"
@@ -36,8 +37,8 @@ std::string words_of(const TermChoice& choice, const std::string& effect) {
     trials +=
         fmt::format("{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.rmse,
                     std::isnan(t.held_out) ? "" : fmt::format(", unseen {:.4g} N", t.held_out));
-  return fmt::format("{} term{} of {} chosen ({})", choice.terms, choice.terms == 1 ? "" : "s",
-                     effect, trials);
+  return fmt::format("{} of {} chosen ({})", counted(choice.terms, "term", "terms"), effect,
+                     trials);
 }
 
 // Models to fit on the chosen episodes: fitted step by step, one effect after the other.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
 #include "import/block.h"
@@ -263,9 +264,10 @@ void summarise(const Arguments& arguments, const ImportResult& result) {
     say(arguments, tool,
         "WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius");
   say(arguments, tool,
-      fmt::format("{} presses at {} positions, {} samples ({} in the air), {}; depth up to {:.3g} "
-                  "mm, force up to {:.3g} N",
-                  result.touched.size(), places.size(), out.rows(), air,
+      fmt::format("{} at {}, {} ({} in the air), {}; depth up to {:.3g} mm, force up to {:.3g} N",
+                  counted(result.touched.size(), "press", "presses"),
+                  counted(places.size(), "position", "positions"),
+                  counted(out.rows(), "sample", "samples"), air,
                   out.t.empty() ? "quasi-static" : "with time", 1e3 * depth, force));
 }
 

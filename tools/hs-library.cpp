@@ -1,6 +1,7 @@
 // hs-library: what a library of identified models holds.
 #include <fmt/format.h>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
 #include "io/csv.h"
@@ -102,7 +103,7 @@ int run(const Arguments& arguments) {
     ModelLibrary(arguments.input(), Database::Mode::kRead);
     ModelLibrary(arguments.input(), Database::Mode::kWrite).remove(ids);
     say(arguments, "hs-library",
-        fmt::format("{} entr{} removed from {}", ids.size(), ids.size() == 1 ? "y" : "ies",
+        fmt::format("{} removed from {}", counted(ids.size(), "entry", "entries"),
                     arguments.input()));
     return 0;
   }

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "cli/tool.h"
+#include "io/stream.h"
 #include "model/model_library.h"
 
 namespace hapsim {
@@ -27,23 +29,29 @@ inline std::vector<Option> library_flags() {
 
 class IdentifyLibrary {
  public:
-  // Opens the library, so that what is wrong with it is told before the work begins.
+  // What is wrong with the library is told before the work begins; a new one is made with its first
+  // entry, so that none is left empty by a run that fails.
   IdentifyLibrary(const Arguments& arguments, const Recording& recording, const TetMesh& body)
       : arguments_(arguments) {
     for (const char* flag : {"--material", "--object"})
       if (arguments.given(flag) && !arguments.given("--library"))
         fail_usage(std::string(flag) + " describes an entry of a library", "add --library FILE");
-    if (!arguments.given("--library")) return;
+    if (!asked()) return;
     described_ = describe(recording, body);
     if (arguments.given("--material")) described_.material = arguments.text("--material");
     if (arguments.given("--object")) described_.object = arguments.text("--object");
-    library_.emplace(arguments.text("--library"), Database::Mode::kWrite);
+    if (std::filesystem::exists(path())) {
+      open();
+    } else {
+      const Output may_be_made(path());
+    }
   }
 
   // One more start with the values of the nearest entry.
   void add_start(std::vector<Model>& starts) {
-    if (!library_) return;
-    const std::vector<LibraryEntry> entries = library_->entries();
+    if (!asked()) return;
+    std::vector<LibraryEntry> entries;
+    if (library_) entries = library_->entries();
     const LibraryEntry* nearest = nearest_entry(entries, described_, starts.front().effects());
     if (nearest == nullptr) return tell("it has no entry yet: the usual start");
     const auto start =
@@ -56,7 +64,8 @@ class IdentifyLibrary {
   // Adds the model and does `commit`; when that fails the library stays as it was.
   template <class Commit>
   void store(const Model& model, const Commit& commit) {
-    if (!library_) return commit();
+    if (!asked()) return commit();
+    if (!library_) open();
     Database::Transaction transaction(library_->database());
     const int id = library_->add(described_, model);
     commit();
@@ -65,12 +74,13 @@ class IdentifyLibrary {
   }
 
  private:
+  bool asked() const { return arguments_.given("--library"); }
+  std::string path() const { return arguments_.text("--library"); }
+  void open() { library_.emplace(path(), Database::Mode::kWrite); }
   bool same_object(const Described& d) const {
     return !d.object.empty() && d.object == described_.object;
   }
-  void tell(const std::string& text) const {
-    say(arguments_, "hs-identify", arguments_.text("--library") + ": " + text);
-  }
+  void tell(const std::string& text) const { say(arguments_, "hs-identify", path() + ": " + text); }
 
   const Arguments& arguments_;
   Described described_;

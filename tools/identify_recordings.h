@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "common_options.h"
 #include "effects/catalogue.h"
@@ -49,8 +50,8 @@ inline Experiment load_experiment(const Arguments& arguments) {
   const std::vector<std::string> bodies = arguments.list("--body");
   if (bodies.size() != 1 && bodies.size() != paths.size())
     fail_usage(
-        fmt::format("{} bodies for {} recording{}", bodies.size(), paths.size(),
-                    paths.size() == 1 ? "" : "s"),
+        fmt::format("{} for {}", counted(bodies.size(), "body", "bodies"),
+                    counted(paths.size(), "recording", "recordings")),
         "give --body once, or once for each recording: the main input first, then each --data");
   Experiment experiment;
   std::vector<int> body_of;  // by --body: the same file is the same body

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "cli/tool.h"
 #include "estimate/identifiability.h"
 #include "linalg/blas.h"
@@ -41,11 +42,12 @@ inline std::vector<std::string> hardly_known(const Model& model) {
 inline void report(const Arguments& arguments, const Workspace& w, const FitResult& result,
                    double held_out, const std::string& by, double force_rms) {
   const auto line = [&](const std::string& text) { say(arguments, "hs-identify", text); };
-  line(fmt::format(
-      "{} presses at {} positions{}, {} samples; noise {:.3g} N ({}), force rms {:.3g} N",
-      w.dataset.recording.presses().size(), w.dataset.positions.size(), setups_in_words(w.dataset),
-      w.dataset.rows(), w.noise.value, w.noise.measured ? "measured from the data" : "declared",
-      force_rms));
+  line(fmt::format("{} at {}{}, {}; noise {:.3g} N ({}), force rms {:.3g} N",
+                   counted(w.dataset.recording.presses().size(), "press", "presses"),
+                   counted(w.dataset.positions.size(), "position", "positions"),
+                   setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
+                   w.noise.value, w.noise.measured ? "measured from the data" : "declared",
+                   force_rms));
   int shown = 0;
   for (const Parameter& p : result.model.parameters) {
     if (p.state != ParameterState::kFree || ++shown > 12) continue;

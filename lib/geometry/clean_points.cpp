@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "geometry/local_plane.h"
 #include "geometry/point_index.h"
@@ -162,10 +163,8 @@ double point_spacing(const std::vector<Vec3>& points) {
 
 void require_surface_points(const std::vector<Vec3>& points, const std::string& name) {
   if (points.size() < 4) {
-    fail_input(
-        name,
-        fmt::format("only {} different point{}", points.size(), points.size() == 1 ? "" : "s"),
-        "a surface needs at least 4, better some hundred");
+    fail_input(name, "only " + counted(points.size(), "different point", "different points"),
+               "a surface needs at least 4, better some hundred");
   }
   const LocalPlane plane = fit_plane(points);
   if (plane.spread[1] < 1e-6 * plane.spread[2]) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.h"
 #include "estimate/lag.h"
 #include "realtime/real_time.h"
 
@@ -16,8 +17,8 @@ constexpr std::size_t kRing = 4096;  // motions that may be on their way
 }  // namespace
 
 std::string PacketCounts::summary() const {
-  return fmt::format("{} taken, {} stale, {} foreign, {} malformed, {} peer{}", taken, stale,
-                     foreign, malformed, peers, peers == 1 ? "" : "s");
+  return fmt::format("{} taken, {} stale, {} foreign, {} malformed, {}", taken, stale, foreign,
+                     malformed, counted(peers, "peer", "peers"));
 }
 
 bool Teleoperator::receive(std::int64_t now, std::span<const unsigned char> bytes,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "scan/sections.h"
 #include "scan/table_columns.h"
@@ -69,8 +70,8 @@ std::vector<Section> read_sections(const CsvTable& table, double unit, double di
       if (points.size() > 1 && points.front() == points.back()) points.pop_back();
       if (points.size() < 3) {
         fail_input(fmt::format("{}:{}", table.name, from.contour_line[name]),
-                   fmt::format("a contour has only {} different point{}", points.size(),
-                               points.size() == 1 ? "" : "s"),
+                   fmt::format("a contour has only {}",
+                               counted(points.size(), "different point", "different points")),
                    "a closed contour needs at least 3; are these points no sections?");
       }
       section.contours.push_back(std::move(points));

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # identify.sh BIN: what hs-identify refuses and how it says so; terms and windows.
 set -uo pipefail
-bin=$1
-. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-identify"
-. "$(dirname "${BASH_SOURCE[0]}")/identify_data.sh"
+bin=$(cd "$1" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/tool.sh" "$1/hs-identify"
+. "$here/identify_data.sh"
 common=(--body block.ply --rim-edge 0.3 --folds 0 -o out.csv)
 
 expect 0 'viscoelastic tau1 = 0.' data.csv "${common[@]}" --add viscoelastic --terms auto:3

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # interrupt.sh BIN: hs-identify ended by a signal, and gone on with.
 set -uo pipefail
-bin=$1
-. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-identify"
-. "$(dirname "${BASH_SOURCE[0]}")/identify_data.sh"
+bin=$(cd "$1" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/tool.sh" "$1/hs-identify"
+. "$here/identify_data.sh"
 common=(--body block.ply --rim-edge 0.3 --folds 0)
 # A search of many starts takes long; what comes before it is in the cache.
 "$tool" -q data.csv "${common[@]}" -o m0.csv || complain 'the elastic model is identified'

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # library.sh BIN: hs-identify --library and hs-library.
 set -uo pipefail
-bin=$1
-. "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-identify"
-. "$(dirname "${BASH_SOURCE[0]}")/identify_data.sh"
+bin=$(cd "$1" && pwd)
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+. "$here/tool.sh" "$1/hs-identify"
+. "$here/identify_data.sh"
 common=(--body block.ply --rim-edge 0.3 --folds 0 --library lab.db)
 
 expect 0 'lab.db: it has no entry yet' data.csv "${common[@]}" --material liver --object seven \
@@ -28,6 +29,11 @@ cp data.csv text.db
 expect 3 'text.db: this is no model library' data.csv "${common[@]/lab.db/text.db}" -o no.csv
 mkdir folder.db
 expect 5 'folder.db' data.csv "${common[@]/lab.db/folder.db}" -o no.csv
+expect 5 'none/lab.db' data.csv "${common[@]/lab.db/none/lab.db}" -o no.csv
+# A run that fails makes none.
+sed 's/,0\.03,/,0.3,/' data.csv >off.csv
+expect 3 'off the surface' off.csv "${common[@]/lab.db/new.db}" -o no.csv
+[[ ! -e new.db ]] || complain 'a run that fails leaves an empty library'
 # A model that cannot be written is not stored.
 expect 5 'none/m.csv' data.csv "${common[@]}" -q -o none/m.csv
 [[ ! -e no.csv ]] || complain 'a refused run leaves nothing behind'

@@ -2,7 +2,7 @@
 # pipeline.sh BIN: the whole pipeline on the shipped phantom names the hidden effect, adds it, and finds
 # nothing missing after that; the phantom without it lacks nothing.
 set -euo pipefail
-bin=$1
+bin=$(cd "$1" && pwd)
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT

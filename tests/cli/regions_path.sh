@@ -2,7 +2,7 @@
 # regions_path.sh BIN: from a scan and presses on a body of two materials to its regions, their model
 # and its forces: hs-identify --locations, hs-cluster, hs-identify --boundary, hs-simulate, hs-compare.
 set -uo pipefail
-bin=$1
+bin=$(cd "$1" && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-cluster"
 export XDG_CACHE_HOME=$work/cache PATH=$bin:$PATH
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # scan2ply.sh BIN: what hs-scan2ply prints, writes and returns, for every kind of input.
 set -uo pipefail
-bin=$1
+bin=$(cd "$1" && pwd)
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 example=$root/share/examples/robot
 . "$root/tests/cli/tool.sh" "$bin/hs-scan2ply"

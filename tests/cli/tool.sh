@@ -1,6 +1,6 @@
 # Shared by the tests of single tools; sourced as `. tool.sh BIN/TOOL`. Goes to an empty folder of its
 # own and counts in `failures`.
-tool=$1
+tool=$(realpath "$1")
 name=${tool##*/}
 work=$(mktemp -d)
 trap '[[ $BASHPID != "$$" ]] || rm -rf "$work"' EXIT # not in a child that is killed early

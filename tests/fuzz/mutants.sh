@@ -21,8 +21,8 @@ mkdir -p "$folder/examples" && cd "$folder/examples" || exit 5
 folder=$(cd .. && pwd)
 export XDG_CACHE_HOME=$folder/cache
 
-pcd() { # KIND: the head of 75 points
-  printf 'VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 75\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 75\nDATA %s\n' "$1"
+pcd() { # KIND: the head of 80 points
+  printf 'VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 80\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 80\nDATA %s\n' "$1"
 }
 # The valid files.
 prepare() {
@@ -47,7 +47,7 @@ prepare() {
     for format in vtu gmsh calculix; do
       "$bin/hs-export" -q elastic.csv --body body.ply --format $format -o body.$format || return
     done &&
-    awk 'BEGIN { srand(3); print "x,y,z"; for (i = 0; i < 1500; ++i) { f = int(3 * rand()); a = rand(); b = rand(); s = rand() < 0.5
+    awk 'BEGIN { srand(3); print "x,y,z"; for (i = 0; i < 400; ++i) { f = int(3 * rand()); a = rand(); b = rand(); s = rand() < 0.5
       x = f == 0 ? s : a; y = f == 1 ? s : f == 0 ? a : b; z = f == 2 ? s : b
       printf "%.4f,%.4f,%.4f\n", 0.06 * x, 0.05 * y, 0.04 * z } }' >scan.csv &&
     "$bin/hs-scan2ply" -q scan.csv -o points.ply &&
@@ -60,8 +60,8 @@ prepare() {
     printf 'name,body,data,effects,options,common_options\na,body.ply,data.csv,elastic,--folds 0,--rim-edge 0.5\nb,body.ply,data.csv,elastic viscoelastic,,\n' >manifest.csv &&
     awk 'BEGIN { print "q1,q2,q3,q4,q5,q6,d"
       for (i = 0; i < 20; ++i) printf "%.2f,%.2f,-0.3,0.1,0.2,0,%.3f\n", 0.02 * (i % 5), 0.1 + 0.02 * int(i / 5), 0.1 + 0.001 * (i % 3) }' >joints.csv &&
-    pcd ascii >text.pcd && awk 'NR % 20 == 2 { gsub(",", " "); print }' scan.csv >>text.pcd &&
-    pcd binary >binary.pcd && awk 'NR % 20 == 2 { gsub(",", " "); print }' scan.csv | perl -ne 'print pack("f<3", split)' >>binary.pcd &&
+    pcd ascii >text.pcd && awk 'NR % 5 == 2 { gsub(",", " "); print }' scan.csv >>text.pcd &&
+    pcd binary >binary.pcd && awk 'NR % 5 == 2 { gsub(",", " "); print }' scan.csv | perl -ne 'print pack("f<3", split)' >>binary.pcd &&
     cp "$root/share/examples/robot/arm.urdf" "$cases"/volume/*.n* "$cases"/mesh/t1.gmsh41 "$cases"/records/press "$cases"/motion/press.csv . &&
     touch ready
 }
