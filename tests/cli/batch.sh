@@ -109,6 +109,11 @@ sed 's/killed/whole/g' killed/summary.csv | cmp - whole/summary.csv || complain 
 grep -q 'all.csv' killed/overview.html && grep -q '</html>' killed/overview.html || complain 'there is an overview'
 ! grep -q '"it' killed/overview.html || complain 'names are escaped'
 
+# The folder may be named like a target, and JUnit's XML goes where JUNIT says.
+printf 'name,body,data,options,common_options\none,box.ply,8000.csv,--folds 0,--rim-edge 0.3\n' >single.csv
+batch batch single.csv JUNIT=single.xml
+((code == 0)) && ! grep -q warning err && grep -q 'tests="1" failures="0"' single.xml || complain 'OUT=batch JUNIT=...'
+
 # What was interrupted is no failure of the recording, what did not converge is one.
 mkdir fake
 printf 'name,body,data\none,box.ply,8000.csv\n' >one.csv
