@@ -123,7 +123,8 @@ double quantile(std::vector<double> values, double q) {
   return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-void changes(const PreparedBody& truth, const PreparedBody& known, int draws) {
+void changes(const PreparedBody& truth, const PreparedBody& known, int draws,
+             const std::string& only) {
   fmt::print(
       "errors: over 4 s from 1 s after the update on, over the former one; medians and worst\n"
       "change    noticed  named   updated after    error       <1.3  at equal    <1.3  from the   "
@@ -132,6 +133,7 @@ void changes(const PreparedBody& truth, const PreparedBody& known, int draws) {
       " "
       "            truth       [N]\n");
   for (const Change change : {Change::kMoved, Change::kMaterial, Change::kSensor, Change::kGone}) {
+    if (!only.empty() && only != change_name(change)) continue;
     std::vector<Draw> all;
     for (int i = 0; i < draws; ++i)
       all.push_back(trial(truth, known, change, static_cast<std::uint64_t>(i + 1)));
@@ -191,5 +193,5 @@ int main(int argc, char** argv) {
     hours(*truth, *known, std::atof(argv[2]),
           argc > 3 ? static_cast<std::uint64_t>(std::atoi(argv[3])) : 1);
   else
-    changes(*truth, *known, argc > 1 ? std::atoi(argv[1]) : 10);
+    changes(*truth, *known, argc > 1 ? std::atoi(argv[1]) : 10, argc > 2 ? argv[2] : "");
 }

@@ -1,61 +1,17 @@
 #include "realtime/corrected_model.h"
 
 #include <algorithm>
-#include <cmath>
-
-#include "realtime/insert_vertex.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kApart = 1e-3;   // points nearer to a known one than this tell nothing [m]
+// From so far on the offset is that of the place that the tool comes to: faces on which points far
+// away lie nearest are others, seldom ones beside an edge when they are inside.
+constexpr double kNear = 0.002;   // [m]
 constexpr double kInside = 1e-6;  // [m]
 constexpr int kTries = 8;
-constexpr std::size_t kMostSeen = 400;  // then every new one takes the place of the oldest
 
 }  // namespace
-
-void SurfaceOffsets::add(const Vec3& contact) {
-  for (const auto& [point, distance] : seen_)
-    if ((point - contact).norm() < kApart) return;
-  add(contact, surface_->at(contact).distance);
-}
-
-void SurfaceOffsets::add(const Vec3& place, double offset) {
-  if (seen_.size() == kMostSeen) seen_.erase(seen_.begin());
-  seen_.emplace_back(place, offset);
-}
-
-double SurfaceOffsets::interpolated(const Vec3& place, std::size_t without) const {
-  double sum = 0, weights = 0;
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    if (i == without) continue;
-    const double squared = (seen_[i].first - place).squaredNorm() + kApart * kApart;
-    const double weight = 1 / (squared * std::sqrt(squared));
-    sum += weight * seen_[i].second;
-    weights += weight;
-  }
-  return weights > 0 ? sum / weights : 0;
-}
-
-double SurfaceOffsets::at(const Vec3& point, Vec3& normal) const {
-  const SurfaceSide side = surface_->at(point);
-  const Surface& surface = surface_->surface();
-  const Triangle& corner = surface.faces[side.face];
-  const Vec3 weight = corner_weights(side.point, surface.vertices[corner[0]],
-                                     surface.vertices[corner[1]], surface.vertices[corner[2]]);
-  normal.setZero();  // without steps from face to face
-  for (int k = 0; k < 3; ++k) normal += weight[k] * surface_->vertex_normal(corner[k]);
-  normal.normalize();
-  return interpolated(side.point, seen_.size());
-}
-
-double SurfaceOffsets::uncertainty() const {
-  double squares = 0;
-  for (std::size_t i = 0; i < seen_.size(); ++i)
-    squares += std::pow(seen_[i].second - interpolated(seen_[i].first, i), 2);
-  return seen_.empty() ? 0 : std::sqrt(squares / static_cast<double>(seen_.size()));
-}
 
 CorrectedModel::CorrectedModel(const PreparedBody& body, const SurfaceOffsets& offsets)
     : body_(body), loop_(body), offsets_(offsets) {}
@@ -66,12 +22,14 @@ Vec3 CorrectedModel::step(const MotionLine& line, bool fresh, const Correction& 
     if (fresh) loop_.begin(line.point);
     return c.stiffness * loop_.press(line.t, line.u, line.in_air) + c.bias;
   }
-  if (fresh) {
+  Vec3 tool = line.point + line.u - c.shift;
+  const ToolState& last = loop_.tool();
+  if (fresh || (!last.touching() && last.surface.distance < kNear)) {
     Vec3 normal;
-    const double offset = offsets_.at(line.point - c.shift, normal) + gap;
+    const double offset = offsets_.at(tool, normal) + gap;
     offset_ = offset * normal;
   }
-  const Vec3 tool = line.point + line.u - c.shift - offset_;
+  tool -= offset_;
   if (!fresh) touch_between(line.t, tool);
   last_t_ = line.t;
   last_tool_ = tool;

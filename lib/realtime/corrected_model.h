@@ -1,11 +1,11 @@
 // The forces of a model whose body has changed since: corrected, not solved again.
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "realtime/force_loop.h"
 #include "realtime/motion_source.h"
+#include "realtime/surface_offsets.h"
 
 namespace hapsim {
 
@@ -15,26 +15,6 @@ struct Correction {
   Vec3 bias = Vec3::Zero();   // of the sensor [N]
   Vec3 shift = Vec3::Zero();  // of the body [m]
   bool gone = false;
-};
-
-// How far the real surface lies off the model's: contact points are on the real one, the model's
-// mesh cuts corners between its nodes. By inverse cubes of the distances from the points seen.
-class SurfaceOffsets {
- public:
-  explicit SurfaceOffsets(const SignedDistance& surface) : surface_(&surface) {}
-  void add(const Vec3& contact);
-  // A place near the surface where the offset is known otherwise.
-  void add(const Vec3& place, double offset);
-  // Real less model's, along the model's outward normal there [m].
-  double at(const Vec3& point, Vec3& normal) const;
-  // Root mean square by which a contact point lies off where the others put it [m].
-  double uncertainty() const;
-
- private:
-  double interpolated(const Vec3& place, std::size_t without) const;
-
-  const SignedDistance* surface_;
-  std::vector<std::pair<Vec3, double>> seen_;  // point and its signed distance
 };
 
 class CorrectedModel {
@@ -55,7 +35,7 @@ class CorrectedModel {
   const SurfaceOffsets& offsets_;
   double last_t_ = 0;
   Vec3 last_tool_ = Vec3::Zero();
-  Vec3 offset_ = Vec3::Zero();  // of this press
+  Vec3 offset_ = Vec3::Zero();  // where this press touches
 };
 
 // A row of the stream, as explanations of a change are tried on it.

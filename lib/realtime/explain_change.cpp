@@ -69,7 +69,7 @@ std::string change_name(Change change) {
 
 Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
                            const std::vector<WatchedSample>& window, const Correction& known,
-                           double usual_share) {
+                           const UsualStiffness& usual) {
   Correction there = known;  // what was gone may be back
   there.gone = false;
   std::vector<Hypothesis> all;
@@ -82,10 +82,11 @@ Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offse
   c = known;
   c.gone = true;
   all.push_back({Change::kGone, c, 0});
-  const ShiftFit moved = fit_shift(body, offsets, window, there, usual_share, true);
+  const ShiftFit moved = fit_shift(body, offsets, window, there, there.shift, usual, true);
   c = there;
   c.shift = moved.shift;
-  all.push_back({Change::kMoved, c, 3, moved});
+  c.stiffness = moved.stiffness;
+  all.push_back({Change::kMoved, c, 4, moved});
 
   const double n =
       3 * static_cast<double>(std::count_if(window.begin(), window.end(),

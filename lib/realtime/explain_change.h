@@ -4,6 +4,7 @@
 #include <string>
 
 #include "realtime/corrected_model.h"
+#include "realtime/usual_stiffness.h"
 
 namespace hapsim {
 
@@ -26,6 +27,6 @@ struct Explanation {
 // leaves too much.
 Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
                            const std::vector<WatchedSample>& window, const Correction& known,
-                           double usual_share);
+                           const UsualStiffness& usual);
 
 }  // namespace hapsim

@@ -53,12 +53,13 @@ std::vector<Start> search(const PreparedBody& body, const SurfaceOffsets& offset
   return best;
 }
 
-// Unknowns: the shift, then gaps of all presses, then what each press's force is off, relative to
-// its size; both in their usual sizes.
+// Unknowns: the shift, then how far the stiffness of all is off, then gaps of all presses, then
+// what each press's force is off, relative to its size; all but the shift in their usual sizes.
 class ShiftResiduals {
  public:
   ShiftResiduals(const PreparedBody& body, const SurfaceOffsets& offsets,
-                 const std::vector<WatchedSample>& window, const Correction& from, double share)
+                 const std::vector<WatchedSample>& window, const Correction& from,
+                 const UsualStiffness& usual)
       : body_(body),
         offsets_(offsets),
         window_(window),
@@ -66,13 +67,18 @@ class ShiftResiduals {
         press_(press_indices(window)),
         presses_(static_cast<Eigen::Index>(press_.back()) + 1),
         gap_(std::max(offsets.uncertainty(), kLeastGap)),
-        share_(std::max(share, kLeastShare)) {}
+        factor_(usual.factor),
+        factor_error_(std::max(usual.error, kLeastShare)),
+        share_(std::max(usual.share / std::sqrt(3.0), kLeastShare)) {}
 
-  Eigen::Index unknowns() const { return 3 + 4 * presses_; }
+  Eigen::Index unknowns() const { return kFirst + 4 * presses_; }
 
   std::vector<double> gaps(const Eigen::VectorXd& x) const {
-    const Eigen::VectorXd g = gap_ * x.segment(3, presses_);
+    const Eigen::VectorXd g = gap_ * x.segment(kFirst, presses_);
     return {g.begin(), g.end()};
+  }
+  double stiffness(const Eigen::VectorXd& x) const {
+    return from_.stiffness * std::max(factor_ + factor_error_ * x[3], kLeastFactor);
   }
 
   void operator()(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) const {
@@ -84,24 +90,28 @@ class ShiftResiduals {
       J->col(k) = slope(x, r, kStep * Eigen::VectorXd::Unit(x.size(), k)) / kStep;
     // A gap of all presses at once: each has its own rows.
     Eigen::VectorXd all = Eigen::VectorXd::Zero(x.size());
-    all.segment(3, presses_).setConstant(kStep / gap_);
+    all.segment(kFirst, presses_).setConstant(kStep / gap_);
     const Eigen::VectorXd by_gap = slope(x, r, all) / (kStep / gap_);
     for (std::size_t i = 0; i < window_.size(); ++i) {
       const auto row = 3 * static_cast<Eigen::Index>(i);
       const auto press = static_cast<Eigen::Index>(press_[i]);
-      J->block<3, 1>(row, 3 + press) = by_gap.segment<3>(row);
-      if (window_[i].counted)
-        J->block<3, 3>(row, 3 + presses_ + 3 * press)
-            .diagonal()
-            .setConstant(-share_ * f[i].norm() / window_[i].size);
+      J->block<3, 1>(row, kFirst + press) = by_gap.segment<3>(row);
+      if (!window_[i].counted) continue;
+      J->block<3, 1>(row, 3) =
+          -factor_error_ * from_.stiffness / stiffness(x) * f[i] / window_[i].size;
+      J->block<3, 3>(row, kFirst + presses_ + 3 * press)
+          .diagonal()
+          .setConstant(-share_ * f[i].norm() / window_[i].size);
     }
-    J->bottomRightCorner(4 * presses_, 4 * presses_).setIdentity();
+    J->bottomRightCorner(1 + 4 * presses_, 1 + 4 * presses_).setIdentity();
   }
 
  private:
   static constexpr double kStep = 2e-5;      // [m]
   static constexpr double kLeastGap = 1e-5;  // [m]
   static constexpr double kLeastShare = 1e-3;
+  static constexpr double kLeastFactor = 0.1;
+  static constexpr Eigen::Index kFirst = 4;  // of the presses' own
 
   // Change of r by a step. A sample at which the tool comes free jumps in one direction or the
   // other: the smaller change of the two is the slope.
@@ -119,19 +129,20 @@ class ShiftResiduals {
   Eigen::VectorXd at(const Eigen::VectorXd& x, std::vector<Vec3>* f) const {
     Correction c = from_;
     c.shift = x.head<3>();
+    c.stiffness = stiffness(x);
     std::vector<Vec3> forces = corrected_forces(body_, offsets_, window_, c, gaps(x));
     const auto rows = 3 * static_cast<Eigen::Index>(window_.size());
     Eigen::VectorXd out = Eigen::VectorXd::Zero(rows + unknowns());
     for (std::size_t i = 0; i < window_.size(); ++i) {
       forces[i] -= c.bias;
       const Vec3 off = share_ * forces[i].norm() *
-                       x.segment<3>(3 + presses_ + 3 * static_cast<Eigen::Index>(press_[i]));
+                       x.segment<3>(kFirst + presses_ + 3 * static_cast<Eigen::Index>(press_[i]));
       if (window_[i].counted)
         out.segment<3>(3 * static_cast<Eigen::Index>(i)) =
             (window_[i].measured - c.bias - forces[i] - off) / window_[i].size;
     }
     out.segment<3>(rows) = x.head<3>() / kUsualShift;
-    out.tail(4 * presses_) = x.tail(4 * presses_);
+    out.tail(1 + 4 * presses_) = x.tail(1 + 4 * presses_);
     if (f != nullptr) *f = std::move(forces);
     return out;
   }
@@ -142,16 +153,19 @@ class ShiftResiduals {
   Correction from_;
   std::vector<std::size_t> press_;
   Eigen::Index presses_;
-  double gap_, share_;
+  double gap_, factor_, factor_error_, share_;
 };
 
 }  // namespace
 
 ShiftFit fit_shift(const PreparedBody& body, const SurfaceOffsets& offsets,
-                   const std::vector<WatchedSample>& window, const Correction& from,
-                   double usual_share, bool everywhere) {
-  const ShiftResiduals residuals(body, offsets, window, from, usual_share);
-  std::vector<Start> starts{{0, from.shift}};
+                   const std::vector<WatchedSample>& window, const Correction& known,
+                   const Vec3& about, const UsualStiffness& usual, bool everywhere) {
+  const ShiftResiduals residuals(body, offsets, window, known, usual);
+  Correction from = known;
+  from.shift = about;
+  from.stiffness *= usual.factor;
+  std::vector<Start> starts{{0, about}};
   if (everywhere) starts = search(body, offsets, window, from);
   ShiftFit best;
   best.sum_of_squares = 1e300;
@@ -174,15 +188,16 @@ ShiftFit fit_shift(const PreparedBody& body, const SurfaceOffsets& offsets,
     found = std::move(fit);
   }
   best.shift = found.x.head<3>();
+  best.stiffness = residuals.stiffness(found.x);
   best.gaps = residuals.gaps(found.x);
-  const Eigen::Matrix3d covariance = found.covariance.topLeftCorner<3, 3>();
-  best.std_error = covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  const Eigen::Matrix4d covariance = found.covariance.topLeftCorner<4, 4>();
+  best.std_error = covariance.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
   Eigen::VectorXd r;
   Eigen::MatrixXd J;
   residuals(found.x, r, &J);
-  const Eigen::Matrix3d seen =
-      J.leftCols<3>().topRows(3 * static_cast<Eigen::Index>(window.size())).transpose() *
-      J.leftCols<3>().topRows(3 * static_cast<Eigen::Index>(window.size()));
+  const Eigen::Matrix4d seen =
+      J.leftCols<4>().topRows(3 * static_cast<Eigen::Index>(window.size())).transpose() *
+      J.leftCols<4>().topRows(3 * static_cast<Eigen::Index>(window.size()));
   best.force_error = std::sqrt(std::max(0.0, (seen * covariance).trace()) /
                                (3 * static_cast<double>(window.size())));
   return best;

@@ -13,8 +13,8 @@ constexpr double kPatience = 6;   // after the alarm at most [s]
 constexpr double kNextPress = 2;  // [s]
 constexpr int kPresses = 3;   // one press tells a shift along its normal alone, and not from a bias
 constexpr double kClear = 5;  // margin of an explanation by fewer presses
-constexpr int kLeastPresses = 6;     // from which an error can be stated
-constexpr double kKnown = 0.33;      // of the usual error may be the shift's
+constexpr int kLeastPresses = 4;     // from which an error can be stated
+constexpr double kKnown = 0.4;       // of the usual error may be the shift's
 constexpr double kThinned = 100;     // samples a second that a change is explained from
 constexpr int kSearchedPresses = 8;  // from so few on a shift is searched for everywhere
 
@@ -69,6 +69,8 @@ Vec3 ModelWatch::step(const MotionLine& line, const Vec3& measured) {
   kept_[count_++ % kept_.size()] = {line, measured, model};
   learned_ = learned_ || test_.learned();
   const bool refining = !events_.empty() && !events_.back().settled;
+  if (!refining)
+    factors_.add(line.press, press_begun_, model - correction_.bias, measured - correction_.bias);
   if (test_.add(model, measured, !line.in_air && model.norm() > 0) && alarm_ < 0 && !refining) {
     alarm_ = line.t;
     change_ = test_.since();
@@ -117,8 +119,8 @@ void ModelWatch::name() {
   const int told_by = presses(window);
   if (told_by == 0 && count_ < waits_until_ + kept_.size() / 2)
     return;  // the air alone tells less; wait for contact a while
-  const Explanation best =
-      explain_change(body_, known_offsets_, window, correction_, test_.share());
+  usual_ = factors_.usual(change_, test_.share());
+  const Explanation best = explain_change(body_, known_offsets_, window, correction_, usual_);
   const bool plain =
       (best.change == Change::kMaterial || best.change == Change::kGone) && best.margin > kClear;
   if (!plain && told_by < kPresses && kept(count_ - 1).line.t - alarm_ < kPatience) {
@@ -139,8 +141,8 @@ void ModelWatch::name() {
   event.settled = !options_.adapts || best.change != Change::kMoved;
   if (event.settled) event.updated = event.named;
   events_.push_back(event);
+  if (!event.settled) since_ = std::move(window), known_ = correction_;
   if (options_.adapts && best.change != Change::kUnexplained) take_over(best.correction, begin);
-  if (!event.settled) since_ = std::move(window);
   alarm_ = -1;
   test_.restart();
 }
@@ -155,6 +157,7 @@ void ModelWatch::take_over(const Correction& correction, std::size_t begin) {
     model_.step(kept(i).line, i == begin || kept(i).line.press != kept(i - 1).line.press,
                 correction_);
   share_ = 0;
+  factors_.clear();
 }
 
 // A press has ended.
@@ -165,10 +168,11 @@ void ModelWatch::refine() {
   while (!since_.empty() && since_.back().line.press == press_) since_.pop_back();
   append(begin, std::max(begin, change_), since_);
   event.presses = presses(since_);
-  const ShiftFit fit = fit_shift(body_, known_offsets_, since_, correction_, test_.share(),
+  const ShiftFit fit = fit_shift(body_, known_offsets_, since_, known_, correction_.shift, usual_,
                                  event.presses <= kSearchedPresses);
   Correction correction = correction_;
   correction.shift = fit.shift;
+  correction.stiffness = fit.stiffness;
   offsets_ = known_offsets_;
   const std::vector<std::size_t> press = press_indices(since_);
   for (std::size_t i = 0; i < since_.size(); ++i) {

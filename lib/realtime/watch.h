@@ -5,6 +5,7 @@
 
 #include "realtime/change_test.h"
 #include "realtime/explain_change.h"
+#include "realtime/usual_stiffness.h"
 
 namespace hapsim {
 
@@ -31,9 +32,9 @@ struct WatchEvent {
 // sequential test of the residuals raises an alarm, what changed is named from the samples since
 // and the model corrected. Three presses tell a moved body along their normals only, so its shift
 // is found anew after each further press, until kRefinedPresses of them, together with where the
-// surface there lies; then the test learns anew what is usual. Every correction takes over
-// gradually. Not real-time where it names or refines (some 50 ms, 150 at most, in that
-// step alone).
+// surface there lies and with the factor of the stiffness that the presses before have shown; then
+// the test learns anew what is usual. Every correction takes over gradually. Not real-time where it
+// names or refines (some 50 ms, 150 at most, in that step alone).
 class ModelWatch {
  public:
   static constexpr int kRefinedPresses = 15;
@@ -62,10 +63,13 @@ class ModelWatch {
   const PreparedBody& body_;
   WatchOptions options_;
   ChangeTest test_;
+  PressFactors factors_;
   SurfaceOffsets known_offsets_, offsets_;  // the latter with what a refined shift has shown
   CorrectedModel model_, before_;
   Correction correction_, old_;
-  double share_ = 1;  // of the new correction in the model's force
+  Correction known_;      // before the change that is refined
+  UsualStiffness usual_;  // then
+  double share_ = 1;      // of the new correction in the model's force
   std::int32_t press_ = 0;
   std::size_t press_begun_ = 0;      // its first sample
   std::vector<WatchedSample> kept_;  // ring

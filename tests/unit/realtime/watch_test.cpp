@@ -61,6 +61,7 @@ TEST(ModelWatch, NamesWhatHasChangedAndLearnsIt) {
       EXPECT_LT(seen.event.alarm, stream.when + 2);
       EXPECT_EQ(seen.event.change, change) << change_name(seen.event.change);
       EXPECT_GT(seen.event.updated, 0);
+      EXPECT_LT(seen.event.updated, stream.when + 8);  // presses
       EXPECT_LT(seen.error, 1.3);
       EXPECT_LT(seen.jump, 0.25) << "a jump in the force";
       const Correction& c = seen.event.correction;
