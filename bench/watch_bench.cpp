@@ -19,7 +19,8 @@ using namespace hapsim;
 constexpr double kFrom = 35, kSpread = 3;  // the change comes then [s]
 constexpr double kAfter = 1;               // after the update the error is asked for [s] ...
 constexpr double kSoon = 4;                // ... over so long [s]
-constexpr double kLater = 13, kEnd = 30;   // and again: shifts are refined no longer [s]
+constexpr double kEnough = 1.3, kBin = 0.25;
+constexpr double kLater = 13, kEnd = 30;  // and again: shifts are refined no longer [s]
 
 // Squared errors beside squared forces.
 class Errors {
@@ -27,6 +28,9 @@ class Errors {
   void add(const Vec3& residual, const Vec3& force) {
     const double r = residual.squaredNorm(), f = force.squaredNorm();
     n_ += 1, r_ += r, f_ += f, ff_ += f * f, rf_ += r * f;
+  }
+  void add(const Errors& other) {
+    n_ += other.n_, r_ += other.r_, f_ += other.f_, ff_ += other.ff_, rf_ += other.rf_;
   }
   double rms() const { return n_ > 0 ? std::sqrt(r_ / (3 * n_)) : 0; }
   // Over the error that `usual` ones, straight in the squared force, would have at these forces: a
@@ -48,6 +52,7 @@ struct Draw {
   Change called = Change::kNone;
   // Errors over the former one: as they are, and at equal force.
   double plain = 0, equal = 0;   // after the update
+  double below = 1e9;            // that it is below kEnough from then on, after the update [s]
   double named_equal = 0;        // after the name
   double refined = 0, told = 0;  // later; and with the truth
   double jump = 0;               // of the force within a millisecond while a model takes over [N]
@@ -77,6 +82,7 @@ Draw trial(const PreparedBody& truth, const PreparedBody& known, Change change,
   truth_told.shift = stream.after.shift;
   truth_told.gone = stream.after.gone;
   Errors usual, first, soon, later, best;
+  std::vector<Errors> bins(static_cast<std::size_t>(4 * kSoon / kBin));  // after the update
   Draw draw;
   int press = -1;
   Vec3 last = Vec3::Zero();
@@ -96,6 +102,8 @@ Draw trial(const PreparedBody& truth, const PreparedBody& known, Change change,
     const double since = t - e.named;
     if (since < 0.06) draw.jump = std::max(draw.jump, step);
     const double updated = e.updated < 0 ? 1e9 : t - e.updated;
+    if (updated >= 0 && updated < 4 * kSoon)
+      bins[static_cast<std::size_t>(updated / kBin)].add(f - model, f);
     if (updated >= kAfter && updated < kAfter + kSoon) first.add(f - model, f);
     if (since >= kAfter && since < kAfter + kSoon) soon.add(f - model, f), best.add(f - oracle, f);
     if (since >= kLater && since < kEnd) later.add(f - model, f);
@@ -109,6 +117,12 @@ Draw trial(const PreparedBody& truth, const PreparedBody& known, Change change,
     draw.updated = e.updated - stream.when;
     draw.shift_error = (e.correction.shift - stream.after.shift).norm();
     draw.stated_error = e.shift_error.norm();
+  }
+  const auto span = static_cast<std::size_t>(kSoon / kBin);
+  for (std::size_t b = 0; b + span <= bins.size() && draw.below > 1e8; ++b) {
+    Errors window;
+    for (std::size_t i = b; i < b + span; ++i) window.add(bins[i]);
+    if (window.rms() < kEnough * usual.rms()) draw.below = kBin * static_cast<double>(b);
   }
   draw.plain = first.rms() / usual.rms();
   draw.equal = first.over(usual);
@@ -126,12 +140,15 @@ double quantile(std::vector<double> values, double q) {
 void changes(const PreparedBody& truth, const PreparedBody& known, int draws,
              const std::string& only) {
   fmt::print(
-      "errors: over 4 s from 1 s after the update on, over the former one; medians and worst\n"
-      "change    noticed  named   updated after    error       <1.3  at equal    <1.3  from the   "
-      "later       told the    jump\n"
-      "          in 2 s   rightly [s]                                force             name on     "
-      " "
-      "            truth       [N]\n");
+      "times [s]: from the change until it is noticed and until the model is updated, from there "
+      "until the\n"
+      "error over the next 4 s is below 1.3 times the former; errors: over 4 s from 1 s after the "
+      "update on,\n"
+      "over the former; medians and worst\n"
+      "change    noticed         named   updated     below       error       <1.3  at equal    "
+      "<1.3  from the   later       told the    jump\n"
+      "          in 2 s after    rightly after       1.3                           force           "
+      "    name on                truth       [N]\n");
   for (const Change change : {Change::kMoved, Change::kMaterial, Change::kSensor, Change::kGone}) {
     if (!only.empty() && only != change_name(change)) continue;
     std::vector<Draw> all;
@@ -148,14 +165,14 @@ void changes(const PreparedBody& truth, const PreparedBody& known, int draws,
                          quantile(values(member), 1));
     };
     const auto of = [&](long n) { return fmt::format("{}/{}", n, draws); };
-    fmt::print("{:9} {:8} {:7} {:16} {:11} {:5} {:11} {:5} {:12} {:11} {:11} {:.2f}\n",
+    fmt::print("{:9} {:6} {:9} {:7} {:11} {:9} {:11} {:5} {:11} {:5} {:10} {:11} {:11} {:.2f}\n",
                change_name(change),
                of(count([](const Draw& d) { return !d.false_alarm && d.noticed < 2; })),
-               of(count([&](const Draw& d) { return d.called == change; })), pair(&Draw::updated),
-               pair(&Draw::plain), of(count([](const Draw& d) { return d.plain < 1.3; })),
-               pair(&Draw::equal), of(count([](const Draw& d) { return d.equal < 1.3; })),
-               pair(&Draw::named_equal), pair(&Draw::refined), pair(&Draw::told),
-               quantile(values(&Draw::jump), 1));
+               pair(&Draw::noticed), of(count([&](const Draw& d) { return d.called == change; })),
+               pair(&Draw::updated), pair(&Draw::below), pair(&Draw::plain),
+               of(count([](const Draw& d) { return d.plain < 1.3; })), pair(&Draw::equal),
+               of(count([](const Draw& d) { return d.equal < 1.3; })), pair(&Draw::named_equal),
+               pair(&Draw::refined), pair(&Draw::told), quantile(values(&Draw::jump), 1));
     if (change == Change::kMoved)
       fmt::print(
           "          (of the shift's 5 mm {:.1f} mm off at the end, {:.1f} at most; stated "

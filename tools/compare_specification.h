@@ -116,13 +116,14 @@ inline ToolSpec compare_specification() {
       {"Changes (--events)",
        {{"begun, alarm, named", "when it changed, was noticed and was named [s]"},
         {"change", "moved, gone, material, sensor or unexplained"},
-        {"stiffness", "factor of all moduli from now on"},
+        {"stiffness",
+         "factor of all moduli from now on; of a moved body as the presses before have shown it"},
         {"bias_x ...", "of the sensor [N]"},
         {"shift_x ...", "of the body [m]"},
         {"error", "left by the correction [N]"},
         {"shift_error_x ...", "standard error of the shift [m]: large where no press tells"},
         {"presses", "that the correction rests on; a shift is refined with each"},
-        {"updated", "when it was known to a third of the usual error [s]"}}}};
+        {"updated", "when it was known to 0.4 of the usual error [s]"}}}};
   spec.examples = {
       {"hs-compare data.csv --simulated forces.csv -o residuals.csv", "Residuals and a summary."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated - "

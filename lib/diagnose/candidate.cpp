@@ -226,35 +226,11 @@ Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& can
   return y;
 }
 
-// 1 + 2 x the sum of the autocorrelations up to where they fade.
 double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& w) {
-  constexpr std::size_t kMost = 400;
-  constexpr double kFaded = 0.05;
-  const double square = residual.squaredNorm();
-  double time = 1;
-  for (std::size_t lag = 1; lag < kMost && square > 0; ++lag) {
-    double product = 0;
-    Eigen::Index at = 0;
-    for (const Episode& e : w.dataset.episodes) {
-      const auto n = static_cast<Eigen::Index>(e.rows.size());
-      const auto shift = static_cast<Eigen::Index>(lag);
-      if (n > shift)
-        product += residual.segment(3 * (at + shift), 3 * (n - shift))
-                       .dot(residual.segment(3 * at, 3 * (n - shift)));
-      at += n;
-    }
-    if (product < kFaded * square) break;
-    time += 2 * product / square;
-  }
-  return time;
-}
-
-double independent_samples(const Eigen::VectorXd& residual, double memory) {
-  const Eigen::Map<const Eigen::Matrix3Xd> r(residual.data(), 3, residual.size() / 3);
-  const Eigen::Array3d power = r.array().square().rowwise().sum();
-  const double squares = power.square().sum();
-  const double components = squares > 0 ? power.sum() * power.sum() / squares : 3;
-  return components * static_cast<double>(residual.size() / 3) / memory;
+  std::vector<Eigen::Index> lengths;
+  for (const Episode& e : w.dataset.episodes)
+    lengths.push_back(static_cast<Eigen::Index>(e.rows.size()));
+  return autocorrelation_time(residual, lengths);
 }
 
 Measured measure(const Candidate& candidate, const Baseline& base, const Yardstick& y,

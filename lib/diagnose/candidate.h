@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "diagnose/diagnose.h"
+#include "estimate/information.h"
 #include "estimate/sign_flip.h"
 
 namespace hapsim {
@@ -66,12 +67,8 @@ void prefer_sites(Candidate& candidate, const Baseline& baseline, Workspace& wor
                   const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
                          const Workspace& workspace);
-// Samples per independent one: integrated autocorrelation time over all presses and components
-// (Sokal, 1989).
+// Over all presses.
 double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& workspace);
-// Independent values in residuals of that time: as many fewer as the misfit stands in some of the
-// components alone.
-double independent_samples(const Eigen::VectorXd& residual, double memory);
 Measured measure(const Candidate& candidate, const Baseline& baseline, const Yardstick& yardstick,
                  const Workspace& workspace);
 

@@ -89,8 +89,7 @@ double EffectSets::criterion(const EffectSet& set) const {
           measured_forces(w_.dataset, all_episodes(w_.dataset)),
           std::max(w_.noise.value, least_->fitted.rmse), w_.floor)
       .whiten(r);
-  return r.squaredNorm() / memory_ +
-         static_cast<double>(set.parameters) * std::log(std::max(independent_, 2.0));
+  return information_criterion(r.squaredNorm(), memory_, independent_, set.parameters);
 }
 
 // One press cannot tell a sensor that is not straight from a material that stiffens, but a sensor

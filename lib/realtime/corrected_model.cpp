@@ -1,6 +1,7 @@
 #include "realtime/corrected_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hapsim {
 namespace {
@@ -81,6 +82,13 @@ std::vector<Vec3> corrected_forces(const PreparedBody& body, const SurfaceOffset
     result.push_back(model.step(window[i].line, i == 0 || press[i] != press[i - 1], c,
                                 gaps.empty() ? 0 : gaps[press[i]]));
   return result;
+}
+
+double error_of(const std::vector<WatchedSample>& window, const std::vector<Vec3>& forces) {
+  double n = 0, squares = 0;
+  for (std::size_t i = 0; i < window.size(); ++i)
+    if (window[i].counted) squares += (window[i].measured - forces[i]).squaredNorm(), n += 3;
+  return n > 0 ? std::sqrt(squares / n) : 0;
 }
 
 double chi_square(const std::vector<WatchedSample>& window, const std::vector<Vec3>& forces) {

@@ -52,7 +52,8 @@ std::vector<Vec3> corrected_forces(const PreparedBody& body, const SurfaceOffset
                                    const std::vector<double>& gaps = {});
 // The press, counted from 0, of each sample.
 std::vector<std::size_t> press_indices(const std::vector<WatchedSample>& window);
-// Of the counted samples.
+// Of the counted samples; error_of: root mean square of a residual component [N].
+double error_of(const std::vector<WatchedSample>& window, const std::vector<Vec3>& forces);
 double chi_square(const std::vector<WatchedSample>& window, const std::vector<Vec3>& forces);
 
 }  // namespace hapsim

@@ -3,20 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/information.h"
 #include "realtime/shift_fit.h"
 
 namespace hapsim {
 namespace {
 
 constexpr double kNothing = 0.05;  // a body that has lost all but this is gone
-constexpr double kTogether = 20;   // samples that err together
 constexpr double kExplained = 9;   // chi-square a component above which nothing explains
 
 struct Hypothesis {
   Change change;
   Correction correction;
-  int parameters;
+  std::size_t parameters;
   ShiftFit fit = {};
+  Eigen::VectorXd residual = {};  // of the counted samples, over the usual size
 };
 
 // Factor of all moduli, in closed form; false where too little is left.
@@ -46,6 +47,26 @@ void fit_bias(const std::vector<WatchedSample>& window, const std::vector<Vec3>&
     weights += weight;
   }
   c.bias += mean / weights;
+}
+
+// Of the presses, as far as they are counted.
+std::vector<Eigen::Index> counted_lengths(const std::vector<WatchedSample>& window) {
+  const std::vector<std::size_t> press = press_indices(window);
+  std::vector<Eigen::Index> lengths(press.back() + 1, 0);
+  for (std::size_t i = 0; i < window.size(); ++i)
+    if (window[i].counted) ++lengths[press[i]];
+  return lengths;
+}
+
+Eigen::VectorXd counted_residuals(const std::vector<WatchedSample>& window,
+                                  const std::vector<Vec3>& forces) {
+  Eigen::VectorXd r(3 * static_cast<Eigen::Index>(window.size()));
+  Eigen::Index n = 0;
+  for (std::size_t i = 0; i < window.size(); ++i)
+    if (window[i].counted)
+      r.segment<3>(3 * n++) = (window[i].measured - forces[i]) / window[i].size;
+  r.conservativeResize(3 * n);
+  return r;
 }
 
 }  // namespace
@@ -88,30 +109,33 @@ Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offse
   c.stiffness = moved.stiffness;
   all.push_back({Change::kMoved, c, 4, moved});
 
-  const double n =
-      3 * static_cast<double>(std::count_if(window.begin(), window.end(),
-                                            [](const WatchedSample& s) { return s.counted; }));
-  Explanation best;
-  double least = 1e300, next = 1e300;
-  for (const Hypothesis& h : all) {
-    const std::vector<Vec3> forces = corrected_forces(body, offsets, window, h.correction);
-    const double x = chi_square(window, forces);
-    // The log of the mean square, so that an error of the model that is common to all does not
-    // decide by its size.
-    const double criterion = n * std::log(x / n) + h.parameters * std::log(n);
-    if (criterion >= least) {
-      next = std::min(next, criterion);
-      continue;
-    }
-    next = least;
-    least = criterion;
-    best = {h.change, h.correction, h.fit.std_error, h.fit.force_error, x / n};
-    double squares = 0;
-    for (std::size_t i = 0; i < window.size(); ++i)
-      if (window[i].counted) squares += (window[i].measured - forces[i]).squaredNorm();
-    best.error = std::sqrt(squares / n);
+  const std::vector<Eigen::Index> lengths = counted_lengths(window);
+  const Hypothesis* least = nullptr;
+  for (Hypothesis& h : all) {
+    h.residual = counted_residuals(window, corrected_forces(body, offsets, window, h.correction));
+    if (least == nullptr || h.residual.squaredNorm() < least->residual.squaredNorm()) least = &h;
   }
-  best.margin = (next - least) / kTogether;
+  // As in the diagnosis of few presses: what no hypothesis explains must not decide by its size,
+  // and neighbouring samples err together.
+  const auto n = static_cast<double>(least->residual.size());
+  const double scale = std::max(1.0, least->residual.squaredNorm() / n);
+  const double memory = autocorrelation_time(least->residual, lengths);
+  const double independent = independent_samples(least->residual, memory);
+  const Hypothesis* believed = nullptr;
+  double first = 1e300;
+  for (const Hypothesis& h : all) {
+    const double criterion =
+        information_criterion(h.residual.squaredNorm() / scale, memory, independent, h.parameters);
+    if (criterion < first) first = criterion, believed = &h;
+  }
+  const double squares = believed->residual.squaredNorm();
+  Explanation best{believed->change, believed->correction, believed->fit.std_error,
+                   believed->fit.force_error, squares / n};
+  best.margin = 1e300;
+  for (const Hypothesis& h : all)
+    if (&h != believed)
+      best.margin = std::min(best.margin, (h.residual.squaredNorm() - squares) / scale / memory);
+  best.error = error_of(window, corrected_forces(body, offsets, window, best.correction));
   if (best.chi >= kExplained) best.change = Change::kUnexplained;
   return best;
 }

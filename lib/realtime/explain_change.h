@@ -17,14 +17,16 @@ struct Explanation {
   Vec3 shift_error = Vec3::Zero();  // of a body that has moved: standard error [m]
   double force_error = 0;           // that this leaves, see ShiftFit
   double chi = 0;                   // of a residual component
-  double margin = 0;                // of the criterion to the next best hypothesis
-  double error = 0;                 // root mean square of a residual component [N]
+  double margin = 0;  // of chi-square, by independent samples, to the next best hypothesis
+  double error = 0;   // root mean square of a residual component [N]
 };
 
 // The samples since a change, explained by each hypothesis: body moved, gone, all moduli changed,
-// sensor's zero changed, from what was `known` before; the one with the least chi-square plus log n
-// a parameter is believed, as in the diagnosis of whole recordings. kUnexplained where even that
-// leaves too much.
+// sensor's zero changed, from what was `known` before; the one with the least information criterion
+// is believed. The statistics are those of the diagnosis of few presses (estimate/information.h).
+// What is tried is not: the catalogue's effects are solved for with finite elements and over all
+// their starts, in seconds; here a prepared body is corrected in place, in tens of milliseconds,
+// and between two presses. kUnexplained where even the best leaves too much.
 Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
                            const std::vector<WatchedSample>& window, const Correction& known,
                            const UsualStiffness& usual);

@@ -191,11 +191,8 @@ void ModelWatch::refine() {
 }
 
 void ModelWatch::settle() {
-  const std::vector<Vec3> forces = corrected_forces(body_, offsets_, since_, correction_);
-  double n = 0, squares = 0;
-  for (std::size_t i = 0; i < since_.size(); ++i)
-    if (since_[i].counted) squares += (since_[i].measured - forces[i]).squaredNorm(), n += 3;
-  events_.back().error_with = std::sqrt(squares / n);
+  events_.back().error_with =
+      error_of(since_, corrected_forces(body_, offsets_, since_, correction_));
   events_.back().settled = true;
   if (events_.back().updated < 0) events_.back().updated = kept(count_ - 1).line.t;
   since_.clear();
