@@ -19,6 +19,7 @@ CorrectedModel::CorrectedModel(const PreparedBody& body, const SurfaceOffsets& o
 
 Vec3 CorrectedModel::step(const MotionLine& line, bool fresh, const Correction& c, double gap) {
   if (c.gone) return c.bias;
+  loop_.set_relaxation(c.relaxation, c.slowness);
   if (c.shift == Vec3::Zero()) {
     if (fresh) loop_.begin(line.point);
     return c.stiffness * loop_.press(line.t, line.u, line.in_air) + c.bias;

@@ -12,6 +12,8 @@ namespace hapsim {
 // What the model is corrected by.
 struct Correction {
   double stiffness = 1;       // of all moduli
+  double relaxation = 1;      // of the Maxwell elements' moduli, beside that
+  double slowness = 1;        // of their times
   Vec3 bias = Vec3::Zero();   // of the sensor [N]
   Vec3 shift = Vec3::Zero();  // of the body [m]
   bool gone = false;

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "estimate/information.h"
+#include "realtime/material_fit.h"
 #include "realtime/shift_fit.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kNothing = 0.05;  // a body that has lost all but this is gone
-constexpr double kExplained = 9;   // chi-square a component above which nothing explains
+constexpr double kExplained = 9;  // chi-square a component above which nothing explains
 
 struct Hypothesis {
   Change change;
@@ -19,22 +19,6 @@ struct Hypothesis {
   ShiftFit fit = {};
   Eigen::VectorXd residual = {};  // of the counted samples, over the usual size
 };
-
-// Factor of all moduli, in closed form; false where too little is left.
-bool fit_stiffness(const std::vector<WatchedSample>& window, const std::vector<Vec3>& forces,
-                   Correction& c) {
-  double fm = 0, ff = 0;
-  for (std::size_t i = 0; i < window.size(); ++i) {
-    if (!window[i].counted) continue;
-    const Vec3 body = forces[i] - c.bias;
-    const double weight = 1 / (window[i].size * window[i].size);
-    fm += weight * body.dot(window[i].measured - c.bias);
-    ff += weight * body.squaredNorm();
-  }
-  if (ff <= 0 || fm <= kNothing * ff) return false;
-  c.stiffness *= fm / ff;
-  return true;
-}
 
 void fit_bias(const std::vector<WatchedSample>& window, const std::vector<Vec3>& forces,
               Correction& c) {
@@ -69,46 +53,22 @@ Eigen::VectorXd counted_residuals(const std::vector<WatchedSample>& window,
   return r;
 }
 
-}  // namespace
-
-std::string change_name(Change change) {
-  switch (change) {
-    case Change::kMoved:
-      return "moved";
-    case Change::kGone:
-      return "gone";
-    case Change::kMaterial:
-      return "material";
-    case Change::kSensor:
-      return "sensor";
-    case Change::kUnexplained:
-      return "unexplained";
-    default:
-      return "none";
-  }
+// By one factor; or those that relax and their times each by their own.
+std::vector<Hypothesis> materials(const PreparedBody& body, const SurfaceOffsets& offsets,
+                                  const std::vector<WatchedSample>& window,
+                                  const Correction& known) {
+  std::vector<Hypothesis> all;
+  Correction c = known;
+  if (fit_stiffness(body, offsets, window, c)) all.push_back({Change::kMaterial, c, 1});
+  c = known;
+  if (!body.terms().empty() && fit_relaxation(body, offsets, window, c))
+    all.push_back({Change::kMaterial, c, 3});
+  return all;
 }
 
-Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
-                           const std::vector<WatchedSample>& window, const Correction& known,
-                           const UsualStiffness& usual) {
-  Correction there = known;  // what was gone may be back
-  there.gone = false;
-  std::vector<Hypothesis> all;
-  const std::vector<Vec3> f = corrected_forces(body, offsets, window, there);
-  Correction c = there;
-  if (fit_stiffness(window, f, c)) all.push_back({Change::kMaterial, c, 1});
-  c = there;
-  fit_bias(window, f, c);
-  all.push_back({Change::kSensor, c, 3});
-  c = known;
-  c.gone = true;
-  all.push_back({Change::kGone, c, 0});
-  const ShiftFit moved = fit_shift(body, offsets, window, there, there.shift, usual, true);
-  c = there;
-  c.shift = moved.shift;
-  c.stiffness = moved.stiffness;
-  all.push_back({Change::kMoved, c, 4, moved});
-
+// The one with the least criterion.
+Explanation judge(const PreparedBody& body, const SurfaceOffsets& offsets,
+                  const std::vector<WatchedSample>& window, std::vector<Hypothesis>& all) {
   const std::vector<Eigen::Index> lengths = counted_lengths(window);
   const Hypothesis* least = nullptr;
   for (Hypothesis& h : all) {
@@ -133,11 +93,59 @@ Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offse
                    believed->fit.force_error, squares / n};
   best.margin = 1e300;
   for (const Hypothesis& h : all)
-    if (&h != believed)
+    if (h.change != believed->change)
       best.margin = std::min(best.margin, (h.residual.squaredNorm() - squares) / scale / memory);
   best.error = error_of(window, corrected_forces(body, offsets, window, best.correction));
   if (best.chi >= kExplained) best.change = Change::kUnexplained;
   return best;
+}
+
+}  // namespace
+
+std::string change_name(Change change) {
+  switch (change) {
+    case Change::kMoved:
+      return "moved";
+    case Change::kGone:
+      return "gone";
+    case Change::kMaterial:
+      return "material";
+    case Change::kSensor:
+      return "sensor";
+    case Change::kUnexplained:
+      return "unexplained";
+    default:
+      return "none";
+  }
+}
+
+Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
+                           const std::vector<WatchedSample>& window, const Correction& known,
+                           const UsualStiffness& usual) {
+  Correction there = known;  // what was gone may be back
+  there.gone = false;
+  std::vector<Hypothesis> all = materials(body, offsets, window, there);
+  Correction c = there;
+  fit_bias(window, corrected_forces(body, offsets, window, there), c);
+  all.push_back({Change::kSensor, c, 3});
+  c = known;
+  c.gone = true;
+  all.push_back({Change::kGone, c, 0});
+  const ShiftFit moved = fit_shift(body, offsets, window, there, there.shift, usual, true);
+  c = there;
+  c.shift = moved.shift;
+  c.stiffness = moved.stiffness;
+  all.push_back({Change::kMoved, c, 4, moved});
+  return judge(body, offsets, window, all);
+}
+
+Explanation explain_material(const PreparedBody& body, const SurfaceOffsets& offsets,
+                             const std::vector<WatchedSample>& window, const Correction& known) {
+  Correction there = known;
+  there.gone = false;
+  std::vector<Hypothesis> all = materials(body, offsets, window, there);
+  if (all.empty()) all.push_back({Change::kMaterial, there, 0});
+  return judge(body, offsets, window, all);
 }
 
 }  // namespace hapsim

@@ -21,7 +21,8 @@ struct Explanation {
   double error = 0;   // root mean square of a residual component [N]
 };
 
-// The samples since a change, explained by each hypothesis: body moved, gone, all moduli changed,
+// The samples since a change, explained by each hypothesis: body moved, gone, all moduli changed
+// (by one factor, or those that relax and their times each by their own),
 // sensor's zero changed, from what was `known` before; the one with the least information criterion
 // is believed. The statistics are those of the diagnosis of few presses (estimate/information.h).
 // What is tried is not: the catalogue's effects are solved for with finite elements and over all
@@ -30,5 +31,9 @@ struct Explanation {
 Explanation explain_change(const PreparedBody& body, const SurfaceOffsets& offsets,
                            const std::vector<WatchedSample>& window, const Correction& known,
                            const UsualStiffness& usual);
+// The same of a material alone: all of it by one factor (a partial identification), or also what
+// relaxes (a full one).
+Explanation explain_material(const PreparedBody& body, const SurfaceOffsets& offsets,
+                             const std::vector<WatchedSample>& window, const Correction& known);
 
 }  // namespace hapsim

@@ -41,11 +41,11 @@ Vec3 ForceLoop::advance(double t, const Vec3& u) noexcept {
     if (first) {
       h = driver;  // relaxed until now, then a jump
     } else {
-      const MemoryStep s = memory_step(dt, terms[i].tau);
+      const MemoryStep s = memory_step(dt, times_ * terms[i].tau);
       h = s.a * h + s.c * (driver - state_.driver[i]);
     }
     state_.driver[i] = driver;
-    force += terms[i].share * h;
+    force += moduli_ * terms[i].share * h;
   }
   if (first || t > state_.t) state_.t = t;
   state_.begun = true;

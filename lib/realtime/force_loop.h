@@ -32,6 +32,8 @@ class ForceLoop : public ToolLoop {
 
   ForceLoopState state() const;
   void restore(const ForceLoopState& state) noexcept;
+  // From the next sample on: factors of the Maxwell elements' moduli and of their times.
+  void set_relaxation(double moduli, double times) noexcept { moduli_ = moduli, times_ = times; }
 
  protected:
   void take_place(const Place& place) noexcept override;
@@ -41,6 +43,7 @@ class ForceLoop : public ToolLoop {
  private:
   const PreparedBody& body_;
   ForceLoopState state_;
+  double moduli_ = 1, times_ = 1;
 };
 
 }  // namespace hapsim

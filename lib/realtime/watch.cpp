@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "realtime/material_fit.h"
 #include "realtime/shift_fit.h"
 
 namespace hapsim {
@@ -16,6 +17,7 @@ constexpr double kClear = 5;  // margin of an explanation by fewer presses
 constexpr int kLeastPresses = 4;     // from which an error can be stated
 constexpr double kKnown = 0.4;       // of the usual error may be the shift's
 constexpr double kThinned = 100;     // samples a second that a change is explained from
+constexpr int kMaterialPresses = 6;  // over which a material is refined
 constexpr int kSearchedPresses = 8;  // from so few on a shift is searched for everywhere
 
 bool touches(const WatchedSample& s) {
@@ -134,15 +136,22 @@ void ModelWatch::name() {
   event.named = kept(count_ - 1).line.t;
   event.change = best.change;
   event.correction = best.change == Change::kUnexplained ? correction_ : best.correction;
+  // Part of a press tells how stiff a material is, and not yet how it relaxes.
+  if (best.change == Change::kMaterial && told_by < kPresses) {
+    event.correction = correction_;
+    event.correction.gone = false;
+    fit_stiffness(body_, known_offsets_, window, event.correction);
+  }
   event.shift_error = best.shift_error;
   event.error_before = usual_error();
   event.error_with = best.error;
   event.presses = told_by;
-  event.settled = !options_.adapts || best.change != Change::kMoved;
-  if (event.settled) event.updated = event.named;
+  event.settled =
+      !options_.adapts || (best.change != Change::kMoved && best.change != Change::kMaterial);
+  if (best.change != Change::kMoved) event.updated = event.named;
   events_.push_back(event);
   if (!event.settled) since_ = std::move(window), known_ = correction_;
-  if (options_.adapts && best.change != Change::kUnexplained) take_over(best.correction, begin);
+  if (options_.adapts && best.change != Change::kUnexplained) take_over(event.correction, begin);
   alarm_ = -1;
   test_.restart();
 }
@@ -168,6 +177,24 @@ void ModelWatch::refine() {
   while (!since_.empty() && since_.back().line.press == press_) since_.pop_back();
   append(begin, std::max(begin, change_), since_);
   event.presses = presses(since_);
+  if (event.change == Change::kMaterial)
+    refine_material(begin);
+  else
+    refine_shift(begin);
+}
+
+// What relaxes as well, where that is told by now.
+void ModelWatch::refine_material(std::size_t begin) {
+  WatchEvent& event = events_.back();
+  if (event.presses < kPresses) return;
+  const Explanation best = explain_material(body_, known_offsets_, since_, known_);
+  take_over(best.correction, begin);
+  event.correction = best.correction;
+  if (event.presses >= kMaterialPresses) settle();
+}
+
+void ModelWatch::refine_shift(std::size_t begin) {
+  WatchEvent& event = events_.back();
   const ShiftFit fit = fit_shift(body_, known_offsets_, since_, known_, correction_.shift, usual_,
                                  event.presses <= kSearchedPresses);
   Correction correction = correction_;
@@ -196,7 +223,8 @@ void ModelWatch::settle() {
   events_.back().settled = true;
   if (events_.back().updated < 0) events_.back().updated = kept(count_ - 1).line.t;
   since_.clear();
-  test_.learn_anew();  // the surface is pressed elsewhere
+  test_.restart();
+  if (events_.back().change == Change::kMoved) test_.learn_anew();  // it is pressed elsewhere
 }
 
 }  // namespace hapsim

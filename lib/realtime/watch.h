@@ -23,8 +23,8 @@ struct WatchEvent {
   Vec3 shift_error = Vec3::Zero();  // of a body that has moved: standard error [m]
   double error_before = 0;          // usual error [N]
   double error_with = 0;            // of the samples since the change, corrected [N]
-  int presses = 0;      // that the correction rests on; grows while the shift is refined
-  bool settled = true;  // false: still refined
+  int presses = 0;                  // that the correction rests on; grows while it is refined
+  bool settled = true;              // false: still refined
   double updated = -1;  // when the correction was known well enough [s]; negative: not yet
 };
 
@@ -33,8 +33,9 @@ struct WatchEvent {
 // and the model corrected. Three presses tell a moved body along their normals only, so its shift
 // is found anew after each further press, until kRefinedPresses of them, together with where the
 // surface there lies and with the factor of the stiffness that the presses before have shown; then
-// the test learns anew what is usual. Every correction takes over gradually. Not real-time where it
-// names or refines (some 50 ms, 150 at most, in that step alone).
+// the test learns anew what is usual. A material is first given one factor; whether what relaxes
+// has changed otherwise is told by whole presses, up to six. Every correction takes over gradually.
+// Not real-time where it names or refines (some 50 ms, 150 at most, in that step alone).
 class ModelWatch {
  public:
   static constexpr int kRefinedPresses = 15;
@@ -57,6 +58,8 @@ class ModelWatch {
   void append(std::size_t begin, std::size_t from, std::vector<WatchedSample>& window) const;
   void name();
   void refine();
+  void refine_material(std::size_t begin);
+  void refine_shift(std::size_t begin);
   void settle();
   void take_over(const Correction& correction, std::size_t begin);
 

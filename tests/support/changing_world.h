@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/random.h"
@@ -21,10 +22,11 @@ inline TetMesh dome_mesh(int cells) {
   return mesh;
 }
 
-inline std::unique_ptr<PreparedBody> prepared_dome(int cells) {
+inline std::unique_ptr<PreparedBody> prepared_dome(int cells, double modulus = 2e4,
+                                                   double relaxing = 6e3, double time = 0.15) {
   Model model;
-  model.parameters = effect_rows(*find_effect("elastic"), 1, {2e4, 0.45});
-  for (const Parameter& p : effect_rows(*find_effect("viscoelastic"), 1, {6e3, 0.15}))
+  model.parameters = effect_rows(*find_effect("elastic"), 1, {modulus, 0.45});
+  for (const Parameter& p : effect_rows(*find_effect("viscoelastic"), 1, {relaxing, time}))
     model.parameters.push_back(p);
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
@@ -44,6 +46,8 @@ class PressStream {
   PressStream(const PreparedBody& truth, std::uint64_t seed)
       : loop_(truth), random_(seed), truth_(truth) {}
   World before, after;
+  // The body is another after the change, of the same shape.
+  void becomes(const PreparedBody& other) { other_.emplace(other); }
   double when = 1e9;
   double noise = 0.015;  // [N]
 
@@ -68,8 +72,13 @@ class PressStream {
     const double way = kClear - (kClear + depth_) * std::pow(std::sin(3.1416 * in_press), 2);
     line.in_air = way >= 0;
     line.u = way * (normal_ - side_ * Vec3(1, 0.5, 0));
+    const Vec3 tool = line.point + line.u - world.shift;
     Vec3 f = Vec3::Zero();
-    if (!world.gone) f = world.stiffness * loop_.step(t, line.point + line.u - world.shift);
+    if (!world.gone) f = world.stiffness * loop_.step(t, tool);
+    if (other_) {
+      const Vec3 g = other_->step(t, tool);
+      if (t >= when) f = g;
+    }
     touches_ = f != Vec3::Zero();
     f += world.bias;
     for (int k = 0; k < 3; ++k) f[k] += noise * random_.normal();
@@ -80,6 +89,7 @@ class PressStream {
  private:
   static constexpr double kClear = 0.008;  // [m]
   ForceLoop loop_;
+  std::optional<ForceLoop> other_;
   Random random_;
   const PreparedBody& truth_;
   long count_ = 0;

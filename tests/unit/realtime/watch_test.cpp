@@ -75,6 +75,26 @@ TEST(ModelWatch, NamesWhatHasChangedAndLearnsIt) {
     }
 }
 
+// A body that dries: stiffness and relaxation change each in its own way.
+TEST(ModelWatch, IdentifiesTheRelaxationAnew) {
+  const auto truth = test::prepared_dome(7), known = test::prepared_dome(5);
+  const auto dry = test::prepared_dome(7, 1.6e4, 1.44e4, 0.3);
+  for (const std::uint64_t draw : {1, 2, 3}) {
+    SCOPED_TRACE(draw);
+    test::PressStream stream(*truth, draw);
+    stream.becomes(*dry);
+    const Seen seen = follow(*known, stream);
+    ASSERT_EQ(seen.events, 1u);
+    EXPECT_EQ(seen.event.change, Change::kMaterial) << change_name(seen.event.change);
+    const Correction& c = seen.event.correction;
+    EXPECT_NEAR(c.slowness, 2, 0.5);
+    EXPECT_NEAR(c.relaxation, 3, 0.75);
+    EXPECT_NEAR(c.stiffness, 0.8 * 1.08, 0.12);  // the coarse mesh is soft by that
+    EXPECT_LT(seen.error, 1);
+    EXPECT_LT(seen.jump, 0.25);
+  }
+}
+
 TEST(ModelWatch, GivesNoAlarmWhileNothingChanges) {
   const auto truth = test::prepared_dome(7), known = test::prepared_dome(5);
   test::PressStream stream(*truth, 77);
