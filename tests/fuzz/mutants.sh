@@ -1,16 +1,18 @@
 #!/usr/bin/env bash
 # mutants.sh [-j JOBS] BUILD FOLDER COUNT [ROW...]: gives every tool COUNT mutants of a valid file of each
 # format that it reads, and counts how it ends: with 0, or with 3 and lines that say why, and never otherwise.
-# ROW are patterns of row names ('hs-fuse*'). Rows that FOLDER/rows.csv holds are not made again, so
-# an interrupted call is gone on with; mutants that end otherwise stay in FOLDER/ROW. Prints the table of all
-# rows so far; exit code 1 when any mutant ended otherwise.
+# Before that the readers alone (row readers) have COUNT mutants of each of these files, of the cases
+# and of the shipped examples, in one process. ROW are patterns of row names ('hs-fuse*'). Rows that
+# FOLDER/rows.csv holds are not made again, so an interrupted call is gone on with; mutants that end
+# otherwise stay in FOLDER/ROW. Prints the table of all rows so far; exit code 1 when any mutant ended
+# otherwise.
 set -uo pipefail
 jobs=1
 while getopts j: flag; do
   case $flag in j) jobs=$OPTARG ;; *) exit 2 ;; esac
 done
 shift $((OPTIND - 1))
-(($# >= 3)) || { sed -n '2,6s/^# //p' "$0" >&2; exit 2; }
+(($# >= 3)) || { sed -n '2,8s/^# //p' "$0" >&2; exit 2; }
 build=$(cd "$1" && pwd) folder=$2 count=$3
 shift 3
 patterns=("${@:-*}")
@@ -110,6 +112,19 @@ row hs-fuse-slow data.csv hs-fuse data.csv --slow @
 row hs-library-database lab.db hs-library @
 row hs-batch-manifest manifest.csv hs-batch @ --prepare --out batch
 
+# The readers alone, within one process.
+readers() {
+  local r=$folder/readers shipped=$root/share/examples
+  cp -r "$cases" "$r" && cp data.csv motion.csv "$r/recording" && cp scan.csv points.ply "$r/scan" &&
+    cp "$shipped"/phantom/truth*.csv model.csv identified.csv "$r/model" && cp body.* "$r/mesh" &&
+    cp surface.ply points.ply "$r/ply" && cp box.stl "$r/stl" && cp box.off "$r/off" && cp machine.csv "$r/import" &&
+    cp manifest.csv "$r/manifest" && cp samples.csv "$r/locations" && cp *.pcd "$r/pcd" && cp arm.urdf "$r/urdf" &&
+    cp acfm.csv "$r/acfm" && for file in "$shipped"/phantom/{data,plain}.csv "$shipped"/hidden-effects/?.csv; do
+      cp "$file" "$r/recording/shipped-$(basename "$file")" || return
+    done && cp "$shipped/phantom/scan.csv" "$r/scan/shipped.csv" || return
+  "$build/tests/fuzz/test_fuzz_cases" "$r" "$count" >"$folder/readers.new" && mv "$folder/readers.new" "$folder/readers.table"
+}
+
 touch "$folder/rows.csv"
 make_row() { # NAME EXAMPLE COMMAND...
   local name=$1 example=$2 mutant word command=() checks=() ends
@@ -121,17 +136,27 @@ make_row() { # NAME EXAMPLE COMMAND...
   ends=$("$build/tests/fuzz/tool_mutants" "${checks[@]}" "$count" "$example" "$mutant" "$bin/${command[0]}" "${command[@]:1}" -q)
   [[ -n $ends ]] && echo "$name $ends" >>"$folder/rows.csv"
 }
-for line in "${rows[@]}"; do
-  eval "words=($line)"
-  wanted=
+wanted() { # NAME
+  local pattern
   for pattern in "${patterns[@]}"; do
     # shellcheck disable=SC2053  # a pattern
-    [[ ${words[0]} == $pattern ]] && wanted=yes
+    [[ $1 == $pattern ]] && return
   done
-  [[ -n $wanted ]] && ! grep -q "^${words[0]} " "$folder/rows.csv" || continue
+  return 1
+}
+bad=0
+if wanted readers && [[ ! -e $folder/readers.table ]]; then
+  rm -rf "$folder/readers"
+  readers || { echo 'mutants: a reader neither read nor refused a file' >&2; bad=1; }
+fi
+for line in "${rows[@]}"; do
+  eval "words=($line)"
+  wanted "${words[0]}" && ! grep -q "^${words[0]} " "$folder/rows.csv" || continue
   while (($(jobs -rp | wc -l) >= jobs)); do wait -n; done
   make_row "${words[@]}" &
 done
 wait
 printf '%-28s %9s %9s %10s\n' 'tool and format' 'exit 0' 'exit 3' otherwise
-awk '{ printf "%-28s %9d %9d %10d\n", $1, $2, $3, $4; bad += $4 } END { exit bad > 0 }' "$folder/rows.csv"
+awk '{ printf "%-28s %9d %9d %10d\n", $1, $2, $3, $4; bad += $4 } END { exit bad > 0 }' "$folder/rows.csv" || bad=1
+cat "$folder/readers.table" 2>/dev/null
+exit $bad

@@ -17,6 +17,8 @@
 #include "io/vtu.h"
 #include "model/location_file.h"
 #include "model/model.h"
+#include "realtime/acfm.h"
+#include "realtime/fuse_recordings.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
 #include "scan/pcd.h"
@@ -122,6 +124,22 @@ void follow(MotionSource& source) {
   }
 }
 
+void acfm(const std::string& bytes) {
+  Input input = input_of(bytes);
+  std::ostringstream out;
+  write_acfm(out, read_acfm(input));
+  Input again = input_of(out.str());
+  read_acfm(again);
+}
+
+void fusion(const std::string& bytes) {
+  Input input = input_of(bytes);
+  std::ostringstream out;
+  write_fusion(out, read_fusion(input));
+  Input again = input_of(out.str());
+  read_fusion(again);
+}
+
 void motion(const std::string& bytes) {
   Input input = input_of(bytes);
   MotionLines lines(input);
@@ -148,7 +166,8 @@ const std::vector<Reader>& readers() {
                                        {"vtu", vtu},           {"pcd", pcd},
                                        {"records", records},   {"motion", motion},
                                        {"urdf", urdf},         {"off", off},
-                                       {"volume", volume}};
+                                       {"volume", volume},     {"acfm", acfm},
+                                       {"fusion", fusion}};
   return all;
 }
 

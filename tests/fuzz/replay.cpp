@@ -38,17 +38,17 @@ int main(int argc, char** argv) {
       std::fprintf(stderr, "replay: there is no case for the reader %s\n", reader.name);
       return 1;
     }
-    std::size_t accepted = 0;
+    std::size_t accepted = 0, survived = 0;
     for (const fs::path& file : files) {
       std::ifstream in(file, std::ios::binary);
       std::ostringstream bytes;
       bytes << in.rdbuf();
       accepted += fuzz::read_or_refuse(reader, bytes.str()) ? 1 : 0;
       for (int k = 0; k < mutants; ++k)
-        fuzz::read_or_refuse(reader, fuzz::mutant(bytes.str(), random));
+        survived += fuzz::read_or_refuse(reader, fuzz::mutant(bytes.str(), random)) ? 1 : 0;
     }
-    std::printf("%-10s %zu cases, %zu read, %zu mutants\n", reader.name, files.size(), accepted,
-                files.size() * static_cast<std::size_t>(mutants));
+    std::printf("%-10s %3zu cases, %3zu read; %8zu mutants, %8zu read\n", reader.name, files.size(),
+                accepted, files.size() * static_cast<std::size_t>(mutants), survived);
   }
   return 0;
 }
