@@ -11,8 +11,14 @@ constexpr double kWalkFloor = 0.1;
 constexpr double kShareStart = 0.5;   // of what is added, until it has shown its worth
 constexpr double kShareKnown = 2;     // observations that this is worth
 constexpr double kShareSpread = 0.3;  // to the next class of rates
+constexpr double kScaleSpread = 0.6;  // the same, of the variances' scale
 constexpr double kShareMemory = 40;   // observations
 constexpr double kLargestNis = 10;    // one outlier does not blow all variances up
+
+// What holds at a rate holds at others nearly as much.
+double near(std::size_t class_of_rate, std::size_t other, double spread) {
+  return std::pow(spread, class_of_rate > other ? class_of_rate - other : other - class_of_rate);
+}
 
 }  // namespace
 
@@ -73,6 +79,8 @@ void Fusion::begin(double t) noexcept {
   next_ = 0;
   ring_[next_++] = {};
   ring_[0].t = t;
+  newest_t_ = t;
+  newest_way_ = 0;
   u_.setZero();
   pending_.setZero();
   last_.setZero();
@@ -100,6 +108,8 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& fast) noexcept {
   now.t = t;
   now.fast = fast;
   now.rate = rate;
+  now.way = before.way + (u - u_).norm();
+  now.ahead = t > newest_t_ ? std::max(rate, (now.way - newest_way_) / (t - newest_t_)) : rate;
   const double share = parameters_.weighs ? share_at(rate) : 1;
   share_ += parameters_.blend > 0 ? (1 - std::exp(-dt / parameters_.blend)) * (share - share_)
                                   : share - share_;
@@ -149,7 +159,7 @@ Vec3 Fusion::variance() const noexcept {
 
 Vec3 Fusion::deviation() const noexcept {
   const Sample& now = sample(next_ - 1);
-  return (scale_[rate_class(now.rate)] * now.variance).cwiseSqrt();
+  return (scale_[rate_class(now.ahead)] * now.variance).cwiseSqrt();
 }
 
 bool Fusion::observe(double t, const Vec3& slow) noexcept {
@@ -186,17 +196,22 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
     had_added += put * put / S;
     deviance[a] = std::log(S) + normalised[a] * normalised[a];
   }
+  if (t > newest_t_) {
+    newest_t_ = t;
+    newest_way_ = before.way + share * (after.way - before.way);
+  }
   const std::size_t k_rate = rate_class(after.rate);
   for (std::size_t k = 0; k < agreed_.size(); ++k) {
-    // What holds at a rate holds at others nearly as much.
-    const double near = std::pow(kShareSpread, k > k_rate ? k - k_rate : k_rate - k);
-    agreed_[k] += near * (agreed - (agreed_[k] - kShareStart * kShareKnown) / kShareMemory);
-    added_[k] += near * (had_added - (added_[k] - kShareKnown) / kShareMemory);
+    const double weight = near(k, k_rate, kShareSpread);
+    agreed_[k] += weight * (agreed - (agreed_[k] - kShareStart * kShareKnown) / kShareMemory);
+    added_[k] += weight * (had_added - (added_[k] - kShareKnown) / kShareMemory);
   }
-  double& scale = scale_[k_rate];
-  normalised /= std::sqrt(scale);
+  const std::size_t k_ahead = rate_class(after.ahead);
+  normalised /= std::sqrt(scale_[k_ahead]);
   const double nis = normalised.squaredNorm();
-  scale *= std::exp(kScaleStep * (std::min(nis / 3, kLargestNis) - 1));
+  for (std::size_t k = 0; k < scale_.size(); ++k)
+    scale_[k] *= std::exp(kScaleStep * near(k, k_ahead, kScaleSpread) *
+                          (std::min(nis / 3, kLargestNis) - 1));
   ++report_.observations;
   report_.nis += nis;
   report_.deviance += deviance;

@@ -55,8 +55,11 @@ struct FusionReport {
 // slow forces are put in at their own time. At a new contact b is zero, for there is no force yet,
 // and g and c stay. The noise also has what half a sample of time makes in the fast force. The size
 // of a component's variances, which changes nothing that is given out, follows the differences
-// seen: its logarithm goes up by kScaleStep times what their normalised square is above one, which
-// brings the mean of that to one on any motion.
+// seen, one a factor 2 of the rate: of the sample's own, or of the mean rate since the newest slow
+// force that was there when it was given out, if that is larger, since what has been forecast since
+// then is what may be wrong. Its logarithm goes up by kScaleStep times what their normalised square
+// is above one, which brings the mean of that to one on any motion; what is seen at one rate counts
+// for its neighbours nearly as much.
 //
 // What the filter adds to the fast force is forecast over the slow source's lateness, and may be
 // worse than nothing where that is long beside the motion. So it is let in by a share, one a factor
@@ -84,8 +87,10 @@ class Fusion {
   struct Sample {
     double t = 0;
     Vec3 fast = Vec3::Zero();
-    double rate = 0;                                     // [m/s]
-    Vec3 added = Vec3::Zero();                           // by the filter, before its share is taken
+    double rate = 0;            // [m/s]
+    double way = 0;             // of u since the contact began [m]
+    double ahead = 0;           // mean rate since the newest slow force that was there [m/s]
+    Vec3 added = Vec3::Zero();  // by the filter, before its share is taken
     Vec3 given = Vec3::Zero(), variance = Vec3::Zero();  // as it was given out, before blending
   };
   const Sample& sample(std::size_t k) const { return ring_[k % ring_.size()]; }
@@ -103,7 +108,8 @@ class Fusion {
   // One a factor 2 of the rate: of all variances by what was seen; and sums of what was added times
   // what was missing, and squared, over the variance.
   std::array<double, 8> scale_{}, agreed_{}, added_{};
-  double share_ = 1;  // of the filter's in what is given out
+  double newest_t_ = 0, newest_way_ = 0;  // of the newest slow force in this contact
+  double share_ = 1;                      // of the filter's in what is given out
   Vec3 u_ = Vec3::Zero(), pending_ = Vec3::Zero(), last_ = Vec3::Zero();
   FusionReport report_;
   bool known_ = false;

@@ -81,15 +81,20 @@ TEST(Fusion, IsNoWorseThanTheFastSourceWhereTheSlowOneComesTooLate) {
   EXPECT_LT(rms(0.005), 0.6 * alone);  // in time it is of use
 }
 
-TEST(Fusion, StatesItsOwnErrorOnAnyMotion) {
+// Learned at one pace and lateness, used at others.
+TEST(Fusion, StatesItsOwnErrorAtAnyPaceAndLateness) {
   const Case lesson = presses(0.2, 20, 0.01);
   const LearnedFusion learned = learn_fusion(lesson.fast, {&lesson.slow, 0.02}, {});
-  for (const double rise : {0.2, 1.0}) {
-    const Case c = presses(rise, 20, 0.01);
-    const FusionReport report = fuse(c.fast, {&c.slow, 0.02}, learned.parameters).report;
-    EXPECT_GT(report.mean_nis(), report.band()[0]) << rise;
-    EXPECT_LT(report.mean_nis(), report.band()[1]) << rise;
-  }
+  for (const double rise : {0.125, 0.3, 1.0})
+    for (const int every : {10, 20, 60}) {
+      const Case c = presses(rise, every, 0.01);
+      for (const double delay : {0.01, 0.03, 0.06}) {
+        SCOPED_TRACE(::testing::Message() << rise << ' ' << every << ' ' << delay);
+        const FusionReport report = fuse(c.fast, {&c.slow, delay}, learned.parameters).report;
+        EXPECT_GT(report.mean_nis(), report.band()[0]);
+        EXPECT_LT(report.mean_nis(), report.band()[1]);
+      }
+    }
 }
 
 // The weight of a slow force: what is let in of a difference of one.
