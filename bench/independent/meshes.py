@@ -78,7 +78,7 @@ def boundary_faces(tets):
 class Mesh:
     """nodes (n, 3) [mm], tets (m, 10), patch and bottom: indices of nodes."""
 
-    def __init__(self, body, place, radius, folder, fine, rim=0.38, growth=0.45):
+    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5):
         script, result = folder / "mesh.geo", folder / "mesh.msh"
         script.write_text(geometry(body, place, radius, rim, growth, fine))
         done = subprocess.run(["gmsh", script, "-3", "-o", result, "-v", "2", "-nt", "1"], capture_output=True, text=True)

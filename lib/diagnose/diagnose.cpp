@@ -9,6 +9,7 @@
 #include "diagnose/departures.h"
 #include "diagnose/few_presses.h"
 #include "diagnose/round.h"
+#include "diagnose/superfluous.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 
@@ -42,7 +43,7 @@ constexpr double kAlike = 1.25;  // errors that differ by less
 // Where the winner leaves white noise and nothing else, the likelihood can be believed: a rival
 // that is so much less likely (of the criterion, by independent sample) is none, however alike the
 // errors.
-constexpr double kDecisive = 50, kLikeNoise = 1.1, kLikeWhite = 1.5;
+constexpr double kDecisive = 50, kLikeWhite = 1.5;
 
 bool decided(const Finding& winner, const Finding& rival, double noise) {
   return winner.rmse_after < kLikeNoise * noise && winner.memory < kLikeWhite &&
@@ -97,6 +98,35 @@ void put_in_order(std::vector<Finding>& findings) {
   });
 }
 
+// What was found first may have stood for what was found after it.
+void drop_superfluous(Baseline& base, Workspace& w, const Folds& folds,
+                      const DiagnoseOptions& options, Diagnosis& d) {
+  for (std::size_t k = 0; k + 1 < d.findings.size();) {
+    const Finding& earlier = d.findings[k];
+    const bool repeated = std::any_of(d.findings.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+                                      d.findings.end(), [&](const Finding& f) {
+                                        return f.effect == earlier.effect ||
+                                               contains(require_effect(f.effect), earlier.effect);
+                                      });
+    if (repeated || !base.fitted.model.has(earlier.effect)) {
+      ++k;
+      continue;
+    }
+    if (options.progress) options.progress("without " + earlier.effect);
+    auto lesser = without_superfluous(earlier.effect, base, w, folds, options.gates);
+    if (!lesser) {
+      ++k;
+      continue;
+    }
+    base = std::move(*lesser);
+    d.findings[k + 1].rmse_now = earlier.rmse_now;
+    d.findings[k + 1].held_out_now = earlier.held_out_now;
+    d.findings.back().rmse_after = base.fitted.rmse;
+    d.findings.back().held_out_after = base.held_out.rmse;
+    d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
 // Adds the best effect while one passes the gates.
 void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOptions& options,
             Diagnosis& d) {
@@ -134,6 +164,7 @@ void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOpti
     d.findings.push_back(finding);
     base = make_baseline(last.candidates[best].fitted.model, w, folds);
     last.findings[best].effect.clear();
+    drop_superfluous(base, w, folds, options, d);
   }
   for (const Finding& f : last.findings) {
     if (f.effect.empty()) continue;

@@ -164,8 +164,11 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     f.criterion_gain = before - m.sum_of_squares - m.penalty;
     f.memory = m.memory;
     const double fall = base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse;
+    // Offsets of presses take away what other misfits leave as well, so only what nothing else
+    // can be counts, unless noise alone is left.
+    const bool all_of_it = std::isnan(m.explained) || c.fitted.rmse < kLikeNoise * w.noise.value;
     if (beyond_noise > 0.01 * noise)
-      f.share = std::clamp((std::isnan(m.explained) ? fall : m.explained) / beyond_noise, 0.0, 1.0);
+      f.share = std::clamp((all_of_it ? fall : m.explained) / beyond_noise, 0.0, 1.0);
     // Refits for held-out positions cost most and only matter to what passes otherwise.
     if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share) {
       if (options.progress) options.progress(f.effect);

@@ -1,5 +1,6 @@
 // A force proportional to the rate of indentation.
 #include <algorithm>
+#include <limits>
 
 #include "effects/effects.h"
 
@@ -13,10 +14,14 @@ class Damper : public Effect {
         .name = "damper",
         .stage = Stage::kBody,
         .title = "a force proportional to the speed of pressing",
-        .equation = "f = f_before - c du/dt, du/dt backward over one sample",
-        .source = "Kelvin-Voigt dashpot; thesis 3.1.3",
-        .assumptions = "one dashpot, the same in every direction and at every position",
-        .parameters = {{"c", "N s/m", "damping", 0, 1, 0, 1e6, 1, false}},
+        .equation = "f = f_before + tau df_before/dt - c du/dt, d/dt backward over one sample",
+        .source = "Kelvin-Voigt body and dashpot; thesis 3.1.3",
+        .assumptions =
+            "the body's viscosity is as its stiffness (tau); the dashpot at the tool is the same "
+            "in every direction and at every position (c)",
+        .parameters = {{"c", "N s/m", "damping at the tool", 0, 1, 0, 1e6, 1, false},
+                       {"tau", "s", "retardation time of the body: viscosity over modulus", 0, 0, 0,
+                        1e3, 1e-3, false, std::numeric_limits<double>::quiet_NaN(), false, true}},
         .needs_time = true,
         .one_tool = true,
         .signature =
@@ -29,12 +34,20 @@ class Damper : public Effect {
   void apply(const PressView& press, const Values& values, Signal& signal) const override {
     if (press.t.empty()) return;
     const ParameterValue& c = find_value(values, "c");
+    const ParameterValue& tau = find_value(values, "tau");
+    const Eigen::VectorXd f = signal.f;
+    const Eigen::MatrixXd df = signal.df;
     for (std::size_t i = 1; i < press.size(); ++i) {
       const double dt = press.t[i] - press.t[i - 1];
       if (dt <= 0 || press.in_air[i] || press.in_air[i - 1]) continue;
       const Eigen::Vector3d rate = (press.u[i] - press.u[i - 1]) / dt;
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
-      signal.f.segment<3>(row) -= c.value * rate;
+      const Eigen::Vector3d growth = (f.segment<3>(row) - f.segment<3>(row - 3)) / dt;
+      signal.f.segment<3>(row) += tau.value * growth - c.value * rate;
+      if (signal.df.cols() > 0)
+        signal.df.middleRows(row, 3) +=
+            tau.value / dt * (df.middleRows(row, 3) - df.middleRows(row - 3, 3));
+      if (tau.column >= 0) signal.df.block<3, 1>(row, tau.column) += growth;
       if (c.column >= 0) signal.df.block<3, 1>(row, c.column) -= rate;
       if (press.du.cols() > 0 && signal.df.cols() > 0)
         signal.df.middleRows(row, 3) -=
@@ -43,7 +56,8 @@ class Damper : public Effect {
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
-    return {{0.05 * data.peak_stiffness * std::max(data.press_duration, 1e-3)}};
+    const double time = 0.05 * std::max(data.press_duration, 1e-3);
+    return {{data.peak_stiffness * time, 0}, {0, 0.1 * time}};
   }
 };
 

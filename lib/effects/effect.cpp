@@ -16,6 +16,12 @@ void Effect::move(const PressView&, const Values&, Motion&) const {}
 
 void Effect::apply(const PressView&, const Values&, Signal&) const {}
 
+std::vector<std::pair<double, double>> Effect::limits(const DataSummary&) const {
+  std::vector<std::pair<double, double>> limits;
+  for (const ParameterCard& p : card().parameters) limits.emplace_back(p.lower, p.upper);
+  return limits;
+}
+
 std::string Effect::implausible(const Values&, const std::vector<Vec3>&) const {
   return "";
 }

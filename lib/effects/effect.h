@@ -28,6 +28,7 @@ struct ParameterCard {
   bool logarithmic = false;                                     // stepped in its logarithm
   double log_limit = std::numeric_limits<double>::quiet_NaN();  // stepped in log(limit - value)
   bool fixed = false;                                           // a switch: set, never fitted
+  bool optional = false;  // a model file without it means its identity
 };
 
 // Constant data on an effect; man pages, diagnoses and generic tests derive from it.
@@ -45,9 +46,9 @@ struct EffectCard {
   bool needs_temperature = false;  // not testable unless the column temp varies
   bool needs_sideways = false;     // not testable without tangential displacement
   bool needs_return = false;       // not testable unless a recorded press moves out again
-  bool needs_repeats = false;      // not testable unless a place is pressed again
-  bool one_body = false;           // its parameters are of one body's shape or place
-  bool one_tool = false;           // its parameters are of one tool
+  bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
+  bool one_body = false;       // its parameters are of one body's shape or place
+  bool one_tool = false;       // its parameters are of one tool
   bool by_press = false;  // three offsets of the force a press (numbered), after all other effects
   bool solved = false;    // finite elements are solved for its parameters (add_feature())
   double form_error = 0;  // share of the force that it changes by which its law may err
@@ -152,6 +153,7 @@ struct DataSummary {
   double depth = 2e-3;        // deepest displacement [m]
   double tool_radius = 4e-3;  // [m]
   std::vector<PlaceGain> places;
+  Vec3 low = Vec3::Constant(-10), high = Vec3::Constant(10);  // the body's box [m]
   // The move that brings the contact points onto the scanned surface; zero where they lie on it.
   Vec3 shift = Vec3::Zero(), rotation = Vec3::Zero();  // [m], [rad]
 };
@@ -195,6 +197,8 @@ class Effect {
   // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
   // card's.
   virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;
+  // Bounds of one parameter set for a fit to such data, within the card's. Default: the card's.
+  virtual std::vector<std::pair<double, double>> limits(const DataSummary& data) const;
 };
 
 // For describe(): a feature whose values are the card's parameters in their order.

@@ -37,6 +37,14 @@ class Inclusion : public Effect {
   void describe(const Values& values, MaterialSpec& material) const override {
     add_feature(Feature::kInclusion, values, card(), material);
   }
+  // Its centre inside the body, and no larger than that.
+  std::vector<std::pair<double, double>> limits(const DataSummary& data) const override {
+    auto limits = Effect::limits(data);
+    for (int k = 0; k < 3; ++k) limits[static_cast<std::size_t>(k)] = {data.low[k], data.high[k]};
+    limits[3].second =
+        std::clamp((data.high - data.low).minCoeff() / 2, limits[3].first, limits[3].second);
+    return limits;
+  }
   std::string implausible(const Values& values, const std::vector<Vec3>& pressed) const override {
     const auto value = [&](const char* name) { return find_value(values, name).value; };
     const Vec3 centre(value("x"), value("y"), value("z"));

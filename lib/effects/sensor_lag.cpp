@@ -1,5 +1,7 @@
-// A force sensor that follows with a first-order lag.
+// A force sensor that follows with a first-order lag, or whose readings come late.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "effects/effects.h"
 #include "fem/memory.h"
@@ -15,11 +17,13 @@ class SensorLag : public Effect {
         .stage = Stage::kSensor,
         .title = "the force sensor lags behind",
         .equation =
-            "f_measured = f - h, dh/dt = df/dt - h/tau: first-order low pass, exact for "
-            "forces that are straight between samples",
+            "f_measured = g - h, dh/dt = dg/dt - h/tau, g(t) = f(t - delay): first-order low pass "
+            "behind a dead time, exact for forces that are straight between samples",
         .source = "first-order filter; same recursion as thesis (3.54)-(3.55)",
-        .assumptions = "one time constant for all axes; settled before each press",
-        .parameters = {{"tau", "s", "time constant", 0, 0.02, 1e-5, 10, 0.02, true}},
+        .assumptions = "one time constant and one delay for all axes; settled before each press",
+        .parameters = {{"tau", "s", "time constant", 0, 0.02, 1e-5, 10, 0.02, true},
+                       {"delay", "s", "dead time: how late forces are recorded", 0, 0, 0, 10, 0.02,
+                        false, std::numeric_limits<double>::quiet_NaN(), false, true}},
         .needs_time = true,
         .signature = "too soft an instant after each change of speed, right at rest",
         .confounders = {"damper", "viscoelastic"},
@@ -29,6 +33,7 @@ class SensorLag : public Effect {
 
   void apply(const PressView& press, const Values& values, Signal& signal) const override {
     if (press.t.empty()) return;
+    set_back(press, find_value(values, "delay"), signal);
     const ParameterValue& tau = find_value(values, "tau");
     if (tau.value <= 0) return;
     const Eigen::VectorXd f = signal.f;
@@ -50,7 +55,36 @@ class SensorLag : public Effect {
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
     const double step = std::max(data.sample_step, 1e-3);
-    return {{step}, {5 * step}};
+    return {{step, 0}, {5 * step, 0}, {0.3 * step, 2.5 * step}};
+  }
+
+ private:
+  // Each sample takes what was the force a delay ago, straight between samples.
+  static void set_back(const PressView& press, const ParameterValue& delay, Signal& signal) {
+    if (delay.value <= 0 && delay.column < 0) return;
+    const Eigen::VectorXd f = signal.f;
+    const Eigen::MatrixXd df = signal.df;
+    Eigen::Index before = 0;
+    for (std::size_t i = 1; i < press.size(); ++i) {
+      const double t = press.t[i] - delay.value;
+      const auto row = 3 * static_cast<Eigen::Index>(i);
+      if (t <= press.t.front()) {
+        signal.f.segment<3>(row) = f.head<3>();
+        if (df.cols() > 0) signal.df.middleRows(row, 3) = df.topRows(3);
+        continue;
+      }
+      while (press.t[static_cast<std::size_t>(before) + 1] < t) ++before;
+      const double dt =
+          press.t[static_cast<std::size_t>(before) + 1] - press.t[static_cast<std::size_t>(before)];
+      const double w = (t - press.t[static_cast<std::size_t>(before)]) / dt;
+      const Eigen::Index at = 3 * before;
+      signal.f.segment<3>(row) = (1 - w) * f.segment<3>(at) + w * f.segment<3>(at + 3);
+      if (df.cols() > 0)
+        signal.df.middleRows(row, 3) =
+            (1 - w) * df.middleRows(at, 3) + w * df.middleRows(at + 3, 3);
+      if (delay.column >= 0)
+        signal.df.block<3, 1>(row, delay.column) -= (f.segment<3>(at + 3) - f.segment<3>(at)) / dt;
+    }
   }
 };
 

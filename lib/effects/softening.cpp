@@ -1,5 +1,7 @@
-// Stress softening: the first press to a depth is stiffer than those after it.
+// Stress softening and ageing: the first press to a depth is stiffer than those after it, or each
+// press is softer than those before.
 #include <cmath>
+#include <limits>
 
 #include "effects/effects.h"
 
@@ -12,29 +14,40 @@ class Softening : public Effect {
     static const EffectCard card{
         .name = "softening",
         .stage = Stage::kBody,
-        .title = "the material is softer where it was pressed before",
+        .title =
+            "the material is softer where it was pressed before, or the longer the session lasts",
         .equation =
-            "f = f_before (1 - s ((1 - c) min(1, (q_past/q)^2) + c (1 - (q/q_max)^m))), q the "
-            "depth, q_past the deepest of earlier presses at this place, q_max the deepest so far",
+            "f = f_before (1 - s ((1 - c) min(1, (q_past/q)^2) + c (1 - (q/q_max)^m))) "
+            "exp(-rate t), q the depth, q_past the deepest of earlier presses at this place, q_max "
+            "the deepest so far, t from the start of the session to that of the press",
         .source =
             "Mullins effect in the manner of Ogden and Roxburgh, Proc. R. Soc. A 455 (1999), with "
-            "the depth for the energy",
+            "the depth for the energy; ageing to first order of ln E in time",
         .assumptions =
             "no recovery between presses unless the metadata say 'recovery: full'; places do not "
-            "soften each other; presses come in the order of the recording",
+            "soften each other; presses come in the order of the recording; what ages does so "
+            "everywhere alike",
         .parameters = {{"s", "1", "share of the stiffness lost well below the deepest press", 0,
                         0.2, 0, 0.95, 0.2, false},
                        {"m", "1", "how sharply the loss sets in", 2, 2, 0.2, 30, 2, true},
                        {"c", "1",
                         "share that acts below the deepest point, at once: 1 Mullins effect, 0 all "
                         "presses after the first alike",
-                        1, 0.9, 0, 1, 0.3, false}},
+                        1, 0.9, 0, 1, 0.3, false},
+                       {"rate", "1/s",
+                        "relative loss of stiffness per second of the session, whether pressed or "
+                        "not (ageing; negative: it stiffens, as by drying)",
+                        0, 0, -1, 1, 1e-5, false, std::numeric_limits<double>::quiet_NaN(), false,
+                        true}},
         .needs_repeats = true,
         .one_tool = true,
-        .signature = "too stiff in all presses after the first at a place, and on the way out",
+        .signature =
+            "too stiff in all presses after the first at a place, and on the way out; or more so "
+            "from press to press",
         .confounders = {"viscoelastic", "temperature", "sensor-drift", "backlash", "adhesion"},
         .separated_by =
-            "the same place pressed three times to one depth, then deeper, all at one speed"};
+            "the same place pressed three times to one depth, then deeper, all at one speed; the "
+            "first place pressed again at the end, and the temperature recorded"};
     return card;
   }
 
@@ -42,10 +55,16 @@ class Softening : public Effect {
     const ParameterValue& s = find_value(values, "s");
     const ParameterValue& m = find_value(values, "m");
     const ParameterValue& c = find_value(values, "c");
+    const ParameterValue& rate = find_value(values, "rate");
+    const double age = press.session.empty() ? 0 : press.session.front();
+    const double fresh = std::exp(-rate.value * age);
     const bool through = press.du.cols() > 0 && signal.df.cols() > 0;
     const double past = press.past_depth;
     double most = past;
     Eigen::RowVectorXd dmost = Eigen::RowVectorXd::Zero(press.du.cols()), dq = dmost;
+    signal.f *= fresh;
+    signal.df *= fresh;
+    if (rate.column >= 0 && signal.df.cols() > 0) signal.df.col(rate.column) -= age * signal.f;
     for (std::size_t i = 0; i < press.size(); ++i) {
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
       const double q = press.u[i].norm();
@@ -74,7 +93,7 @@ class Softening : public Effect {
   }
 
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
-    return {{0.15, 1, 0.9}, {0.15, 6, 0.9}, {0.15, 6, 0.05}};
+    return {{0.15, 1, 0.9, 0}, {0.15, 6, 0.9, 0}, {0.15, 6, 0.05, 0}, {0, 2, 0.5, 0}};
   }
 };
 

@@ -70,6 +70,13 @@ class Viscoelastic : public Effect {
     return true;
   }
 
+  // A time shorter than the samples' step shows in its product with E1 alone: that is a damper.
+  std::vector<std::pair<double, double>> limits(const DataSummary& data) const override {
+    auto limits = Effect::limits(data);
+    limits[1].first = std::max(limits[1].first, data.sample_step);
+    return limits;
+  }
+
   std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const override {
     // Relaxation times spread over what the data can see, from two samples to a press.
     const double low = std::max(2 * data.sample_step, 1e-3);

@@ -13,6 +13,17 @@
 namespace hapsim {
 namespace {
 
+// Within what the effect can be in such data.
+void set_limits(std::vector<Parameter>& rows, const Effect& effect, const DataSummary& summary) {
+  const auto limits = effect.limits(summary);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto& [lower, upper] = limits[k % limits.size()];
+    rows[k].lower = lower;
+    rows[k].upper = upper;
+    rows[k].value = std::clamp(rows[k].value, lower, upper);
+  }
+}
+
 constexpr double kLeastWarming = 0.5;  // [K]
 constexpr double kSideways = 0.2;      // of the depth
 constexpr double kReturn = 0.8;        // of the deepest displacement
@@ -101,6 +112,12 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
          location_samples(fitted, dataset, selection, body, options.noise, options.floor))
       summary.places.push_back(
           {s.point, body.contact(static_cast<std::size_t>(s.position)).normal, s.gain});
+  const Surface& surface = body.setup(0).surface();
+  summary.low = summary.high = surface.vertices.front();
+  for (const Vec3& p : surface.vertices) {
+    summary.low = summary.low.cwiseMin(p);
+    summary.high = summary.high.cwiseMax(p);
+  }
   if (card.stage == Stage::kSupport)
     if (const RigidMove move = body.move(); move.significant()) {
       summary.shift = move.shift;
@@ -109,7 +126,8 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
   std::vector<Model> starts;
   for (const std::vector<double>& values : effect.starts(summary, terms)) {
     Model model = base;
-    const std::vector<Parameter> rows = effect_rows(effect, terms, values);
+    std::vector<Parameter> rows = effect_rows(effect, terms, values);
+    set_limits(rows, effect, summary);
     model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
     starts.push_back(model);
   }
@@ -150,8 +168,11 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
     return "no press moves sideways: move the tool along the surface while it presses";
   if (effect.needs_return && !some(comes_back))
     return "no press is recorded on its way out: record until the tool has left";
-  if (effect.needs_repeats && !some([](const PressView& v) { return v.past_depth > 0; }))
-    return "each place is pressed only once, or healed in between: press one place three times";
+  if (effect.needs_repeats && !some([](const PressView& v) {
+        return v.past_depth > 0 || (!v.session.empty() && v.session.front() > 0);
+      }))
+    return "each place is pressed only once, or healed in between, and no press comes later than "
+           "another by its time: press one place three times";
   return "";
 }
 

@@ -113,10 +113,14 @@ Model read_model(Input& input) {
   for (const std::string& name : model.effects()) {
     const Effect& effect = require_effect(name);
     if (effect.card().from_locations) continue;
-    for (const ParameterCard& card : effect.card().parameters)
-      if (model.find(name, 0, card.name) == nullptr)
+    for (const ParameterCard& card : effect.card().parameters) {
+      if (model.find(name, 0, card.name) != nullptr) continue;
+      if (!card.optional)
         fail_input(table.name, fmt::format("effect {} lacks its parameter {}", name, card.name),
                    "add the row, or remove the effect");
+      model.parameters.push_back({name, 0, card.name, card.identity, card.unit, std::nan(""),
+                                  card.lower, card.upper, ParameterState::kFixed});
+    }
   }
   return model;
 }

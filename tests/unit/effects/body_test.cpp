@@ -1,4 +1,4 @@
-// Temperature and softening against their closed forms.
+// Temperature, softening and damping against their closed forms.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,7 +53,7 @@ TEST(Hyperelastic, SmallPressesAreLinear) {
 
 TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3, 2e-3, 3e-3});
-  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 1}};
+  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 1}, {0, "rate", 0}};
   const auto first = forces_after(softening_effect(), press, values);
   const double fresh[] = {0.2, 0.4, 0.2 * (1 - 0.3 * 0.75), 0.4, 0.6};
   press.past_depth = 4e-3;
@@ -67,7 +67,7 @@ TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
 
 TEST(Softening, MayTouchLaterPressesAlone) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3, 3e-3});
-  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 0}};
+  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 0}, {0, "rate", 0}};
   const auto first = forces_after(softening_effect(), press, values);
   press.past_depth = 2e-3;
   const auto again = forces_after(softening_effect(), press, values);
@@ -77,6 +77,27 @@ TEST(Softening, MayTouchLaterPressesAlone) {
     EXPECT_NEAR(first[i].z(), f, 1e-12) << i;
     EXPECT_NEAR(again[i].z(), f * factor[i], 1e-12) << i;
   }
+}
+
+// A spring of k and a dashpot of its own viscosity, and one at the tool, at a steady speed.
+TEST(Damper, OfTheBodyAndOfTheTool) {
+  PressView press = test::press_to({0, 1e-3, 2e-3, 2e-3});
+  press.t = {0, 0.1, 0.2, 0.3};
+  const Values values{{0, "c", 3}, {0, "tau", 0.05}};
+  const auto f = forces_after(damper_effect(), press, values);
+  const double moving = kStiffness * 0.05 * 1e-2 + 3 * 1e-2;
+  EXPECT_NEAR(f[1].z(), kStiffness * 1e-3 + moving, 1e-12);
+  EXPECT_NEAR(f[2].z(), kStiffness * 2e-3 + moving, 1e-12);
+  EXPECT_NEAR(f[3].z(), kStiffness * 2e-3, 1e-12);
+}
+
+TEST(Softening, MayComeWithTimeAlone) {
+  PressView press = test::press_to({1e-3, 2e-3, 1e-3});
+  press.session = {100, 101, 102};
+  const Values values{{0, "s", 0}, {0, "m", 2}, {0, "c", 1}, {0, "rate", 2e-3}};
+  const auto aged = forces_after(softening_effect(), press, values);
+  for (std::size_t i = 0; i < aged.size(); ++i)
+    EXPECT_NEAR(aged[i].z(), kStiffness * press.u[i].norm() * std::exp(-0.2), 1e-12) << i;
 }
 
 }  // namespace

@@ -44,6 +44,16 @@ TEST(SensorCurve, BendsEachAxisOddly) {
   EXPECT_NEAR((f[1] + f[0]).norm(), 0, 1e-12);
 }
 
+// 0.05 s behind a ramp and a hold; the low pass's memory fades within a sample.
+TEST(SensorLag, MayBeADelay) {
+  PressView press = test::press_to({0, 1e-3, 2e-3, 2e-3, 2e-3});
+  press.t = {0, 0.1, 0.2, 0.3, 0.4};
+  const auto f = forces_after(sensor_lag_effect(), press, {{0, "tau", 1e-9}, {0, "delay", 0.125}});
+  const double depths[] = {0, 0, 0.75e-3, 1.75e-3, 2e-3};
+  for (std::size_t i = 0; i < f.size(); ++i)
+    EXPECT_NEAR(f[i].z(), test::kStiffness * depths[i], 1e-6) << i;
+}
+
 TEST(Deadband, IsBlindBelowAndTrueOrShortAbove) {
   const PressView press = test::press_to({0.1e-3, 0.39e-3, 0.61e-3, 2e-3, -2e-3});
   const auto truth = forces_after(deadband_effect(), press, {{0, "d", 0.1}, {0, "k", 0}});
