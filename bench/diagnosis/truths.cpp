@@ -19,6 +19,8 @@ using Change =
 
 Model with(Model model, const std::string& effect, const std::vector<double>& values) {
   const Effect& e = require_effect(effect);
+  if (values.size() % e.card().parameters.size() != 0)
+    fail_usage("a truth has another number of values than " + effect, "see truths.cpp");
   const int terms = static_cast<int>(values.size() / e.card().parameters.size());
   for (const Parameter& p : effect_rows(e, terms, values)) model.parameters.push_back(p);
   return model;
@@ -125,7 +127,12 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("viscoelastic-3-terms", "viscoelastic", 5, [](double s) {
     return std::vector<double>{s * kModulus, 0.05, s * kModulus, 0.4, s * kModulus, 3};
   }));
-  t.push_back(own_form("damper", "damper", 100, [](double s) { return std::vector<double>{s}; }));
+  t.push_back(own_form("damper", "damper", 100, [](double s) {
+    return std::vector<double>{s, 0};
+  }));
+  t.push_back(own_form("damper-of-the-body", "damper", 10, [](double s) {
+    return std::vector<double>{0, s};
+  }));
   t.push_back(own_form("hyperelastic", "hyperelastic", 1.2, [](double s) {
     return std::vector<double>{s, std::min(1.0, 5 * s)};
   }));
@@ -134,7 +141,10 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s, 25};
   }));
   t.push_back(own_form("softening", "softening", 0.9, [](double s) {
-    return std::vector<double>{s, 3, 1};
+    return std::vector<double>{s, 3, 1, 0};
+  }));
+  t.push_back(own_form("ageing", "softening", 0.01, [](double s) {
+    return std::vector<double>{0, 2, 1, s};
   }));
   t.push_back(
       own_form("backlash", "backlash", 3e-3, [](double s) { return std::vector<double>{s}; }));
@@ -158,8 +168,12 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("sensor-curve", "sensor-curve", 1, [](double s) {
     return std::vector<double>{-s, 0, -s, 0};
   }));
-  t.push_back(
-      own_form("sensor-lag", "sensor-lag", 1, [](double s) { return std::vector<double>{s}; }));
+  t.push_back(own_form("sensor-lag", "sensor-lag", 1, [](double s) {
+    return std::vector<double>{s, 0};
+  }));
+  t.push_back(own_form("sensor-delay", "sensor-lag", 1, [](double s) {
+    return std::vector<double>{1e-5, s};
+  }));
   t.push_back(own_form("sensor-bias", "sensor-bias", 5, [](double s) {
     return std::vector<double>{s, -0.5 * s, s};
   }));
@@ -300,7 +314,7 @@ std::vector<Truth> other_forms() {
   t.push_back(other_form("sensor-lag-of-two", "sensor-lag", 1,
                          [](const Episode& e, double s, Random&, Eigen::Ref<Eigen::VectorXd> f) {
                            Signal signal{f, Eigen::MatrixXd(f.size(), 0)};
-                           const Values tau{{0, "tau", std::max(s, 1e-9), -1}};
+                           const Values tau{{0, "tau", std::max(s, 1e-9), -1}, {0, "delay", 0, -1}};
                            const Effect& lag = require_effect("sensor-lag");
                            lag.apply(e.view, tau, signal);
                            lag.apply(e.view, tau, signal);
@@ -336,7 +350,7 @@ std::vector<Truth> all_truths() {
   adhesion.base = {"slack"};
   truths.push_back(adhesion);
   // What one press, and a few, can tell.
-  for (const std::string& name : {"viscoelastic", "hyperelastic", "tip", "sensor-lag", "damper"})
+  for (const std::string name : {"viscoelastic", "hyperelastic", "tip", "sensor-lag", "damper"})
     for (const int presses : {1, 3}) {
       Truth t = find_truth(truths, name);
       t.name += presses == 1 ? "-one-press" : "-three-presses";

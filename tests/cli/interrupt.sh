@@ -65,16 +65,20 @@ code=$?
 # takes its time.
 awk -F, -v OFS=, '/^[#p]/ { print; next } { for (k = 0; k < 40; ++k) { $2 = $2 + 0.001; print } }' data.csv >long.csv
 "$tool" -q long.csv "${common[@]}" -o m0.csv || complain 'the elastic model of many rows is identified'
-# interrupted_at WORDS SIGNAL ARGUMENTS...: the signal as soon as the words are said.
+# interrupted_at WORDS SIGNAL ARGUMENTS...: the signal as soon as the words are said; once more where a
+# busy machine sent it when all was done.
 interrupted_at() {
   local words=$1 signal=$2
   shift 2
-  env --default-signal=INT "$tool" "$@" 2>.err &
-  pid=$!
-  until grep -q "$words" .err || ! kill -0 $pid 2>/dev/null; do sleep 0.02; done
-  kill -s "$signal" $pid 2>/dev/null
-  wait $pid
-  code=$?
+  for attempt in 1 2 3 4 5; do
+    env --default-signal=INT "$tool" "$@" 2>.err &
+    pid=$!
+    until grep -q "$words" .err || ! kill -0 $pid 2>/dev/null; do sleep 0.02; done
+    kill -s "$signal" $pid 2>/dev/null
+    wait $pid
+    code=$?
+    ((code == 0)) || return
+  done
 }
 for signal in INT TERM; do
   rm -f m.csv
