@@ -174,10 +174,23 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w
   return drawn;
 }
 
+// Whether the forces would show a change of the truth's parameter: what has no effect has no size.
+bool acts(const Model& truth, const Parameter& exact, const Workspace& w) {
+  Model changed = truth;
+  Parameter& p = *changed.find(exact.effect, exact.region, exact.name);
+  const double step = parameter_card(require_effect(exact.effect), exact.name)->scale;
+  p.value += p.value + step > p.upper ? -step : step;
+  const Selection all = all_episodes(w.dataset);
+  const auto forces = [&](const Model& m) {
+    return model_forces(m, w.dataset, all, *w.body, false).f;
+  };
+  return (forces(changed) - forces(truth)).norm() > kNoise;
+}
+
 // How many of the sizes that were found hold the truth in their 95 % intervals. Not counted:
-// orientations, which have twins (an axis and its reverse), and another number of terms than the
-// truth has, whose values are other ones.
-void count_sizes(const Model& found, const Model& truth, Trial& trial) {
+// orientations, which have twins (an axis and its reverse), another number of terms than the truth
+// has, whose values are other ones, and what no interval is stated for (at a bound).
+void count_sizes(const Model& found, const Model& truth, const Workspace& w, Trial& trial) {
   const auto rows = [](const Model& model, const std::string& effect) {
     return std::count_if(model.parameters.begin(), model.parameters.end(),
                          [&](const Parameter& p) { return p.effect == effect; });
@@ -186,7 +199,9 @@ void count_sizes(const Model& found, const Model& truth, Trial& trial) {
     if (rows(found, p.effect) != rows(truth, p.effect)) continue;
     if (p.effect == "elastic" || p.state != ParameterState::kFree) continue;
     const Parameter* exact = truth.find(p.effect, p.region, p.name);
-    if (exact == nullptr || (p.unit == "rad" && require_effect(p.effect).card().solved)) continue;
+    const bool solved = require_effect(p.effect).card().solved;
+    if (exact == nullptr || (p.unit == "rad" && solved) || !std::isfinite(p.std_error)) continue;
+    if (!solved && !acts(truth, *exact, w)) continue;
     ++trial.sized;
     trial.covered += std::abs(p.value - exact->value) <= 1.96 * p.std_error;
   }
@@ -272,7 +287,8 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
   trial.own_form = truth.model != nullptr;
   if (trial.rivals.empty() && !trial.missing.empty())
     trial.presses = held_out_of(d.rivals.front(), w, press_folds(w.dataset)).rmse / floor;
-  if (trial.rivals.empty() && !d.rivals.empty()) count_sizes(d.rivals.front(), drawn.model, trial);
+  if (trial.rivals.empty() && !d.rivals.empty())
+    count_sizes(d.rivals.front(), drawn.model, pair.truth, trial);
   return trial;
 }
 
