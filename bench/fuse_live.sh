@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# fuse_live.sh BIN FOLDER [REPEATS]: hs-fuse --live at 1 kHz, fed by another process through a pipe, on the
+# fuse_live.sh BIN FOLDER [REPEATS] [RATE]: hs-fuse --live at RATE (1000) lines a second, fed by another process through a pipe, on the
 # organ that share/examples/thesis/heart.sh has left in FOLDER; its fast motion so many times over (5), with
 # 0.2 s of air between. Prints the error against the exact solution beside the analytical model's alone.
 set -euo pipefail
-bin=$(cd "$1" && pwd) heart=$(cd "$2" && pwd) repeats=${3:-5}
+bin=$(cd "$1" && pwd) heart=$(cd "$2" && pwd) repeats=${3:-5} rate=${4:-1000}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
@@ -19,7 +19,7 @@ again "$heart/fast.csv" >motion.csv
 again "$heart/fast.exact.csv" >exact.csv
 "$bin/hs-simulate" motion.csv --model "$heart/acfm.csv" -q -o alone.csv
 cat motion.csv | "$bin/hs-fuse" --live - --body "$heart/organ.ply" --model "$heart/organ.csv" \
-  --acfm "$heart/acfm.csv" --parameters "$heart/filter.csv" --rate 1000 2>said | cat >fused.csv
+  --acfm "$heart/acfm.csv" --parameters "$heart/filter.csv" --rate "$rate" 2>said | cat >fused.csv
 sed 's/^hs-fuse: //' said
 error() { # FILE: root mean square of a component, and the largest step in a millisecond
   paste -d, <(grep '^[0-9]' exact.csv | cut -d, -f1,9-11) <(grep '^[0-9]' "$1" | cut -d, -f9-11) |

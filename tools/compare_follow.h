@@ -114,6 +114,12 @@ inline int run_follow(const Arguments& arguments) {
             line.t, 1e3 * e.correction.shift.x(), 1e3 * e.correction.shift.y(),
             1e3 * e.correction.shift.z(), e.presses, 1e3 * e.shift_error.x(),
             1e3 * e.shift_error.y(), 1e3 * e.shift_error.z()));
+      if (e.change == Change::kMaterial && e.presses > 0)
+        line_said(fmt::format(
+            "{:.3f} s: stiffness by a factor {:.3g}, what relaxes by {:.3g} beside that and its "
+            "times by {:.3g} after {} presses; error {:.3g} N",
+            line.t, e.correction.stiffness, e.correction.relaxation, e.correction.slowness,
+            e.presses, e.error_with));
     }
     for (; told < watch.events().size(); ++told) {
       const WatchEvent& e = watch.events()[told];
@@ -129,7 +135,7 @@ inline int run_follow(const Arguments& arguments) {
     CsvWriter csv(events.stream(), {},
                   {"begun", "alarm", "named", "change", "stiffness", "bias_x", "bias_y", "bias_z",
                    "shift_x", "shift_y", "shift_z", "error", "shift_error_x", "shift_error_y",
-                   "shift_error_z", "presses", "updated"});
+                   "shift_error_z", "presses", "updated", "relaxation", "slowness"});
     for (const WatchEvent& e : watch.events()) {
       std::vector<std::string> row{format_number(e.begun), format_number(e.alarm),
                                    format_number(e.named), change_name(e.change),
@@ -140,6 +146,8 @@ inline int run_follow(const Arguments& arguments) {
       for (int k = 0; k < 3; ++k) row.push_back(format_number(e.shift_error[k]));
       row.push_back(std::to_string(e.presses));
       row.push_back(e.updated < 0 ? "" : format_number(e.updated));
+      row.push_back(format_number(e.correction.relaxation));
+      row.push_back(format_number(e.correction.slowness));
       csv.row(row);
     }
     events.commit();

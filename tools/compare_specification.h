@@ -36,9 +36,9 @@ inline ToolSpec compare_specification() {
       "moved "
       "or is gone, its stiffness has changed or the sensor's zero has; the model goes on with "
       "that, "
-      "without a jump in the force. A shift is told by three presses; where other sides are "
-      "pressed "
-      "later it is told better, by another alarm."};
+      "without a jump in the force. A shift is named from three presses and refined with each "
+      "further one, up to fifteen; a changed material is given one factor at once, and its "
+      "relaxation is identified anew from whole presses, up to six, where they tell it."};
   spec.options = {
       {.flag = "--simulated",
        .kind = OptionKind::kFile,
@@ -123,7 +123,9 @@ inline ToolSpec compare_specification() {
         {"error", "left by the correction [N]"},
         {"shift_error_x ...", "standard error of the shift [m]: large where no press tells"},
         {"presses", "that the correction rests on; a shift is refined with each"},
-        {"updated", "when it was known to 0.4 of the usual error [s]"}}}};
+        {"updated", "when it was known to 0.4 of the usual error [s]"},
+        {"relaxation", "factor of the moduli that relax, beside stiffness"},
+        {"slowness", "factor of their times"}}}};
   spec.examples = {
       {"hs-compare data.csv --simulated forces.csv -o residuals.csv", "Residuals and a summary."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated - "

@@ -20,10 +20,33 @@ grep -q '^hs-fuse: 132 slow forces taken' err || complain 'the slow forces are n
 awk '/^hs-fuse:   / { for (i = 1; i < NF; ++i) if ($i == "error") { name = $2; e[name] = $(i + 1) } }
   END { exit !(e["fused"] < 0.5 * e["fast"] && e["fused"] < 0.5 * e["slow"]) }' err ||
   complain 'the fused force is not the best'
-grep -q ',fz,sdx,sdy,sdz$' fused.csv || complain 'no standard deviations'
+[[ $(grep '^press' fused.csv) == *,fz,sdx,sdy,sdz ]] || complain 'no standard deviations'
 "$bin/hs-fuse" fast.csv --slow slow.csv --delay 0.03 --parameters filter.csv -q -o again.csv 2>err ||
   complain 'its own parameters are not read'
 cmp -s fused.csv again.csv || complain 'the same parameters give other forces'
+
+# Live: finite elements of a stiffer body beside the analytical model, line by line at the clock's pace.
+"$bin/hs-tetmesh" box.off --edge 0.02 -q -o body.ply || complain 'no body'
+printf 'effect,region,parameter,value,unit\nelastic,0,E,20000,Pa\nelastic,0,nu,0.4,1\n' >model.csv
+awk 'BEGIN { print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
+  for (p = 1; p <= 2; ++p) for (i = 0; i <= 400; ++i)
+    printf "%d,%.3f,0.03,0.025,0.04,%.9g,0,%.9g\n", p, 0.001 * i, 0.0003 * i / 400, -0.003 * sin(3.14159 * i / 400) ^ 2 }' >motion.csv
+"$bin/hs-simulate" motion.csv --body body.ply --model model.csv --full --own-mesh -q -o truth.csv 2>err ||
+  complain 'no finite elements'
+awk -F, -v OFS=, '/^#/ || !h++ { print; next } { for (k = 9; k <= 11; ++k) $k *= 0.8; print }' truth.csv >soft.csv
+"$bin/hs-identify" soft.csv --body body.ply --acfm 0 -q -o acfm.csv 2>err || complain 'no analytical model'
+cat motion.csv | "$bin/hs-fuse" --live - --body body.ply --model model.csv --acfm acfm.csv 2>err | cat >live.csv
+[[ $(grep -c '^[0-9]' live.csv) == 802 ]] || complain 'not every line was answered'
+grep -q '^hs-fuse: finite elements: [0-9]* samples' err && grep -q 'slow forces taken' err ||
+  complain 'what the finite elements did is not told'
+"$bin/hs-simulate" motion.csv --model acfm.csv -q -o alone.csv 2>err
+distance() { # FILE: of its forces to the finite elements'
+  paste -d, <(grep '^[0-9]' truth.csv | cut -d, -f9-11) <(grep '^[0-9]' "$1" | cut -d, -f9-11) |
+    awk -F, '{ s += ($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2 } END { print sqrt(s / NR) }'
+}
+# However late the finite elements are: never worse than without them.
+awk -v live="$(distance live.csv)" -v alone="$(distance alone.csv)" 'BEGIN { exit !(alone > 0 && live <= 1.05 * alone) }' ||
+  complain "the live force is worse than the analytical model's: $(distance live.csv), $(distance alone.csv)"
 
 refuse() { # CODE TEXT ARGUMENTS...
   local code=$1 text=$2 got
@@ -34,6 +57,9 @@ refuse() { # CODE TEXT ARGUMENTS...
     complain "exit $got, not $code with '$text': $*"
 }
 refuse 2 '--slow is required' fast.csv
+refuse 2 '--live needs --acfm' --live motion.csv --body body.ply --model model.csv
+refuse 2 'is of whole recordings' --live motion.csv --body body.ply --model model.csv --acfm acfm.csv --delay 0.1
+refuse 2 'is of the live mode' fast.csv --slow slow.csv --rate 100
 refuse 2 'leave one of them out' fast.csv --slow slow.csv --learn a.csv --parameters filter.csv
 sed 's/^3,/4,/' slow.csv >other.csv
 refuse 3 'other.csv:94: press 4 is not in fast.csv' fast.csv --slow other.csv
