@@ -203,13 +203,13 @@ int run_live_fusion(const Arguments& arguments) {
                             : motion.metadata().number("tool_radius", input.name()).value_or(0);
   if (!(radius > 0))
     fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
-  AcfmLoop fast(acfm);
+  AcfmLoop fast(acfm), coarse(acfm);
   FusedLoop loop(
       fast,
       [&](const Vec3& contact) {
         return std::make_unique<FinitePress>(body, model, contact, radius);
       },
-      given_parameters(arguments), &surface);
+      given_parameters(arguments), &surface, {}, &coarse);
   LiveOptions live;
   live.rate = arguments.number("--rate");
   Metadata metadata = motion.metadata();

@@ -14,9 +14,11 @@ constexpr std::chrono::microseconds kIdle{200};
 }  // namespace
 
 FusedLoop::FusedLoop(ToolLoop& fast, SlowMaker slow, const FusionParameters& parameters,
-                     const SignedDistance* surface, const ToolLoopOptions& options)
+                     const SignedDistance* surface, const ToolLoopOptions& options,
+                     ToolLoop* coarse)
     : ToolLoop(surface, options),
       fast_(fast),
+      coarse_(coarse),
       make_(std::move(slow)),
       fusion_(parameters),
       there_(kQueue),
@@ -42,8 +44,9 @@ void FusedLoop::take_place(const Place& place) noexcept {
 Vec3 FusedLoop::advance(double t, const Vec3& u) noexcept {
   if (begins_) fusion_.begin(t);
   begins_ = false;
-  const Vec3 fused = fusion_.step(t, u, fast_.press(t, u));
-  there_.push({contact_, t, point_, u});
+  const Vec3 fast = fast_.press(t, u);
+  const Vec3 fused = fusion_.step(t, u, fast);
+  there_.push({contact_, t, point_, u, fast});
   for (Sample slow; back_.pop(slow);)
     if (slow.contact == contact_) fusion_.observe(slow.t, slow.u);
   return fused;
@@ -75,11 +78,18 @@ void FusedLoop::work() {
         // so far for a jump.
         force = press->step(first.u, 0);
         last = first.t;
+        if (coarse_ != nullptr) {
+          coarse_->begin(newest.point);
+          coarse_->press(first.t, first.u);
+        }
       }
       if (newest.t > last) force = press->step(newest.u, newest.t - last);
       last = newest.t;
+      // The straight way's share of the force, as the fast model has it.
+      Vec3 given = force;
+      if (coarse_ != nullptr) given += newest.fast - coarse_->press(newest.t, newest.u);
       slow_steps_.add(monotonic_ns() - start);
-      back_.push({contact, newest.t, newest.point, force});
+      back_.push({contact, newest.t, newest.point, given, {}});
     }
   } catch (const Error& error) {
     failure_ = error.what();

@@ -28,9 +28,12 @@ using SlowMaker = std::function<std::unique_ptr<SlowPress>(const Vec3& contact)>
 // failure() says why.
 class FusedLoop : public ToolLoop {
  public:
-  // `fast` is used by this loop alone and outlives it, as `surface` does.
+  // `fast` is used by this loop alone and outlives it, as `surface` does. `coarse`: another of the
+  // same model, for the thread alone, or null. It takes the solver's steps, so that what a body
+  // that relaxes makes of a way drawn straight from one step to the next is known, and taken off.
   FusedLoop(ToolLoop& fast, SlowMaker slow, const FusionParameters& parameters,
-            const SignedDistance* surface = nullptr, const ToolLoopOptions& options = {});
+            const SignedDistance* surface = nullptr, const ToolLoopOptions& options = {},
+            ToolLoop* coarse = nullptr);
   ~FusedLoop() override;
 
   const FusionReport& report() const { return fusion_.report(); }
@@ -48,11 +51,13 @@ class FusedLoop : public ToolLoop {
   struct Sample {
     long contact = 0;
     double t = 0;
-    Vec3 point = Vec3::Zero(), u = Vec3::Zero();  // of the vector, or force [N] on the way back
+    Vec3 point = Vec3::Zero(), u = Vec3::Zero();  // displacement, or force [N] on the way back
+    Vec3 fast = Vec3::Zero();                     // force of the fast source [N]
   };
   void work();
 
   ToolLoop& fast_;
+  ToolLoop* coarse_;
   SlowMaker make_;
   Fusion fusion_;
   SpscRing<Sample> there_, back_;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <vector>
 
 #include "base/error.h"
@@ -80,6 +81,51 @@ TEST(FusedLoop, ItsSolverBeginsWhereTheContactDid) {
   // Then its own way in its own time: 25 mm/s.
   EXPECT_LT(asked[2], 0);
   EXPECT_NEAR(asked[2], -0.025 * asked[3], 1e-12);
+}
+
+// The analytical model itself as a solver of seldom steps.
+class Seldom : public SlowPress {
+ public:
+  explicit Seldom(const Acfm& model) : loop_(model) { loop_.begin(Vec3::Zero()); }
+  Vec3 step(const Vec3& u, double dt) override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    t_ += dt;
+    return loop_.press(t_, u);
+  }
+
+ private:
+  AcfmLoop loop_;
+  double t_ = 0;
+};
+
+// Presses of a model that relaxes, all but still for a while and then down: the largest difference
+// between the fused and the fast force.
+double off(const Acfm& model, ToolLoop* coarse) {
+  AcfmLoop fast(model), alone(model);
+  FusedLoop loop(
+      fast, [&](const Vec3&) { return std::make_unique<Seldom>(model); }, {}, nullptr, {}, coarse);
+  double most = 0;
+  for (int press = 0; press < 2; ++press) {
+    loop.begin(Vec3::Zero());
+    alone.begin(Vec3::Zero());
+    for (int i = 0; i <= 200; ++i) {
+      const Vec3 u(0, 0, -0.005 * std::pow(i / 200.0, 6));
+      most = std::max(most, (loop.press(1e-3 * i, u) - alone.press(1e-3 * i, u)).norm());
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+  loop.stop();
+  return most;
+}
+
+TEST(FusedLoop, TakesOffWhatSeldomStepsMakeOfABodyThatRelaxes) {
+  Acfm model;
+  model.terms = 1;
+  model.positions.resize(1);
+  for (AcfmAxis& axis : model.positions[0].axis) axis.value = {400, 400, 0.02};
+  AcfmLoop coarse(model);
+  EXPECT_LT(off(model, &coarse), 1e-9);
+  EXPECT_GT(off(model, nullptr), 1e-4);
 }
 
 TEST(FusedLoop, GoesOnWhenItsThreadFails) {
