@@ -200,17 +200,17 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
     newest_t_ = t;
     newest_way_ = before.way + share * (after.way - before.way);
   }
-  const std::size_t k_rate = rate_class(after.rate);
-  for (std::size_t k = 0; k < agreed_.size(); ++k) {
-    const double weight = near(k, k_rate, kShareSpread);
-    agreed_[k] += weight * (agreed - (agreed_[k] - kShareStart * kShareKnown) / kShareMemory);
-    added_[k] += weight * (had_added - (added_[k] - kShareKnown) / kShareMemory);
+  const std::size_t at_rate = rate_class(after.rate);
+  for (std::size_t c = 0; c < agreed_.size(); ++c) {
+    const double weight = near(c, at_rate, kShareSpread);
+    agreed_[c] += weight * (agreed - (agreed_[c] - kShareStart * kShareKnown) / kShareMemory);
+    added_[c] += weight * (had_added - (added_[c] - kShareKnown) / kShareMemory);
   }
-  const std::size_t k_ahead = rate_class(after.ahead);
-  normalised /= std::sqrt(scale_[k_ahead]);
+  const std::size_t at_ahead = rate_class(after.ahead);
+  normalised /= std::sqrt(scale_[at_ahead]);
   const double nis = normalised.squaredNorm();
-  for (std::size_t k = 0; k < scale_.size(); ++k)
-    scale_[k] *= std::exp(kScaleStep * near(k, k_ahead, kScaleSpread) *
+  for (std::size_t c = 0; c < scale_.size(); ++c)
+    scale_[c] *= std::exp(kScaleStep * near(c, at_ahead, kScaleSpread) *
                           (std::min(nis / 3, kLargestNis) - 1));
   ++report_.observations;
   report_.nis += nis;

@@ -49,10 +49,10 @@ bool fit_stiffness(const PreparedBody& body, const SurfaceOffsets& offsets,
   double fm = 0, ff = 0;
   for (std::size_t i = 0; i < window.size(); ++i) {
     if (!window[i].counted) continue;
-    const Vec3 body = forces[i] - c.bias;
+    const Vec3 own = forces[i] - c.bias;
     const double weight = 1 / (window[i].size * window[i].size);
-    fm += weight * body.dot(window[i].measured - c.bias);
-    ff += weight * body.squaredNorm();
+    fm += weight * own.dot(window[i].measured - c.bias);
+    ff += weight * own.squaredNorm();
   }
   if (ff <= 0 || fm <= kNothing * ff) return false;
   c.stiffness *= fm / ff;
