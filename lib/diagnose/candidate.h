@@ -19,6 +19,7 @@ struct Baseline {
 struct Candidate {
   const Effect* effect = nullptr;
   FitResult fitted;
+  Model start;  // from which it was estimated
   HeldOut held_out;
   bool one_more_term = false;
   bool every_site = false;  // of regions: each position its own, interpolated between them

@@ -56,14 +56,18 @@ double left_by_laws(const Model& model, const Workspace& w) {
 // by less than the baseline.
 constexpr double kPromising = 2.5, kBetter = 0.99;
 
-// The best estimates first: what they become decides what else is worth the solutions.
+// The best estimates first: what they become, not what they promised, decides what else is worth
+// the solutions.
 void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, Workspace& w,
                       const DiagnoseOptions& options) {
   std::vector<Candidate*> order;
   double least = base.fitted.rmse;
   for (Candidate& c : candidates) {
-    order.push_back(&c);
-    least = std::min(least, c.fitted.rmse);
+    const EffectCard& card = c.effect->card();
+    if (card.solved || card.from_locations) order.push_back(&c);
+    // Offsets of presses imitate any misfit and are no measure of it.
+    else if (!card.by_press)
+      least = std::min(least, c.fitted.rmse);
   }
   std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
     return a->fitted.rmse < b->fitted.rmse;
