@@ -44,7 +44,10 @@ const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
 Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& without_it,
                std::size_t tried, Workspace& w) {
   const Baseline base{without_it.fitted, {}};
-  Candidate candidate{&effect, with_it.fitted, {}, without_it.fitted.model.has(effect.card().name)};
+  Candidate candidate;
+  candidate.effect = &effect;
+  candidate.fitted = with_it.fitted;
+  candidate.one_more_term = without_it.fitted.model.has(effect.card().name);
   const Yardstick yardstick = make_yardstick(base, {candidate}, w);
   const Measured m = measure(candidate, base, yardstick, w);
   Finding f;
