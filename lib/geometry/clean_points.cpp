@@ -161,6 +161,8 @@ double point_spacing(const std::vector<Vec3>& points) {
   return median(sixth) / 1.38;
 }
 
+constexpr double kFarthest = 1e6;  // [m]; beyond it distances lose their digits
+
 void require_surface_points(const std::vector<Vec3>& points, const std::string& name) {
   if (points.size() < 4) {
     fail_input(name, "only " + counted(points.size(), "different point", "different points"),
@@ -208,6 +210,11 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
                         const std::string& name, CleanReport& report) {
   report = {};
   report.read = cloud.points.size();
+  for (const Vec3& p : cloud.points)
+    if (!(p.cwiseAbs().maxCoeff() <= kFarthest))
+      fail_input(name,
+                 fmt::format("a point lies at ({:.3g}, {:.3g}, {:.3g}) m", p.x(), p.y(), p.z()),
+                 "check the unit, and the robot's or the volume's frame");
   PointCloud clean = cloud;
   std::vector<int>& index = report.index;
   index.resize(cloud.points.size());

@@ -19,10 +19,12 @@ double Recording::tool_radius() const {
 }
 
 std::optional<double> Recording::force_noise() const {
+  constexpr double kLeast = 1e-12, kMost = 1e6;  // [N]; beyond them weights lose all digits
   const auto noise = metadata.number("force_noise", name);
-  if (noise && *noise < 0)
-    fail_input(name, "force_noise " + format_number(*noise) + " is negative",
-               "give the standard deviation of a component in newtons");
+  if (!noise || *noise == 0) return std::nullopt;  // 0: not known
+  if (!(*noise >= kLeast && *noise <= kMost))
+    fail_input(name, "force_noise " + format_number(*noise) + " is not between 1e-12 and 1e6 N",
+               "give the standard deviation of a component in newtons, or remove the line");
   return noise;
 }
 

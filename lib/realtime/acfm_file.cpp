@@ -108,6 +108,8 @@ Acfm read_acfm(Input& input) {
       to.derived = true;
     if (!stiffens) model.terms = std::max(model.terms, (slot + 1) / 2);
   }
+  if (known.empty())
+    fail_input(csv.name, "the model has no position", "identify it again: hs-identify --acfm");
   for (std::size_t p = 0; p < known.size(); ++p)
     for (std::size_t a = 0; a < 3; ++a)
       for (std::size_t slot = 0; slot < static_cast<std::size_t>(1 + 2 * model.terms); ++slot)

@@ -63,7 +63,7 @@ class Fitter {
       : dataset_(dataset), normals_(normals), options_(options), windows_(options.windows) {
     const Span span = span_of(dataset);
     if (options.terms > 0 && !(span.longest > 0))
-      fail_usage("relaxation needs times, and the recording has none",
+      fail_input(dataset.recording.name, "relaxation needs times, and the recording has none",
                  "record a column t, or ask for springs alone (0 elements)");
     if (windows_.empty())
       windows_.assign(static_cast<std::size_t>(options.terms), {0.5 * span.step, 3 * span.longest});

@@ -116,7 +116,7 @@ ChainJoint convert(const urdf::Joint& joint, const std::string& name) {
     fail("neither turns nor slides about one axis", "choose a chain without it by --root, --tip");
   }
   result.axis = Vec3(joint.axis.x, joint.axis.y, joint.axis.z);
-  if (!(result.axis.norm() > 1e-6 && result.axis.allFinite())) {
+  if (const double length = result.axis.norm(); !(length > 1e-6 && std::isfinite(length))) {
     fail("has no axis", "give <axis xyz=...> a direction");
   }
   result.axis.normalize();

@@ -80,9 +80,12 @@ TEST(Recording, RefusesWrongMetadata) {
   const std::string row = kHeader + "1,0,0,0,0,0,0,0,0,0,0\n";
   EXPECT_EQ(failure("# tool_radius: 4\n" + row),
             "d.csv: tool_radius 4 is not between 0 and 1 m; give it in metres (4 mm is 0.004)");
-  EXPECT_EQ(failure("# force_noise: -1\n" + row),
-            "d.csv: force_noise -1 is negative; give the standard deviation of a component in "
-            "newtons");
+  for (const std::string noise : {"-1", "1e-200", "1e+300"})
+    EXPECT_EQ(failure("# force_noise: " + noise + "\n" + row),
+              "d.csv: force_noise " + noise +
+                  " is not between 1e-12 and 1e6 N; give the standard deviation of a component in "
+                  "newtons, or remove the line");
+  EXPECT_FALSE(recording_of("# force_noise: 0\n" + row).force_noise());
   EXPECT_EQ(failure("# tool: ball\n" + row), "d.csv: tool is 'ball'; known are: flat, sphere");
   EXPECT_EQ(error_of([&] { recording_of(row).tool_radius(); }),
             "d.csv: the tool's radius is not given; add a line '# tool_radius: 0.004' (metres) at "
