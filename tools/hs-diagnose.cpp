@@ -32,7 +32,9 @@ ToolSpec specification() {
       "rival is far less likely (by more than 50 of the criterion). What changes the forces by "
       "less "
       "than an approximate law in the model may leave (hs-effects(7)) is possible at most. The "
-      "search goes on, on top of what was found.",
+      "search goes on, on top of what was found; what was found before and is no longer needed "
+      "then "
+      "is dropped.",
       "Fewer than six presses have too few signs to flip, so they are judged by their course in "
       "time: sets of effects are grown side by side and ranked as above by independent samples, "
       "and "

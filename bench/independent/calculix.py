@@ -16,10 +16,10 @@ def isotropic(name, modulus, poisson):
 
 def transverse(name, modulus, ratio, poisson):
     """Stiffer along the third local axis: `modulus` across it, `ratio` times that along it; strain
-    across by tension along it is `poisson` times that along."""
+    across by tension along it is `poisson` sqrt(ratio) times that along (positive for every ratio)."""
     across = modulus / (2 * (1 + poisson))
     # CalculiX: E1, E2, E3, nu12, nu13, nu23, G12, G13, / G23; nu13 for tension along 1.
-    values = (modulus, modulus, modulus * ratio, poisson, poisson / ratio, poisson / ratio,
+    values = (modulus, modulus, modulus * ratio, poisson, poisson / np.sqrt(ratio), poisson / np.sqrt(ratio),
               across, across * np.sqrt(ratio), across * np.sqrt(ratio))
     return ("*MATERIAL, NAME=%s\n*ELASTIC, TYPE=ENGINEERING CONSTANTS\n" % name
             + ", ".join("%.8g" % v for v in values[:8]) + "\n%.8g\n" % values[8])
@@ -71,5 +71,7 @@ def stiffness(folder, mesh, materials, fixed, orientation=""):
         text += "".join("PATCH, %d, %d, %g\n" % (k + 1, k + 1, float(k == axis)) for k in range(3))
         text += "*NODE PRINT, NSET=PATCH, TOTALS=ONLY\nRF\n*END STEP\n"
     rows = run(folder, text)
+    if rows.shape != (3, 4) or not np.all(np.isfinite(rows)):
+        raise RuntimeError("ccx found no stiffness in %s" % folder)
     # Moduli in Pa with lengths in mm: a force unit is 1e-6 N, for 1 mm.
     return rows[:, 1:].T * 1e-6 / 1e-3

@@ -1,4 +1,4 @@
-"""The recordings: body, tool radius [mm], variant (or table of hyperelastic paths), laws in the
+"""The recordings: body, tool radius [mm], variant, laws in the
 order in which the force passes them, hidden effects, and what else a recording has."""
 import laws
 
@@ -59,8 +59,5 @@ def every_case():
         case("drift+anisotropic", "cuboid", "anisotropic sensor-drift", "anisotropic", [laws.offset((0, 0, 0.03), (4e-5, 3e-5, -6e-5))]),
         case("damper+bias", "organ", "damper sensor-bias", chain=[laws.dashpot(4.0), laws.offset((0.03, -0.05, 0.05))]),
         case("friction+regions", "organ", "friction regions", "regions", [laws.slipping(0.3)]),
-        case("stiffening-organ", "organ", "hyperelastic", "stiffening"),
-        case("stiffening-ball", "ball", "hyperelastic", "stiffening"),
-        case("stiffening+drift", "organ", "hyperelastic sensor-drift", "stiffening", [laws.offset((0, 0, 0.03), (4e-5, 3e-5, -6e-5))]),
     ]
     return c

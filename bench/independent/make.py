@@ -10,7 +10,6 @@ import numpy as np
 import bodies
 import cases
 import motion
-import paths
 import stiffnesses
 
 
@@ -31,10 +30,6 @@ def write_bodies(out):
 
 def forces(case, presses, out):
     """The body's forces on the tool, press by press."""
-    if case["variant"] == "stiffening":
-        ways = paths.ways(case["body"])
-        aslant = [bool(np.linalg.norm(np.cross(p.u[-1], p.n)) > 1e-6) for p in presses]
-        return [paths.forces(out, case["body"], p, ways[(p.place, a)]) for p, a in zip(presses, aslant)]
     K = stiffnesses.load(out, case["body"], case["radius"], case["variant"])
     return [-p.u @ K[p.place].T for p in presses]
 
@@ -44,10 +39,7 @@ def write(case, out):
     seed = zlib.crc32(name.encode())
     random = np.random.default_rng(seed)
     places = bodies.places(body)
-    if case["variant"] == "stiffening":
-        presses = paths.session(body)
-    else:
-        presses = motion.session(places, seed, case.get("holds", (2.0, 3.0)))
+    presses = motion.session(places, seed, case.get("holds", (2.0, 3.0)))
     swing = case.get("swing")
     for p in presses:
         p.temperature = 22 + (swing or 0) * np.sin(2 * np.pi * p.t / 800)
