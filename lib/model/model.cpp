@@ -67,7 +67,7 @@ std::vector<Parameter> effect_rows(const Effect& effect, int terms,
       p.effect = effect.card().name;
       const bool numbered = effect.card().terms || effect.card().by_press;
       p.name = numbered ? split_term(card.name).first + std::to_string(k + 1) : card.name;
-      p.value = values[rows.size()];
+      p.value = rows.size() < values.size() ? values[rows.size()] : card.identity;
       p.unit = card.unit;
       p.lower = card.lower;
       p.upper = card.upper;

@@ -44,7 +44,8 @@ struct Model {
 const ParameterCard* parameter_card(const Effect& effect, const std::string& name);
 
 // The rows of an effect with `terms` terms (or presses), at given values (one a card parameter and
-// term). Switches are fixed, what is solved for press by press is derived, the rest is free.
+// term; identities where they end). Switches are fixed, what is solved for press by press is
+// derived, the rest is free.
 std::vector<Parameter> effect_rows(const Effect& effect, int terms,
                                    const std::vector<double>& values);
 
