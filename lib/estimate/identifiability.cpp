@@ -27,6 +27,7 @@ std::string words(const std::vector<Unknown>& unknowns, const std::vector<std::s
   for (Eigen::Index i = 0; i < v.size(); ++i)
     if (std::abs(v[i]) > kTakesPart * largest)
       part.push_back(names[static_cast<std::size_t>(i)]), at.push_back(i);
+  if (part.empty()) return "the sensitivities are not finite";
   if (part.size() == 1) return part[0] + " has no effect that the data show";
   if (part.size() > 2)
     return joined(part) + " can change together without a change that the data show";

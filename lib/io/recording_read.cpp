@@ -16,6 +16,7 @@ constexpr std::array<const char*, kColumns> kNames{
     "press", "t", "x", "y", "z", "ux", "uy", "uz", "fx", "fy", "fz", "temp", "contact"};
 constexpr double kLargestPosition = 10;     // [m]; beyond it the unit is wrong
 constexpr double kLargestDisplacement = 1;  // [m]
+constexpr double kLargestForce = 1e6;       // [N]
 
 class RecordingReader {
  public:
@@ -84,6 +85,11 @@ class RecordingReader {
                  "number the contact episodes 1, 2, 3");
     for (const Column k : {kX, kY, kZ}) check_size(k, kLargestPosition);
     for (const Column k : {kUx, kUy, kUz}) check_size(k, kLargestDisplacement);
+    for (const Column k : {kFx, kFy, kFz})
+      if (present_[k] && std::abs(value_[k]) > kLargestForce)
+        fail_input(csv_.where(),
+                   std::string(kNames[k]) + " is " + format_number(value_[k]) + " N, beyond 1e6 N",
+                   "give forces in newtons");
     if (present_[kContact] && value_[kContact] != 0 && value_[kContact] != 1)
       fail_input(csv_.where(), "contact is " + format_number(value_[kContact]),
                  "write 1 in contact and 0 in the air");
