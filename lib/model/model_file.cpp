@@ -1,8 +1,10 @@
 // model.csv: the table that a person edits, diffs and joins.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
@@ -57,6 +59,29 @@ void check_row(const Parameter& p, const std::string& where) {
                fmt::format("{} {} = {} lies outside its bounds [{}, {}]", p.effect, p.name,
                            format_number(p.value), format_number(p.lower), format_number(p.upper)),
                "change the value or the bounds");
+}
+
+// Rows may stand in any order, but effects with terms take theirs term by term, in their card's
+// order.
+void arrange_terms(Model& model) {
+  for (const std::string& name : model.effects()) {
+    const Effect& effect = require_effect(name);
+    if (!effect.card().terms && !effect.card().by_press) continue;
+    const auto key = [&](const Parameter& p) {
+      const std::size_t digits = p.name.find_last_not_of("0123456789") + 1;
+      const int term = digits < p.name.size() ? std::stoi(p.name.substr(digits)) : 0;
+      return std::tuple(p.region, term, parameter_card(effect, p.name));
+    };
+    std::vector<Parameter> rows;
+    for (const Parameter& p : model.parameters)
+      if (p.effect == name) rows.push_back(p);
+    std::stable_sort(rows.begin(), rows.end(), [&](const Parameter& a, const Parameter& b) {
+      return key(a) < key(b);  // cards of one effect stand in one array
+    });
+    auto next = rows.begin();
+    for (Parameter& p : model.parameters)
+      if (p.effect == name) p = *next++;
+  }
 }
 
 }  // namespace
@@ -122,6 +147,7 @@ Model read_model(Input& input) {
                                   card.lower, card.upper, ParameterState::kFixed});
     }
   }
+  arrange_terms(model);
   return model;
 }
 

@@ -49,6 +49,17 @@ TEST(ModelFile, RoundTripsEveryEffect) {
   EXPECT_EQ(second.str(), out.str());
 }
 
+TEST(ModelFile, RowsMayStandInAnyOrder) {
+  const std::string head = "effect,region,parameter,value\n";
+  const Model model = read(head +
+                           "viscoelastic,0,tau2,2\nelastic,0,nu,0.4\nviscoelastic,0,tau1,0.3\n"
+                           "elastic,0,E,10000\nviscoelastic,0,E2,200\nviscoelastic,0,E1,3000\n");
+  std::string names;
+  for (const Parameter& p : model.parameters)
+    if (p.effect == "viscoelastic") names += p.name + " ";
+  EXPECT_EQ(names, "E1 tau1 E2 tau2 ");
+}
+
 TEST(ModelFile, RefusesWhatItCannotMean) {
   EXPECT_NE(error_of([] {
               read(kHead + kElastic + "magic,0,x,1,1,,0,2,free\n");
