@@ -26,7 +26,7 @@ TEST_F(Fit, DerivativesOfAWholeModelAreDifferences) {
       test::with(test::with(test::with(test::elastic(1.5e4, 0.42), "hyperelastic", {0.1, 1}),
                             "viscoelastic", {6e3, 0.4}),
                  "tip", {100}),
-      "sensor-lag", {0.03});
+      "sensor-lag", {0.03, 0.0137});
   const Selection selection{0, 1, 2, 7};
   test::expect_derivatives(w(), model, selection);
 }
