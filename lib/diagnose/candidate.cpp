@@ -111,25 +111,6 @@ bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Ba
   return false;
 }
 
-// The start in whose valley an estimate lies: the fewest typical changes away.
-const Model& nearest_start(const std::vector<Model>& starts, const Model& model) {
-  const auto distance = [&](const Model& start) {
-    double sum = 0;
-    for (std::size_t i = 0; i < model.parameters.size(); ++i) {
-      const Parameter& p = model.parameters[i];
-      const ParameterCard* card = parameter_card(require_effect(p.effect), p.name);
-      const double from = start.parameters[i].value;
-      const double change =
-          card->logarithmic ? std::log(p.value / from) : (p.value - from) / card->scale;
-      sum += change * change;
-    }
-    return sum;
-  };
-  return *std::min_element(starts.begin(), starts.end(), [&](const Model& a, const Model& b) {
-    return distance(a) < distance(b);
-  });
-}
-
 // Scores by press of the columns with what the baseline's own parameters can do taken out.
 CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const Workspace& w) {
   if (y.offsets) take_out_press_means(w.dataset, all_episodes(w.dataset), columns);
@@ -198,7 +179,7 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   // Estimates; refine() solves where that is promising.
   try {
     candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 0));
-    if (card.solved) candidate.start = nearest_start(starts, candidate.fitted.model);
+    if (card.solved) candidate.starts = starts;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kNoConvergence) throw;
     lack = std::string("it cannot be fitted: ") + error.what();
@@ -208,20 +189,13 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
 }
 
 void refine(Candidate& candidate, Workspace& w) {
-  constexpr double kLeaves = 1.3;  // times the noise: not what is meant
-  constexpr int kGlance = 2;       // rounds, to see whether a start is better
   const EffectCard& card = candidate.effect->card();
-  if (!card.solved && !card.from_locations) return;
   const Selection all = all_episodes(w.dataset);
-  candidate.fitted = fit(candidate.fitted.model, w.dataset, all, *w.body, fit_options(w));
-  if (!card.solved || candidate.fitted.rmse < kLeaves * w.noise.value) return;
-  // Estimates are of first order and may have led away from where they began.
-  FitResult anew = fit(candidate.start, w.dataset, all, *w.body, fit_options(w, kGlance));
-  if (anew.rmse < candidate.fitted.rmse) {
-    anew = fit(anew.model, w.dataset, all, *w.body, fit_options(w));
-    if (anew.rmse < candidate.fitted.rmse) candidate.fitted = std::move(anew);
-  }
-  w.body->solve(material_of(candidate.fitted.model));
+  if (card.solved)
+    candidate.fitted = fit_solved(candidate.fitted.model, candidate.starts, w.dataset, all, *w.body,
+                                  fit_options(w));
+  else if (card.from_locations)
+    candidate.fitted = fit(candidate.fitted.model, w.dataset, all, *w.body, fit_options(w));
 }
 
 void hold_out(Candidate& candidate, Workspace& w, const Folds& folds) {

@@ -19,7 +19,8 @@ struct Baseline {
 struct Candidate {
   const Effect* effect = nullptr;
   FitResult fitted;
-  Model start;  // from which it was estimated
+  std::vector<Model>
+      starts;  // from which it was estimated, where finite elements are solved for it
   HeldOut held_out;
   bool one_more_term = false;
   bool every_site = false;  // of regions: each position its own, interpolated between them

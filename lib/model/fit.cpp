@@ -306,43 +306,6 @@ FitResult fit(const Model& start, const Dataset& dataset, const Selection& selec
   return result;
 }
 
-FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
-                   const Selection& selection, BodyStiffness& body, const FitOptions& options) {
-  // Where each fit costs finite-element solutions, estimates choose the start.
-  FitOptions each = options;
-  const bool choose = starts.size() > 1 && is_linearised(material_of(starts[0]), false);
-  if (choose) each.rounds = 0;
-  // All starts have the same bounds, over which the others are spread: one search is enough.
-  const bool search = starts.size() > 1 && options.starts > 1;
-  if (search) each.starts = 1;
-  FitResult best;
-  bool found = false;
-  for (std::size_t s = 0; s < starts.size(); ++s) {
-    FitResult result;
-    try {
-      result = fit(starts[s], dataset, selection, body, each);
-    } catch (const Error& error) {  // a start without forces; another one may have them
-      const bool last = s + 1 == starts.size() && !found;
-      if (error.code() != ExitCode::kNoConvergence || last) throw;
-      continue;
-    }
-    const bool better = !found || (result.converged && !best.converged) ||
-                        (result.converged == best.converged && result.rmse < best.rmse);
-    const bool stopped = result.stopped;
-    if (better) best = std::move(result);
-    found = true;
-    if (!stopped) continue;
-    best.stopped = true;
-    best.converged = false;
-    best.message = "interrupted";
-    if (search) best.starts_done = 0;
-    return best;
-  }
-  if (search || (choose && options.rounds > each.rounds))
-    return fit(best.model, dataset, selection, body, options);
-  return best;
-}
-
 double rmse(const Model& model, const Dataset& dataset, const Selection& selection,
             const BodyStiffness& body) {
   return component_rms(measured_forces(dataset, selection) -

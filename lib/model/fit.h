@@ -61,6 +61,12 @@ struct FitResult {
 FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
               BodyStiffness& body, const FitOptions& options);
 
+// From an estimate made from the `starts`, finite elements solved. Estimates are of first order and
+// may have led away from where they began: where much is left, from the nearest start as well.
+FitResult fit_solved(const Model& estimate, const std::vector<Model>& starts,
+                     const Dataset& dataset, const Selection& selection, BodyStiffness& body,
+                     const FitOptions& options);
+
 // The best of several starts, from which the search of FitOptions::starts begins.
 FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
                    const Selection& selection, BodyStiffness& body, const FitOptions& options);
