@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "effects/catalogue.h"
 #include "one_press.h"
 
 namespace hapsim {
@@ -98,6 +99,26 @@ TEST(Softening, MayComeWithTimeAlone) {
   const auto aged = forces_after(softening_effect(), press, values);
   for (std::size_t i = 0; i < aged.size(); ++i)
     EXPECT_NEAR(aged[i].z(), kStiffness * press.u[i].norm() * std::exp(-0.2), 1e-12) << i;
+}
+
+// What data can tell bounds a fit: times from a sample's step on, balls within the body.
+TEST(Limits, AreTheDatas) {
+  DataSummary data;
+  data.sample_step = 0.05;
+  data.low = Vec3(-0.04, -0.03, 0);
+  data.high = Vec3(0.04, 0.03, 0.02);
+  EXPECT_EQ(viscoelastic_effect().limits(data)[1].first, 0.05);
+  const auto ball = inclusion_effect().limits(data);
+  EXPECT_EQ(ball[2], std::pair(0.0, 0.02));
+  EXPECT_EQ(ball[3].second, 0.01);
+  for (const Effect* effect : catalogue()) {
+    const auto limits = effect->limits({});
+    ASSERT_EQ(limits.size(), effect->card().parameters.size());
+    for (std::size_t k = 0; k < limits.size(); ++k) {
+      EXPECT_GE(limits[k].first, effect->card().parameters[k].lower) << effect->card().name;
+      EXPECT_LE(limits[k].second, effect->card().parameters[k].upper) << effect->card().name;
+    }
+  }
 }
 
 }  // namespace

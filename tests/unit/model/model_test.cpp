@@ -60,6 +60,14 @@ TEST(ModelFile, RowsMayStandInAnyOrder) {
   EXPECT_EQ(names, "E1 tau1 E2 tau2 ");
 }
 
+TEST(ModelFile, WhatMayBeLeftOutDoesNothing) {
+  const Model model = read(kHead + kElastic + "damper,0,c,3,N s/m,,0,9,free\n");
+  const Parameter* tau = model.find("damper", 0, "tau");
+  ASSERT_NE(tau, nullptr);
+  EXPECT_EQ(tau->value, 0);
+  EXPECT_EQ(tau->state, ParameterState::kFixed);
+}
+
 TEST(ModelFile, RefusesWhatItCannotMean) {
   EXPECT_NE(error_of([] {
               read(kHead + kElastic + "magic,0,x,1,1,,0,2,free\n");
