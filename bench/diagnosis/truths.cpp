@@ -141,10 +141,10 @@ std::vector<Truth> own_forms() {
     return std::vector<double>{s, 25};
   }));
   t.push_back(own_form("softening", "softening", 0.9, [](double s) {
-    return std::vector<double>{s, 3, 1, 0};
+    return std::vector<double>{s, 3, 1, 2, 0};
   }));
   t.push_back(own_form("ageing", "softening", 0.01, [](double s) {
-    return std::vector<double>{0, 2, 1, s};
+    return std::vector<double>{0, 2, 1, 2, s};
   }));
   t.push_back(
       own_form("backlash", "backlash", 3e-3, [](double s) { return std::vector<double>{s}; }));

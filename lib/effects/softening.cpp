@@ -17,7 +17,7 @@ class Softening : public Effect {
         .title =
             "the material is softer where it was pressed before, or the longer the session lasts",
         .equation =
-            "f = f_before (1 - s ((1 - c) min(1, (q_past/q)^2) + c (1 - (q/q_max)^m))) "
+            "f = f_before (1 - s ((1 - c) min(1, (q_past/q)^k) + c (1 - (q/q_max)^m))) "
             "exp(-rate t), q the depth, q_past the deepest of earlier presses at this place, q_max "
             "the deepest so far, t from the start of the session to that of the press",
         .source =
@@ -34,6 +34,11 @@ class Softening : public Effect {
                         "share that acts below the deepest point, at once: 1 Mullins effect, 0 all "
                         "presses after the first alike",
                         1, 0.9, 0, 1, 0.3, false},
+                       {"k", "1",
+                        "how fast the loss of later presses fades where they go deeper than those "
+                        "before: 0 not at all",
+                        2, 2, 0, 50, 1, false, std::numeric_limits<double>::quiet_NaN(), false,
+                        true},
                        {"rate", "1/s",
                         "relative loss of stiffness per second of the session, whether pressed or "
                         "not (ageing; negative: it stiffens, as by drying)",
@@ -55,6 +60,7 @@ class Softening : public Effect {
     const ParameterValue& s = find_value(values, "s");
     const ParameterValue& m = find_value(values, "m");
     const ParameterValue& c = find_value(values, "c");
+    const ParameterValue& k = find_value(values, "k");
     const ParameterValue& rate = find_value(values, "rate");
     const double age = press.session.empty() ? 0 : press.session.front();
     const double fresh = std::exp(-rate.value * age);
@@ -75,7 +81,8 @@ class Softening : public Effect {
         dmost = dq;
       }
       const double x = q / most, power = std::pow(x, m.value), now = 1 - power;
-      const double before = q > past ? past * past / (q * q) : 1;
+      const double fade = q > past && past > 0 ? std::log(past / q) : 0;
+      const double before = past > 0 ? std::exp(k.value * fade) : 0;
       const double share = (1 - c.value) * before + c.value * now;
       const Eigen::Vector3d f = signal.f.segment<3>(row);
       signal.f.segment<3>(row) *= 1 - s.value * share;
@@ -83,17 +90,20 @@ class Softening : public Effect {
       signal.df.middleRows(row, 3) *= 1 - s.value * share;
       if (s.column >= 0) signal.df.block<3, 1>(row, s.column) -= share * f;
       if (c.column >= 0) signal.df.block<3, 1>(row, c.column) -= s.value * (now - before) * f;
+      if (k.column >= 0 && past > 0)
+        signal.df.block<3, 1>(row, k.column) -= s.value * (1 - c.value) * before * fade * f;
       if (m.column >= 0)
         signal.df.block<3, 1>(row, m.column) += s.value * c.value * power * std::log(x) * f;
       if (!through) continue;
       Eigen::RowVectorXd dshare = -c.value * m.value * power / q * (dq - x * dmost);
-      if (q > past) dshare -= (1 - c.value) * 2 * before / q * dq;
+      if (q > past) dshare -= (1 - c.value) * k.value * before / q * dq;
       signal.df.middleRows(row, 3) -= s.value * f * dshare;
     }
   }
 
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
-    return {{0.15, 1, 0.9, 0}, {0.15, 6, 0.9, 0}, {0.15, 6, 0.05, 0}, {0, 2, 0.5, 0}};
+    return {{0.15, 1, 0.9, 2, 0},    {0.15, 6, 0.9, 2, 0},   {0.15, 6, 0.05, 2, 0},
+            {0.15, 6, 0.05, 0.1, 0}, {0.15, 6, 0.05, 20, 0}, {0, 2, 0.5, 2, 0}};
   }
 };
 

@@ -54,7 +54,7 @@ TEST(Hyperelastic, SmallPressesAreLinear) {
 
 TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3, 2e-3, 3e-3});
-  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 1}, {0, "rate", 0}};
+  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 1}, {0, "k", 2}, {0, "rate", 0}};
   const auto first = forces_after(softening_effect(), press, values);
   const double fresh[] = {0.2, 0.4, 0.2 * (1 - 0.3 * 0.75), 0.4, 0.6};
   press.past_depth = 4e-3;
@@ -66,17 +66,22 @@ TEST(Softening, OnlyBelowTheDeepestPressSoFar) {
   }
 }
 
+// Beyond the earlier depth the loss fades like its square, not at all, or at once.
 TEST(Softening, MayTouchLaterPressesAlone) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3, 3e-3});
-  const Values values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 0}, {0, "rate", 0}};
-  const auto first = forces_after(softening_effect(), press, values);
+  const auto values = [](double k) {
+    return Values{{0, "s", 0.3}, {0, "m", 2}, {0, "c", 0}, {0, "k", k}, {0, "rate", 0}};
+  };
+  const auto first = forces_after(softening_effect(), press, values(2));
   press.past_depth = 2e-3;
-  const auto again = forces_after(softening_effect(), press, values);
-  const double factor[] = {0.7, 0.7, 0.7, 1 - 0.3 * 4 / 9};
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const double f = kStiffness * press.u[i].norm();
-    EXPECT_NEAR(first[i].z(), f, 1e-12) << i;
-    EXPECT_NEAR(again[i].z(), f * factor[i], 1e-12) << i;
+  const std::pair<double, double> beyond[] = {{2, 1 - 0.3 * 4 / 9}, {0, 0.7}, {50, 1}};
+  for (const auto& [k, factor] : beyond) {
+    const auto again = forces_after(softening_effect(), press, values(k));
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const double f = kStiffness * press.u[i].norm();
+      EXPECT_NEAR(first[i].z(), f, 1e-12) << i;
+      EXPECT_NEAR(again[i].z(), f * (i < 3 ? 0.7 : factor), 1e-9) << i << " " << k;
+    }
   }
 }
 
@@ -95,7 +100,7 @@ TEST(Damper, OfTheBodyAndOfTheTool) {
 TEST(Softening, MayComeWithTimeAlone) {
   PressView press = test::press_to({1e-3, 2e-3, 1e-3});
   press.session = {100, 101, 102};
-  const Values values{{0, "s", 0}, {0, "m", 2}, {0, "c", 1}, {0, "rate", 2e-3}};
+  const Values values{{0, "s", 0}, {0, "m", 2}, {0, "c", 1}, {0, "k", 2}, {0, "rate", 2e-3}};
   const auto aged = forces_after(softening_effect(), press, values);
   for (std::size_t i = 0; i < aged.size(); ++i)
     EXPECT_NEAR(aged[i].z(), kStiffness * press.u[i].norm() * std::exp(-0.2), 1e-12) << i;
