@@ -200,7 +200,7 @@ TEST(FullSimulation, SaysWhereItFails) {
       fails(finite, motion({{0, 0, -1e-3}, {0, 0, -0.028}}, 0), coarse(), ExitCode::kNoConvergence)
           .find("motion.csv:3: the body was deformed to"),
       std::string::npos);
-  const Model soft = model_of({{"elastic", {2e4, 0.4}}, {"softening", {0.2, 2, 0.9}}});
+  const Model soft = model_of({{"elastic", {2e4, 0.4}}, {"softening", {0.2, 2, 0.9, 2, 0}}});
   EXPECT_NE(fails(soft, motion({{0, 0, -1e-3}}, 0), coarse(), ExitCode::kUsage).find("softening"),
             std::string::npos);
   FullOptions own;
