@@ -2,7 +2,8 @@
 # run.sh BUILD OUT [FROM:TO [LOW:HIGH [TRUTH...]]] [--verbose] [--keep FOLDER]: trials on the shipped
 # phantom, seeds FROM to TO, errors LOW to HIGH times the noise. The results in OUT/trials.csv are
 # gone on with when it is run again; delete the file to begin anew. Two runs at once share nothing:
-# give each an OUT of its own and put the files together.
+# give each an OUT of its own and put the files together. Truths whose finite elements are solved
+# (regions, layer, anisotropic, base, inclusion) take up to 13 GB: one such run at a time.
 set -euo pipefail
 build=$1 out=$2 seeds=${3:-1:8} levels=${4:-3:10}
 shift $(($# < 4 ? $# : 4))

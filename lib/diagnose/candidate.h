@@ -19,8 +19,7 @@ struct Baseline {
 struct Candidate {
   const Effect* effect = nullptr;
   FitResult fitted;
-  std::vector<Model>
-      starts;  // from which it was estimated, where finite elements are solved for it
+  std::vector<Model> starts;  // of the estimate, where finite elements are solved for it
   HeldOut held_out;
   bool one_more_term = false;
   bool every_site = false;  // of regions: each position its own, interpolated between them

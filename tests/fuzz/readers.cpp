@@ -55,20 +55,22 @@ void locations(const std::string& bytes) {
 }
 
 // What was read is written, and that must be read again.
-void recording(const std::string& bytes) {
+template <typename Read, typename Write>
+void there_and_back(const std::string& bytes, const Read& read, const Write& write) {
   Input input = input_of(bytes);
   std::ostringstream out;
-  write_recording(out, read_recording(input, false));
+  write(out, read(input));
   Input again = input_of(out.str());
-  read_recording(again, false);
+  read(again);
+}
+
+void recording(const std::string& bytes) {
+  there_and_back(
+      bytes, [](Input& input) { return read_recording(input, false); }, write_recording);
 }
 
 void model(const std::string& bytes) {
-  Input input = input_of(bytes);
-  std::ostringstream out;
-  write_model(out, read_model(input));
-  Input again = input_of(out.str());
-  read_model(again);
+  there_and_back(bytes, read_model, write_model);
 }
 
 void manifest(const std::string& bytes) {
@@ -125,19 +127,11 @@ void follow(MotionSource& source) {
 }
 
 void acfm(const std::string& bytes) {
-  Input input = input_of(bytes);
-  std::ostringstream out;
-  write_acfm(out, read_acfm(input));
-  Input again = input_of(out.str());
-  read_acfm(again);
+  there_and_back(bytes, read_acfm, write_acfm);
 }
 
 void fusion(const std::string& bytes) {
-  Input input = input_of(bytes);
-  std::ostringstream out;
-  write_fusion(out, read_fusion(input));
-  Input again = input_of(out.str());
-  read_fusion(again);
+  there_and_back(bytes, read_fusion, write_fusion);
 }
 
 void motion(const std::string& bytes) {
