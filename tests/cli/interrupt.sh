@@ -71,6 +71,7 @@ interrupted_at() {
   local words=$1 signal=$2
   shift 2
   for attempt in 1 2 3 4 5; do
+    : >.err # or the words of the run before are found, before the new one has opened its own
     env --default-signal=INT "$tool" "$@" 2>.err &
     pid=$!
     until grep -q "$words" .err || ! kill -0 $pid 2>/dev/null; do sleep 0.02; done
