@@ -5,8 +5,8 @@
 #include <cmath>
 
 // The same source for processors with and without fused multiplication of four numbers at once;
-// chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+// chosen when the program starts. The thread sanitizer is not yet there then, and would be called.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_THREAD__)
 #define HAPSIM_WIDE __attribute__((target_clones("fma", "default")))
 #else
 #define HAPSIM_WIDE

@@ -10,6 +10,7 @@
 #include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
 #include "linalg/counts.h"
+#include "linalg/metis_guard.h"
 #include "linalg/schur_dense.h"
 
 namespace hapsim {
@@ -80,7 +81,11 @@ void SchurInverse::Impl::order_eliminated(const SymmetricSparse& graph, std::vec
   common.nmethods = 2;
   common.method[0].ordering = CHOLMOD_METIS;
   common.method[1].ordering = CHOLMOD_AMD;
-  cholmod_factor* found = cholmod_analyze(&small, &common);
+  cholmod_factor* found = nullptr;
+  {
+    const MetisGuard guard;
+    found = cholmod_analyze(&small, &common);
+  }
   check(found, "ordering the sparse matrix failed");
   const int* permutation = static_cast<const int*>(found->Perm);
   order.assign(permutation, permutation + graph.size);

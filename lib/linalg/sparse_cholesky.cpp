@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <mutex>
 #include <new>
 
 #include "base/error.h"
 #include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
 #include "linalg/counts.h"
+#include "linalg/metis_guard.h"
 
 namespace hapsim {
 namespace {
@@ -67,10 +67,7 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
   common->postorder = 1;
   cholmod_factor* order = nullptr;
   {
-    // METIS draws from the C library's rand(), which all threads share: side by side they would
-    // order, and so round, differently from run to run.
-    static std::mutex one_at_a_time;
-    const std::lock_guard lock(one_at_a_time);
+    const MetisGuard guard;
     order = cholmod_analyze(&small, common);
   }
   impl_->check_memory();
