@@ -10,8 +10,8 @@ namespace hapsim {
 enum class ExitCode {
   kDone = 0,
   kCheckFailed = 1,    // done, and the asked check says no
-  kUsage = 2,          // wrong command line
-  kBadInput = 3,       // a file or stream holds what cannot be used
+  kUsage = 2,          // the command line is wrong, or names what is not there
+  kBadInput = 3,       // a file or stream holds what cannot be used, or lacks what is needed
   kNoConvergence = 4,  // a numerical method failed or did not converge
   kIo = 5,             // reading or writing failed
 };

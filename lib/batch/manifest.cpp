@@ -116,13 +116,7 @@ void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::str
   if (!cell("effects").empty()) row.effects = joined_by_commas(cell("effects"));
   if (row.name.empty()) fail_input(where, "the recording has no name", "give each row a name");
   if (const std::string tool = cell("tool"); !tool.empty()) {
-    try {
-      row.tool_radius = parse_length(tool, "tool");
-    } catch (const Error& error) {
-      const std::string what = error.what();
-      throw Error(ExitCode::kBadInput, where, what.rfind("tool", 0) == 0 ? what : "tool: " + what,
-                  "or leave it empty for the recording's tool_radius");
-    }
+    row.tool_radius = parse_length_at(where, tool, "tool");
     if (!(row.tool_radius > 0 && row.tool_radius < 1))
       fail_input(where, "the tool's radius " + shown(tool) + " is not between 0 and 1 m",
                  "write it with its unit: 4mm");

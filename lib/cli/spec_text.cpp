@@ -27,8 +27,8 @@ void add_sentence(std::string& text, const std::string& sentence) {
 const std::array<std::pair<const char*, const char*>, 6> kExitCodes{{
     {"0", "done"},
     {"1", "done, and the check that was asked for says no"},
-    {"2", "wrong usage"},
-    {"3", "bad input"},
+    {"2", "wrong usage: flags unknown, contradictory or naming what is not there"},
+    {"3", "bad input: a file holds what cannot be used or lacks what is asked"},
     {"4", "no convergence, or another numerical failure"},
     {"5", "reading or writing failed"},
 }};

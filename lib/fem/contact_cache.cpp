@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "base/error.h"
@@ -15,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Begins every entry; a new layout or a new meshing gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '8'};
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '0', '9'};
 
 struct Head {
   char magic[8];
@@ -26,6 +27,13 @@ constexpr std::uint64_t kMostFeatures = 64, kMostValues = 64;
 
 void append(std::string& bytes, const void* data, std::size_t count) {
   bytes.append(static_cast<const char*>(data), count);
+}
+
+// Ends every entry: a damaged one must not become a result.
+std::string sum_of(const std::string& bytes) {
+  ContentHash hash;
+  hash.add(bytes);
+  return hash.hex();
 }
 
 }  // namespace
@@ -57,7 +65,14 @@ ContactCache::ContactCache(const std::string& directory, double limit_bytes) {
 
 std::optional<StiffnessSolution> ContactCache::load(const std::string& key) const {
   if (directory_.empty()) return std::nullopt;
-  std::ifstream file(fs::path(directory_) / (key + ".contact"), std::ios::binary);
+  std::ifstream entry(fs::path(directory_) / (key + ".contact"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(entry), {}};
+  constexpr std::size_t kSum = 32;
+  if (bytes.size() < kSum) return std::nullopt;
+  const std::string sum = bytes.substr(bytes.size() - kSum);
+  bytes.resize(bytes.size() - kSum);
+  if (sum_of(bytes) != sum) return std::nullopt;
+  std::istringstream file(bytes);
   Head head;
   if (!file.read(reinterpret_cast<char*>(&head), sizeof head) ||
       std::memcmp(head.magic, kMagic, sizeof kMagic) != 0 || head.groups > 100000 ||
@@ -85,7 +100,7 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
     for (auto& k : s.dK_dfeature.back()) read(k.data(), sizeof k);
   }
   // An entry of another length was written with another layout.
-  if (!file || file.peek() != std::ifstream::traits_type::eof()) return std::nullopt;
+  if (!file || file.peek() != std::istringstream::traits_type::eof()) return std::nullopt;
   return s;
 }
 
@@ -110,7 +125,7 @@ void ContactCache::store(const std::string& key, const StiffnessSolution& s) con
   }
   try {
     Output file((fs::path(directory_) / (key + ".contact")).string());
-    file.write(bytes);
+    file.write(bytes + sum_of(bytes));
     file.commit();
   } catch (const Error&) {
     // A full or read-only cache costs time, not the result.

@@ -28,6 +28,7 @@ class ContactCache {
   // silently off, for no result depends on it. Entries beyond `limit_bytes` are removed, oldest
   // first.
   explicit ContactCache(const std::string& directory, double limit_bytes = 1e9);
+  // Nothing for an entry that is absent, damaged or of another layout.
   std::optional<StiffnessSolution> load(const std::string& key) const;
   void store(const std::string& key, const StiffnessSolution& solution) const;
 

@@ -75,7 +75,8 @@ RelaxationSpectrum::RelaxationSpectrum(const std::vector<RegionRelaxation>& regi
     }
   }
   if (times_.size() > most)
-    fail_usage("the regions' relaxation times spread over too many decades (" +
+    fail_input("",
+               "the regions' relaxation times spread over too many decades (" +
                    std::to_string(times_.size()) + " Maxwell elements, " + std::to_string(most) +
                    " at most)",
                "give the regions fewer relaxation times, or common ones");

@@ -31,7 +31,7 @@ struct RegionRelaxation {
 // modulus, and in time the force on the tool is exact for straight motion between samples.
 class RelaxationSpectrum {
  public:
-  // Error(kUsage): more than `most` times are needed. Terms must have positive moduli and times.
+  // Error(kBadInput): more than `most` times are needed. Terms must have positive moduli and times.
   explicit RelaxationSpectrum(const std::vector<RegionRelaxation>& regions, std::size_t most = 32);
 
   const std::vector<double>& times() const { return times_; }  // theta_j [s], ascending

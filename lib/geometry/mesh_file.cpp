@@ -10,6 +10,7 @@
 #include "geometry/mesh_parts.h"
 #include "geometry/support.h"
 #include "geometry/tet_faces.h"
+#include "io/wrapped.h"
 
 namespace hapsim {
 namespace {
@@ -230,9 +231,11 @@ MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool men
     raw = parse_tetgen_mesh(bytes, where);
   else if (is_abaqus_deck(bytes))
     raw = parse_abaqus_mesh(bytes, where);
-  else
+  else {
+    refuse_wrapped(where, bytes);
     fail_input(where, bytes.empty() ? "empty input" : "not a PLY, VTU, Gmsh, TetGen or Abaqus mesh",
                "write it with hs-tetmesh");
+  }
   return finished(raw, where, mend);
 }
 

@@ -26,6 +26,7 @@ constexpr double kFewSteep = 0.02;   // share of the points: a scan of the upper
 constexpr double kRest = 0.05;       // share of the height cut off such a body so that it can stand
 constexpr double kFarOff = 0.25;     // of the spacing: others are tried when points lie farther off
 constexpr double kNoises = 3;        // ... unless that is the scan's own thickness
+constexpr double kFarthest = 1e6;    // [m]
 constexpr std::size_t kFewest = 12;  // different points
 constexpr double kFlat = 1e-4;       // thickness over width of points in a plane
 constexpr double kFaces = 2000;      // wished when --edge is not given
@@ -53,12 +54,30 @@ PointCloud without_doubles(const PointCloud& cloud) {
   return once;
 }
 
+// Circumcentres underflow with coordinates of 1e-200 m, and normals need not be of unit length in a
+// file: what does not change the shape and would end CGAL's exact numbers.
+void make_tame(PointCloud& cloud) {
+  constexpr double kNothing = 1e-12;  // [m]
+  for (Vec3& p : cloud.points)
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(p[k]) < kNothing) p[k] = 0;
+  for (Vec3& n : cloud.normals) {
+    const double largest = n.cwiseAbs().maxCoeff();
+    if (largest > 0 && std::abs(n.norm() - 1) > 1e-3) n = (n / largest).normalized();
+  }
+}
+
 // What no method can use is refused before any of them sees it.
 void require_body_points(const std::vector<Vec3>& points, ReconstructMethod method,
                          const std::string& name) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i].allFinite()) continue;
     fail_input(name, fmt::format("point {} is not finite", i), "remove it");
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double far = points[i].cwiseAbs().maxCoeff();
+    if (far >= kFarthest)
+      fail_input(name, fmt::format("point {} lies {:.3g} m away", i, far), "remove it");
   }
   require_surface_points(points, name);
   if (points.size() < kFewest) {
@@ -323,7 +342,9 @@ void check_size(const std::vector<Vec3>& points, const std::string& unit, const 
 Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                     const std::string& name, ReconstructReport& report) {
   report = {};
-  PointCloud scan = without_doubles(cloud);
+  PointCloud scan = cloud;
+  make_tame(scan);
+  scan = without_doubles(scan);
   require_body_points(scan.points, options.method, name);
   if (scan.normals.empty()) {
     NormalsReport normals;

@@ -158,9 +158,13 @@ class Assembler {
     const auto radius = metadata.find("tool_radius");
     double value;
     if (radius && !parse_number(*radius, value))
-      metadata.set("tool_radius", format_number(parse_length(*radius, "tool_radius of the table")));
+      metadata.set("tool_radius",
+                   format_number(parse_length_at(table_.name, *radius, "tool_radius")));
     if (options_.tool_radius) metadata.set("tool_radius", format_number(*options_.tool_radius));
     if (!options_.tool.empty()) metadata.set("tool", options_.tool);
+    // What the table states must be of use to whoever reads the recording.
+    if (metadata.find("tool_radius")) result_.recording.tool_radius();
+    result_.recording.force_noise();
   }
 
   void note_noise(const NoiseEstimate& noise) {

@@ -85,7 +85,7 @@ class Recogniser {
     const auto at = std::find(table_.header.begin(), table_.header.end(), name);
     if (at == table_.header.end()) {
       const std::string near = nearest(name, table_.header);
-      fail_usage("--column: the table has no column '" + name + "'",
+      fail_input(table_.name, "--column: the table has no column '" + name + "'",
                  near.empty() ? "see --list for its columns" : "did you mean '" + near + "'?");
     }
     return static_cast<int>(at - table_.header.begin());

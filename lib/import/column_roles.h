@@ -42,7 +42,8 @@ struct ColumnMap {
 };
 
 // `told` are texts "role=column" (roles: press t x y z tipx .. contactx .. ux .. nx .. fx .. depth
-// force temp contact fail skip). Error(kUsage) for an unknown role or column (with the nearest).
+// force temp contact fail skip). Error(kUsage) for an unknown role, Error(kBadInput)
+// for a column that the table lacks (with the nearest).
 ColumnMap recognise_columns(const RawTable& table, const std::vector<std::string>& told);
 
 std::string role_name(VectorRole role);

@@ -40,8 +40,8 @@ struct ImportResult {
 };
 
 // Converts a table. Error(kBadInput) when it lacks what is needed (a force; and a depth, a tip
-// position or a displacement), when no press ever touches, or for bad cells; Error(kUsage) for
-// --column.
+// position or a displacement), when no press ever touches, for bad cells, or for a
+// column of --column that is absent; Error(kUsage) for a --column that cannot be meant.
 ImportResult import_recording(const RawTable& table, const ImportOptions& options);
 
 // What each column was taken for, and what is missing: a table for people.

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "io/csv.h"
+#include "io/wrapped.h"
 
 namespace hapsim {
 namespace {
@@ -16,23 +17,19 @@ bool begins(std::string_view text, std::string_view with) {
 // Refuses what is certainly no CSV, by its first line, and says what it is.
 void check_kind(const std::string& name, std::string_view first) {
   const std::string table = "a CSV table is needed";
-  if (begins(first, "\xff\xfe") || begins(first, "\xfe\xff") ||
-      (first.size() > 3 && first[1] == '\0' && first[3] == '\0'))
-    fail_input(name, "this is UTF-16 text", "save it as UTF-8 (iconv -f UTF-16 -t UTF-8)");
-  if (begins(first, "PK\x03\x04"))
-    fail_input(name, "this looks like a spreadsheet or zip file", "export the sheet as CSV");
-  if (begins(first, "\x1f\x8b"))
-    fail_input(name, "this is compressed by gzip", "unpack it: gzip -dc FILE | ...");
+  refuse_wrapped(name, first);
   if (trim(first) == "ply") fail_input(name, "this is a PLY file", table);
   if (begins(first, "solid ")) fail_input(name, "this looks like an STL file", table);
 }
 
-void check_text(const std::string& where, std::string_view line) {
+// `where` is asked for when something is wrong: live streams take no memory line by line.
+template <class Where>
+void check_text(const Where& where, std::string_view line) {
   if (line.find('\r') != line.npos && line.find('\0') == line.npos)
-    fail_input(where, "a carriage return stands inside a line", "end lines with LF or CRLF");
+    fail_input(where(), "a carriage return stands inside a line", "end lines with LF or CRLF");
   const auto is_binary = [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\t'; };
   if (std::any_of(line.begin(), line.end(), is_binary))
-    fail_input(where, "this looks like a binary file", "a CSV table is needed");
+    fail_input(where(), "this looks like a binary file", "a CSV table is needed");
 }
 
 bool opens_quote(std::string_view line) {
@@ -90,11 +87,11 @@ bool CsvReader::read_line() {
   while (input_.read_line(text_)) {
     line_ = ++lines_read_;
     if (line_ == 1) {
-      check_kind(input_.name(), text_);
       if (begins(text_, "\xef\xbb\xbf")) text_.erase(0, 3);
+      check_kind(input_.name(), text_);
     }
     if (!text_.empty() && text_.back() == '\r') text_.pop_back();
-    check_text(where(), text_);
+    check_text([this] { return where(); }, text_);
     if (!text_.empty() && text_[0] == '#')
       metadata_.add_line(std::string_view(text_).substr(1));
     else if (!trim(text_).empty())
@@ -114,7 +111,7 @@ void CsvReader::join_quoted_lines() {
                  "close it, or double it inside a field");
     ++lines_read_;
     if (!more_.empty() && more_.back() == '\r') more_.pop_back();
-    check_text(where(), more_);
+    check_text([this] { return where(); }, more_);
     if (opens_quote(more_)) open = false;
     text_ += '\n';
     text_ += more_;

@@ -18,4 +18,14 @@ double parse_length(const std::string& text, const std::string& what) {
   return value * (unit.empty() ? 1 : unit_factor(Quantity::kLength, unit));
 }
 
+double parse_length_at(const std::string& where, const std::string& text, const std::string& what) {
+  try {
+    return parse_length(text, what);
+  } catch (const Error& error) {
+    const std::string said = error.what();
+    throw Error(ExitCode::kBadInput, where, said.rfind(what, 0) == 0 ? said : what + ": " + said,
+                "");
+  }
+}
+
 }  // namespace hapsim

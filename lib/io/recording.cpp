@@ -12,8 +12,8 @@ double Recording::tool_radius() const {
   if (!radius)
     fail_input(name, "the tool's radius is not given",
                "add a line '# tool_radius: 0.004' (metres) at the top");
-  if (!(*radius > 0 && *radius < 1))
-    fail_input(name, "tool_radius " + format_number(*radius) + " is not between 0 and 1 m",
+  if (!(*radius >= 1e-6 && *radius < 1))
+    fail_input(name, "tool_radius " + format_number(*radius) + " is not between 1e-6 and 1 m",
                "give it in metres (4 mm is 0.004)");
   return *radius;
 }

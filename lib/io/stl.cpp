@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "io/number.h"
+#include "io/wrapped.h"
 
 namespace hapsim {
 namespace {
@@ -135,11 +136,14 @@ class AsciiParser {
   long line_ = 1;
 };
 
+bool has_claimed_size(const std::string& bytes) {
+  return bytes.size() >= kHeader &&
+         bytes.size() == kHeader + std::size_t{claimed_triangles(bytes)} * kFacet;
+}
+
 // A binary header may begin with "solid" too: its size tells.
 bool is_binary(const std::string& bytes) {
-  if (bytes.size() >= kHeader &&
-      bytes.size() == kHeader + std::size_t{claimed_triangles(bytes)} * kFacet)
-    return true;
+  if (has_claimed_size(bytes)) return true;
   const std::string_view text = bytes;
   const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
   const std::string_view head = text.substr(first, 512);
@@ -152,6 +156,7 @@ bool is_binary(const std::string& bytes) {
 TriangleSoup parse_stl(const std::string& bytes, const std::string& name) {
   if (bytes.empty()) fail_input(name, "the file is empty", "an STL file is needed");
   const bool binary = is_binary(bytes);
+  if (binary && !has_claimed_size(bytes)) refuse_wrapped(name, bytes);
   if (binary && bytes.size() < kHeader)
     fail_input(name, "this is no STL file: it neither begins with 'solid' nor has 84 bytes",
                "an STL file is needed");

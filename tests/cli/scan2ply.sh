@@ -113,7 +113,7 @@ refuse 'there is only one zone' dome.csv --unit mm --register
 # Touch: 0.2 N on 100 N/m is 2 mm.
 expect 0 'indentation of the touch undone: 2.000 mm' dome.csv --unit mm --touch-force 0.2 --touch-stiffness 100
 expect 2 'add --touch-stiffness' dome.csv --unit mm --touch-force 0.2
-expect 2 'column touch_force' dome.csv --unit mm --touch-stiffness 100
+expect 3 'column touch_force' dome.csv --unit mm --touch-stiffness 100
 
 # The robot's example as it stands.
 if PATH=$bin:$PATH "$example/robot.sh" . >.out 2>.err; then

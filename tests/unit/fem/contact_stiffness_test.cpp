@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 #include "fem/contact_library.h"
 #include "support/block_mesh.h"
@@ -144,13 +146,24 @@ TEST(ContactLibrary, InterpolatesInPoissonsRatioAndCaches) {
   std::printf("interpolation in nu: worst error %.2g\n", worst);
   EXPECT_LT(worst, 1e-3);
   // Again, now from the cache: the same numbers to the last bit.
-  const auto again = library.prepare(positions, 0.0, 0.499);
-  for (std::size_t p = 0; p < positions.size(); ++p) {
-    Eigen::Matrix3d a, b, ignored;
-    prepared[p].stiffness.evaluate(0.4, a, ignored);
-    again[p].stiffness.evaluate(0.4, b, ignored);
-    EXPECT_EQ(a, b);
+  const auto expect_the_same = [&] {
+    const auto again = library.prepare(positions, 0.0, 0.499);
+    for (std::size_t p = 0; p < positions.size(); ++p) {
+      Eigen::Matrix3d a, b, ignored;
+      prepared[p].stiffness.evaluate(0.4, a, ignored);
+      again[p].stiffness.evaluate(0.4, b, ignored);
+      EXPECT_EQ(a, b);
+    }
+  };
+  expect_the_same();
+  // A damaged entry is made again.
+  for (const auto& entry : std::filesystem::directory_iterator(cache)) {
+    std::fstream file(entry.path(), std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(40);
+    file.put('!');
   }
+  expect_the_same();
+  std::filesystem::remove_all(cache);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "expect_error.h"
 #include "geometry/clean_points.h"
 #include "geometry/crease.h"
 #include "geometry/surface_tree.h"
@@ -65,6 +66,22 @@ TEST(Reconstruct, Hemisphere) {
   EXPECT_EQ(method_name(report.method), "poisson");
   EXPECT_EQ(report.base, 0);
   EXPECT_NEAR(signed_volume(s) / (2 * M_PI / 3 * std::pow(0.04, 3)), 1, 0.02);
+}
+
+// Exact numbers end the process on what these became.
+TEST(Reconstruct, BearsTinyCoordinatesAndNormalsOfAnyLength) {
+  PointCloud cloud = cut_ball(0.04, 0, 0, 1500, 1e-4, 1);
+  for (const Vec3& p : cloud.points) cloud.normals.push_back(p.normalized());
+  for (std::size_t i = 0; i < cloud.normals.size(); i += 50)
+    cloud.normals[i] *= i % 100 == 0 ? 1e230 : 1e-230;
+  cloud.points[57].x() = 5e-317;
+  cloud.points[265].y() = 8e-65;
+  ReconstructReport report;
+  const Surface s = sound(cloud, {}, report);
+  EXPECT_NEAR(signed_volume(s) / (2 * M_PI / 3 * std::pow(0.04, 3)), 1, 0.05);
+  cloud.points[100] = Vec3(0, 0, 1e200);
+  EXPECT_NE(error_of([&] { sound(cloud, {}, report); }).find("point 100 lies 1e+200 m away"),
+            std::string::npos);
 }
 
 TEST(Reconstruct, BallCutFlatWithOverhang) {

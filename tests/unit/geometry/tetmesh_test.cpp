@@ -40,7 +40,7 @@ std::string body_text(const std::string& fixed, const std::string& tet) {
          "property double z\nproperty uchar fixed\nelement tetrahedron 1\n"
          "property list uchar int vertex_indices\nend_header\n"
          "0 0 0 " +
-         fixed + "\n1 0 0 0\n0 1 0 0\n0 0 1 0\n4 " + tet + "\n";
+         fixed + "\n1 0 0 " + fixed + "\n0 1 0 " + fixed + "\n0 0 1 0\n4 " + tet + "\n";
 }
 
 TEST(TetMesh, VolumeOfABlock) {
@@ -116,6 +116,9 @@ TEST(TetMesh, RefusesBrokenBodies) {
   refuse(body_text("1", "0 1 2 4"), "out of range");
   refuse(body_text("1", "0 1 2 -1"), "out of range");
   refuse(body_text("0", "0 1 2 3"), "no node is fixed");
+  std::string two = body_text("1", "0 1 2 3");
+  two.replace(two.find("0 1 0 1"), 7, "0 1 0 0");
+  refuse(two, "the fixed nodes do not hold the part of the body with the node at (0, 0, 0)");
   refuse("", "empty");
   refuse("solid x\nendsolid x\n", "not a PLY");
   refuse(

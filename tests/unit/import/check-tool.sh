@@ -39,6 +39,10 @@ expect 2 "is no length" hs-import machine.csv --tool-radius wide
 expect 2 "not on the top" hs-import machine.csv --block 90x80x40mm --at 1,0,0.04
 sed 's/^1,00;.*/1,00;oops;0,1/' machine.csv >faulty.csv
 expect 3 "'oops' (line" hs-import faulty.csv -o bad.csv
+{ echo '# tool_radius: wide'; cat machine.csv; } >wide.csv
+expect 3 "wide.csv: tool_radius: 'wide' is no length" hs-import wide.csv -o bad.csv
+{ echo '# tool_radius: 4 m'; cat machine.csv; } >large.csv
+expect 3 "tool_radius 4 is not between 1e-6 and 1 m" hs-import large.csv -o bad.csv
 [[ ! -e bad.csv ]] || fail "a refused table left an output"
 
 if command -v hs-tetmesh >/dev/null; then

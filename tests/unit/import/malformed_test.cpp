@@ -111,11 +111,11 @@ TEST(ImportMalformed, MissingQuantitiesAreNamed) {
   expect_refusal("t,force\n0,1\n1,2\n2,3\n", "data.csv: ", "no column holds a depth");
 }
 
-TEST(ImportMalformed, WrongColumnsAreAUsageError) {
+TEST(ImportMalformed, WrongColumnsAreNamed) {
   const std::string text = lines(ramp({}), [](std::size_t, const RampRow& r) { return plain(r); });
   ImportOptions options;
   options.columns = {"force=force_n"};
-  expect_refusal(text, "--column", "did you mean 'force_N'?", options, ExitCode::kUsage);
+  expect_refusal(text, "data.csv: --column", "did you mean 'force_N'?", options);
   options.columns = {"weight=force_N"};
   expect_refusal(text, "--column", "is no role", options, ExitCode::kUsage);
   options.columns = {"tipx=force_N"};

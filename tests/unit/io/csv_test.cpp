@@ -87,6 +87,7 @@ TEST(Csv, SaysWhatElseTheFileIs) {
             std::string::npos);
   EXPECT_NE(failure(std::string("\xff\xfex\0,\0", 6)).find("UTF-16"), std::string::npos);
   EXPECT_NE(failure(std::string("x\0,\0y\0", 6)).find("UTF-16"), std::string::npos);
+  EXPECT_NE(failure(std::string(6, '\0')).find("binary file"), std::string::npos);
   EXPECT_NE(failure("ply\nformat ascii 1.0\n").find("PLY"), std::string::npos);
   EXPECT_NE(failure("PK\x03\x04zzz").find("spreadsheet"), std::string::npos);
   EXPECT_NE(failure("x,y\r1,2\r").find("carriage return"), std::string::npos);

@@ -79,7 +79,7 @@ TEST(Recording, RefusesWrongRows) {
 TEST(Recording, RefusesWrongMetadata) {
   const std::string row = kHeader + "1,0,0,0,0,0,0,0,0,0,0\n";
   EXPECT_EQ(failure("# tool_radius: 4\n" + row),
-            "d.csv: tool_radius 4 is not between 0 and 1 m; give it in metres (4 mm is 0.004)");
+            "d.csv: tool_radius 4 is not between 1e-6 and 1 m; give it in metres (4 mm is 0.004)");
   for (const std::string noise : {"-1", "1e-200", "1e+300"})
     EXPECT_EQ(failure("# force_noise: " + noise + "\n" + row),
               "d.csv: force_noise " + noise +

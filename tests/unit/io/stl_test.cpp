@@ -54,6 +54,10 @@ TEST(Stl, AsciiMayBeUpperCaseWithCarriageReturns) {
 TEST(Stl, RefusesWrongFiles) {
   EXPECT_NE(failure("").find("empty"), std::string::npos);
   EXPECT_NE(failure("hello").find("no STL file"), std::string::npos);
+  EXPECT_NE(failure("\x1f\x8b" + binary()).find("gzip -dc"), std::string::npos);
+  EXPECT_NE(failure("PK\x03\x04" + binary()).find("zip file"), std::string::npos);
+  EXPECT_NE(failure("<html><body>404").find("web page"), std::string::npos);
+  EXPECT_NE(failure("\xef\xbb\xbfsolid\n" + kFacet).find("byte order mark"), std::string::npos);
   EXPECT_NE(failure(binary().substr(0, 150)).find("claims 2 triangles (184 bytes) and has 150"),
             std::string::npos);
   EXPECT_NE(failure("solid\nendsolid\n").find("no triangle"), std::string::npos);
