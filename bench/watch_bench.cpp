@@ -56,7 +56,9 @@ struct Draw {
   double named_equal = 0;        // after the name
   double refined = 0, told = 0;  // later; and with the truth
   double jump = 0;               // of the force within a millisecond while a model takes over [N]
-  double shift_error = 0, stated_error = 0;  // [m]
+  // Of a shift: when it counts as known and at the end, what it is off and what is stated [m].
+  Vec3 off_updated = Vec3::Zero(), stated_updated = Vec3::Zero();
+  Vec3 off = Vec3::Zero(), stated = Vec3::Zero();
 };
 
 // A case of what may happen; `other`: the body becomes that one.
@@ -109,6 +111,10 @@ Draw trial(const PreparedBody& truth, const PreparedBody& known, const Case& wha
     last = model;
     if (watch.events().empty()) continue;
     const WatchEvent& e = watch.events().front();
+    if (e.updated >= 0 && draw.stated_updated.isZero()) {
+      draw.off_updated = e.correction.shift - stream.after.shift;
+      draw.stated_updated = e.shift_error;
+    }
     const double since = t - e.named;
     if (since < 0.06) draw.jump = std::max(draw.jump, step);
     const double updated = e.updated < 0 ? 1e9 : t - e.updated;
@@ -125,8 +131,8 @@ Draw trial(const PreparedBody& truth, const PreparedBody& known, const Case& wha
     draw.named = e.named - stream.when;
     draw.called = e.change;
     draw.updated = e.updated - stream.when;
-    draw.shift_error = (e.correction.shift - stream.after.shift).norm();
-    draw.stated_error = e.shift_error.norm();
+    draw.off = e.correction.shift - stream.after.shift;
+    draw.stated = e.shift_error;
   }
   const auto span = static_cast<std::size_t>(kSoon / kBin);
   for (std::size_t b = 0; b + span <= bins.size() && draw.below > 1e8; ++b) {
@@ -145,6 +151,31 @@ Draw trial(const PreparedBody& truth, const PreparedBody& known, const Case& wha
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+// How far the shift is off, and whether the stated standard errors are as large.
+void shift_intervals(const char* when, const std::vector<Draw>& draws, Vec3 Draw::*off,
+                     Vec3 Draw::*stated) {
+  std::vector<double> distances, errors;
+  double squares = 0;
+  int within = 0, components = 0;
+  for (const Draw& d : draws) {
+    if (d.called != Change::kMoved || (d.*stated).isZero()) continue;
+    distances.push_back((d.*off).norm());
+    errors.push_back((d.*stated).norm());
+    for (int k = 0; k < 3; ++k) {
+      const double share = std::abs((d.*off)[k] / (d.*stated)[k]);
+      squares += share * share;
+      within += share < 1.96 ? 1 : 0;
+      ++components;
+    }
+  }
+  if (components == 0) return;
+  fmt::print(
+      "          (of the shift's 5 mm {:.2f} mm off {}, {:.2f} at most, stated {:.2f}; {} of {} "
+      "components within\n          their 95 % interval, rms of error over stated {:.2f})\n",
+      1e3 * quantile(distances, 0.5), when, 1e3 * quantile(distances, 1),
+      1e3 * quantile(errors, 0.5), within, components, std::sqrt(squares / components));
 }
 
 void changes(const PreparedBody& truth, const PreparedBody& known, int draws,
@@ -189,13 +220,10 @@ void changes(const PreparedBody& truth, const PreparedBody& known, int draws,
                of(count([](const Draw& d) { return d.plain < 1.3; })), pair(&Draw::equal),
                of(count([](const Draw& d) { return d.equal < 1.3; })), pair(&Draw::named_equal),
                pair(&Draw::refined), pair(&Draw::told), quantile(values(&Draw::jump), 1));
-    if (change == Change::kMoved)
-      fmt::print(
-          "          (of the shift's 5 mm {:.1f} mm off at the end, {:.1f} at most; stated "
-          "{:.1f})\n",
-          1e3 * quantile(values(&Draw::shift_error), 0.5),
-          1e3 * quantile(values(&Draw::shift_error), 1),
-          1e3 * quantile(values(&Draw::stated_error), 0.5));
+    if (change == Change::kMoved) {
+      shift_intervals("once updated", all, &Draw::off_updated, &Draw::stated_updated);
+      shift_intervals("at the end", all, &Draw::off, &Draw::stated);
+    }
   }
 }
 

@@ -202,7 +202,8 @@ int run_live_fusion(const Arguments& arguments) {
                             ? arguments.number("--tool-radius")
                             : motion.metadata().number("tool_radius", input.name()).value_or(0);
   if (!(radius > 0))
-    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+    fail_input(input.name(), "the motion does not say its tool's radius",
+               "give --tool-radius M [m]");
   AcfmLoop fast(acfm), coarse(acfm);
   FusedLoop loop(
       fast,

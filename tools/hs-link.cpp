@@ -179,6 +179,9 @@ int run_operator(const Arguments& arguments) {
     exchange(monotonic_ns());
   }
   leave_real_time();
+  if (near.counts().taken == 0)
+    fail_io(to_text(peer), "nothing answered",
+            "start hs-link --listen there first, with an --idle longer than this one's start");
   output.commit();
 
   const auto line = [&](const std::string& said) { say(arguments, "hs-link", said); };
@@ -187,6 +190,10 @@ int run_operator(const Arguments& arguments) {
   line(latency.summary() + fmt::format("; {} later than a period", misses));
   const auto quality = [&](const char* when, std::size_t first, std::size_t last) {
     const FeltQuality q = felt_quality(near.record(), first, last, rate);
+    if (q.peak <= 0) {
+      line(fmt::format("{}: no force was felt ({} answers)", when, q.samples));
+      return;
+    }
     line(fmt::format(
         "{}: felt {:.1f} ms behind the displacement, {:.1f} ms behind the body's "
         "force; error {:.3g} N rms = {:.2f} % of the peak {:.3g} N ({} answers)",

@@ -128,8 +128,9 @@ inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
   std::optional<SignedDistance> surface;
   if (arguments.given("--body")) surface.emplace(boundary_surface(load_body(arguments)), "body");
   if (!surface && !in.source->has_contact_point())
-    fail_usage("contacts of a moving tip are to be found, and no body is given",
-               "give --body body.ply, or a motion with contact points");
+    fail_input(in.input.name(),
+               "its columns are those of a moving tip, whose contacts only a body shows",
+               "give --body body.ply, or the columns press,t,x,y,z,ux,uy,uz");
   AcfmLoop loop(model, surface ? &*surface : nullptr, in.loop_options());
   return answer(arguments, in, "acfm", loop);
 }

@@ -53,7 +53,7 @@ inline double stream_radius(const Arguments& arguments, const Metadata& metadata
   if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
   const double radius = metadata.number("tool_radius", name).value_or(0);
   if (!(radius > 0))
-    fail_usage("the motion does not say its tool's radius", "give --tool-radius M [m]");
+    fail_input(name, "the motion does not say its tool's radius", "give --tool-radius M [m]");
   return radius;
 }
 

@@ -60,7 +60,7 @@ bool MotionLines::next(MotionLine& line) {
                  "number the contact episodes 1, 2, 3");
     line.press = static_cast<int>(value_[kPress]);
   }
-  check_.check(line, csv_.where());
+  check_.check(line, [this] { return csv_.where(); });
   return true;
 }
 

@@ -41,9 +41,10 @@ bool MotionRecords::next(MotionLine& line) {
   input_.stream().read(bytes.data(), static_cast<std::streamsize>(size));
   const auto got = static_cast<std::size_t>(input_.stream().gcount());
   if (got == 0) return false;
-  const std::string where = input_.name() + ": record " + std::to_string(++record_);
+  ++record_;
+  const auto where = [this] { return input_.name() + ": record " + std::to_string(record_); };
   if (got < size)
-    fail_input(where, "it has " + std::to_string(got) + " bytes of " + std::to_string(size),
+    fail_input(where(), "it has " + std::to_string(got) + " bytes of " + std::to_string(size),
                "send whole records; see hs-simulate(1)");
   const char* from = bytes.data();
   line = {};
@@ -56,7 +57,7 @@ bool MotionRecords::next(MotionLine& line) {
   line.point = take_vector(from);
   if (line.has_contact_point) line.u = take_vector(from);
   if (!std::isfinite(line.t) || !line.point.allFinite() || !line.u.allFinite())
-    fail_input(where, "a number is not finite", "check the order of bytes and the record's kind");
+    fail_input(where(), "a number is not finite", "check the order of bytes and the record's kind");
   check_.check(line, where);
   return true;
 }

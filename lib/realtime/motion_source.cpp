@@ -11,19 +11,19 @@ constexpr double kLargestPosition = 10, kLargestDisplacement = 1, kSamePoint = 1
 
 }  // namespace
 
-void MotionCheck::check(const MotionLine& line, const std::string& where) {
+void MotionCheck::check(const MotionLine& line, const std::function<std::string()>& where) {
   if (!(line.point.cwiseAbs().maxCoeff() <= kLargestPosition) ||
       !(line.u.cwiseAbs().maxCoeff() <= kLargestDisplacement))
-    fail_input(where, "a position beyond 10 m or a displacement beyond 1 m",
+    fail_input(where(), "a position beyond 10 m or a displacement beyond 1 m",
                "are these millimetres? divide lengths by 1000");
   const bool goes_on = !first_ && (!line.has_contact_point || line.press == last_.press);
   if (goes_on && line.t < last_.t)
-    fail_input(where,
+    fail_input(where(),
                "time runs backwards: " + format_number(line.t) + " s after " +
                    format_number(last_.t) + " s",
                "send the samples in their order, or begin a new press");
   if (goes_on && line.has_contact_point && (line.point - last_.point).norm() > kSamePoint)
-    fail_input(where, "the contact point moves within press " + std::to_string(line.press),
+    fail_input(where(), "the contact point moves within press " + std::to_string(line.press),
                "give each contact point its own press number");
   last_ = line;
   first_ = false;

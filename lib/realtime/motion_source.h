@@ -1,6 +1,7 @@
 // Where a loop's motion comes from and its forces go to, whatever they are written as.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "base/vec3.h"
@@ -32,7 +33,8 @@ class MotionSource {
 // What next() promises of a motion, one sample after the other.
 class MotionCheck {
  public:
-  void check(const MotionLine& line, const std::string& where);
+  // `where` it stands is asked for when it is wrong: names take memory.
+  void check(const MotionLine& line, const std::function<std::string()>& where);
 
  private:
   bool first_ = true;

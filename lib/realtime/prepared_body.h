@@ -26,7 +26,7 @@ struct PreparedBodyOptions {
 // of first order); some thirty where regions relax each in its own way.
 class PreparedBody {
  public:
-  // Error(kUsage): an effect of the model has no form for a loop (Effect::live), or more than
+  // Error(kBadInput): an effect of the model has no form for a loop (Effect::live), or more than
   // kMostTerms Maxwell elements. Error(kBadInput): body without a closed surface.
   // Error(kNoConvergence): body not held.
   PreparedBody(const TetMesh& body, const Model& model, const PreparedBodyOptions& options);

@@ -53,8 +53,9 @@ std::vector<Start> search(const PreparedBody& body, const SurfaceOffsets& offset
   return best;
 }
 
-// Unknowns: the shift, then how far the stiffness of all is off, then gaps of all presses, then
-// what each press's force is off, relative to its size; all but the shift in their usual sizes.
+// Unknowns: the shift, then how far the stiffness of all is off, then the gap that all presses
+// have, then each its own, then what each press's force is off, relative to its size; all but the
+// shift in their usual sizes.
 class ShiftResiduals {
  public:
   ShiftResiduals(const PreparedBody& body, const SurfaceOffsets& offsets,
@@ -67,6 +68,7 @@ class ShiftResiduals {
         press_(press_indices(window)),
         presses_(static_cast<Eigen::Index>(press_.back()) + 1),
         gap_(std::max(offsets.uncertainty(), kLeastGap)),
+        usual_(usual),
         factor_(usual.factor),
         factor_error_(std::max(usual.error, kLeastShare)),
         share_(std::max(usual.share / std::sqrt(3.0), kLeastShare)) {}
@@ -74,7 +76,7 @@ class ShiftResiduals {
   Eigen::Index unknowns() const { return kFirst + 4 * presses_; }
 
   std::vector<double> gaps(const Eigen::VectorXd& x) const {
-    const Eigen::VectorXd g = gap_ * x.segment(kFirst, presses_);
+    const Eigen::VectorXd g = gap_ * (x.segment(kFirst, presses_).array() + x[4]);
     return {g.begin(), g.end()};
   }
   double stiffness(const Eigen::VectorXd& x) const {
@@ -95,6 +97,7 @@ class ShiftResiduals {
     for (std::size_t i = 0; i < window_.size(); ++i) {
       const auto row = 3 * static_cast<Eigen::Index>(i);
       const auto press = static_cast<Eigen::Index>(press_[i]);
+      J->block<3, 1>(row, 4) = by_gap.segment<3>(row);
       J->block<3, 1>(row, kFirst + press) = by_gap.segment<3>(row);
       if (!window_[i].counted) continue;
       J->block<3, 1>(row, 3) =
@@ -103,7 +106,7 @@ class ShiftResiduals {
           .diagonal()
           .setConstant(-share_ * f[i].norm() / window_[i].size);
     }
-    J->bottomRightCorner(1 + 4 * presses_, 1 + 4 * presses_).setIdentity();
+    J->bottomRightCorner(2 + 4 * presses_, 2 + 4 * presses_).setIdentity();
   }
 
  private:
@@ -111,7 +114,7 @@ class ShiftResiduals {
   static constexpr double kLeastGap = 1e-5;  // [m]
   static constexpr double kLeastShare = 1e-3;
   static constexpr double kLeastFactor = 0.1;
-  static constexpr Eigen::Index kFirst = 4;  // of the presses' own
+  static constexpr Eigen::Index kFirst = 5;  // of the presses' own
 
   // Change of r by a step. A sample at which the tool comes free jumps in one direction or the
   // other: the smaller change of the two is the slope.
@@ -133,8 +136,12 @@ class ShiftResiduals {
     std::vector<Vec3> forces = corrected_forces(body_, offsets_, window_, c, gaps(x));
     const auto rows = 3 * static_cast<Eigen::Index>(window_.size());
     Eigen::VectorXd out = Eigen::VectorXd::Zero(rows + unknowns());
+    Vec3 usually_off = Vec3::Zero();
     for (std::size_t i = 0; i < window_.size(); ++i) {
+      if (i == 0 || press_[i] != press_[i - 1])
+        usually_off = usual_.off_at(window_[i].line.point - c.shift);
       forces[i] -= c.bias;
+      forces[i] += forces[i].norm() * usually_off;
       const Vec3 off = share_ * forces[i].norm() *
                        x.segment<3>(kFirst + presses_ + 3 * static_cast<Eigen::Index>(press_[i]));
       if (window_[i].counted)
@@ -142,7 +149,7 @@ class ShiftResiduals {
             (window_[i].measured - c.bias - forces[i] - off) / window_[i].size;
     }
     out.segment<3>(rows) = x.head<3>() / kUsualShift;
-    out.tail(1 + 4 * presses_) = x.tail(1 + 4 * presses_);
+    out.tail(2 + 4 * presses_) = x.tail(2 + 4 * presses_);
     if (f != nullptr) *f = std::move(forces);
     return out;
   }
@@ -153,7 +160,9 @@ class ShiftResiduals {
   Correction from_;
   std::vector<std::size_t> press_;
   Eigen::Index presses_;
-  double gap_, factor_, factor_error_, share_;
+  double gap_;  // common to all, and a press's own [m]
+  const UsualStiffness& usual_;
+  double factor_, factor_error_, share_;
 };
 
 }  // namespace
@@ -190,14 +199,14 @@ ShiftFit fit_shift(const PreparedBody& body, const SurfaceOffsets& offsets,
   best.shift = found.x.head<3>();
   best.stiffness = residuals.stiffness(found.x);
   best.gaps = residuals.gaps(found.x);
-  const Eigen::Matrix4d covariance = found.covariance.topLeftCorner<4, 4>();
+  using Common = Eigen::Matrix<double, 5, 5>;
+  const Common covariance = found.covariance.topLeftCorner<5, 5>();
   best.std_error = covariance.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
   Eigen::VectorXd r;
   Eigen::MatrixXd J;
   residuals(found.x, r, &J);
-  const Eigen::Matrix4d seen =
-      J.leftCols<4>().topRows(3 * static_cast<Eigen::Index>(window.size())).transpose() *
-      J.leftCols<4>().topRows(3 * static_cast<Eigen::Index>(window.size()));
+  const Eigen::MatrixXd J5 = J.leftCols<5>().topRows(3 * static_cast<Eigen::Index>(window.size()));
+  const Common seen = J5.transpose() * J5;
   best.force_error = std::sqrt(std::max(0.0, (seen * covariance).trace()) /
                                (3 * static_cast<double>(window.size())));
   return best;

@@ -23,8 +23,6 @@ class SurfaceOffsets {
   double uncertainty() const;
 
  private:
-  double interpolated(const Vec3& place, std::size_t without) const;
-
   const SignedDistance* surface_;
   std::vector<std::pair<Vec3, double>> seen_;  // place and what lies there over the curved face
 };

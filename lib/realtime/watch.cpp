@@ -72,7 +72,8 @@ Vec3 ModelWatch::step(const MotionLine& line, const Vec3& measured) {
   learned_ = learned_ || test_.learned();
   const bool refining = !events_.empty() && !events_.back().settled;
   if (!refining)
-    factors_.add(line.press, press_begun_, model - correction_.bias, measured - correction_.bias);
+    factors_.add(line.press, press_begun_, line.point - correction_.shift, model - correction_.bias,
+                 measured - correction_.bias);
   if (test_.add(model, measured, !line.in_air && model.norm() > 0) && alarm_ < 0 && !refining) {
     alarm_ = line.t;
     change_ = test_.since();

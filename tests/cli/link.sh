@@ -40,5 +40,8 @@ refuse 2 "'host' is not an address" motion.csv --peer host --body body.ply
 refuse 2 'a teleoperator needs --model' --listen 0 --body body.ply
 refuse 2 'is no relaxation time' motion.csv --peer 1 --body body.ply --times -1
 refuse 3 'z is' <(sed '5s/0.04,/x,/' motion.csv) --peer 1 --body body.ply
+# Nobody there: no forces of zero that look like an answer.
+refuse 5 '127.0.0.1:1: nothing answered' motion.csv --peer 1 --body body.ply -q -o nobody.csv
+[[ ! -e nobody.csv ]] || complain 'forces that nobody answered are written'
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

@@ -40,7 +40,8 @@ wait
 {
   echo 'figure,thesis,ours'
   sed -n 's/.*after it: .*error \([0-9.]*\) N rms.*/sphere: error once identified [N],0.2 to 0.3,\1/p' said.txt
-  sed -n "s/.*after it: .* \(-*[0-9.]*\) ms behind the body's force.*/sphere: felt behind the force [ms],300 before,\1/p" said.txt
+  sed -n "s/.*before identification: .* \(-*[0-9.]*\) ms behind the body's force.*/sphere: felt behind the force until identified [ms],300,\1/p" said.txt
+  sed -n "s/.*after it: .* \(-*[0-9.]*\) ms behind the body's force.*/sphere: felt behind the force once identified [ms],0,\1/p" said.txt
   sed -n 's/.*identified after .* in at most \([0-9.]*\) ms.*/sphere: identification [ms],150,\1/p' said.txt
 } >summary.csv
 grep -E '^(elastic|viscoelastic)' identified.csv
