@@ -35,7 +35,8 @@ inline std::vector<Option> workspace_flags() {
        .kind = OptionKind::kNumber,
        .value = "SHARE",
        .help = "Gain error by position that mesh and scanned shape may cause and no effect is "
-               "blamed for; otherwise the mesh's own uncertainty, at least 0.01.",
+               "blamed for; otherwise the mesh's own uncertainty and that of a surface off the "
+               "contact points, at least 0.01.",
        .minimum = 0,
        .maximum = 1},
       {.flag = "--rim-edge",

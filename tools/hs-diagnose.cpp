@@ -10,6 +10,7 @@
 #include "diagnose/plan.h"
 #include "io/csv.h"
 #include "model/edit.h"
+#include "model/plausible.h"
 #include "report/junit.h"
 
 namespace hapsim {
@@ -34,7 +35,8 @@ ToolSpec specification() {
       "than an approximate law in the model may leave (hs-effects(7)) is possible at most. The "
       "search goes on, on top of what was found; what was found before and is no longer needed "
       "then "
-      "is dropped.",
+      "is dropped. Beside regions, other effects are judged on unseen positions with the boundary "
+      "and the regions' places known: they are made from the positions and err most there.",
       "Fewer than six presses have too few signs to flip, so they are judged by their course in "
       "time: sets of effects are grown side by side and ranked as above by independent samples, "
       "and "
@@ -47,6 +49,15 @@ ToolSpec specification() {
       "another stiffness than the model's; hs-identify takes the finer one.",
       "Force noise and a gain error by position for mesh and scanned shape (--floor) are taken "
       "into account, so a model is not blamed for them.",
+      "Two effects that do equally well are rivals, unless both together leave nothing but noise "
+      "and mesh where each alone leaves plainly more: then both are there.",
+      "Contact points that lie off the body's surface by more than a hundredth of its least extent "
+      "are told. Where the forces do not follow the move of the body that would explain them "
+      "(shift), the shape is in doubt: the gain error allows for it, and an effect that a wrong "
+      "shape looks like is not named alone, but as confused with `shape`.",
+      "What acts at one position only, an inclusion or a region, cannot foretell unseen positions; "
+      "where it leaves nothing but noise it is judged by unseen presses of the positions, and the "
+      "evidence says so.",
       "A common gain of the force sensor cannot be told from Young's modulus by any recording: "
       "check the sensor with a calibration weight."};
   spec.options = workspace_flags();
@@ -101,22 +112,23 @@ ToolSpec specification() {
        .default_text = "1",
        .minimum = 0}};
   spec.options.insert(spec.options.end(), own.begin(), own.end());
-  spec.tables = {{"Diagnosis (output)",
-                  {{"rank", "0: the model as a whole; then the effects, best first"},
-                   {"effect", "name in the catalogue; 'model' in the first row"},
-                   {"verdict",
-                    "missing, possible, indistinguishable, absent, not testable; of the model: "
-                    "complete, incomplete, ambiguous, unexplained"},
-                   {"rmse_now, rmse_after", "error without and with the effect [N]"},
-                   {"heldout_now, heldout_after",
-                    "the same on positions left out of the fit [N]; after only for effects that "
-                    "pass the other tests"},
-                   {"p_value", "chance of a false alarm, all effects tried counted"},
-                   {"confused_with", "effects that do as well, separated by spaces"},
-                   {"where", "where and when it acts"},
-                   {"evidence", "share of the misfit, fitted size, smallest size that would show"},
-                   {"next_measurement", "what would tell it from its rivals"},
-                   {"command", "the command that adds it"}}}};
+  spec.tables = {
+      {"Diagnosis (output)",
+       {{"rank", "0: the model as a whole; then the effects, best first"},
+        {"effect", "name in the catalogue; 'model' in the first row"},
+        {"verdict",
+         "missing, possible, indistinguishable, absent, not testable; of the model: "
+         "complete, incomplete, ambiguous, unexplained"},
+        {"rmse_now, rmse_after", "error without and with the effect [N]"},
+        {"heldout_now, heldout_after",
+         "the same on positions left out of the fit [N]; after only for effects that "
+         "pass the other tests"},
+        {"p_value", "chance of a false alarm, all effects tried counted"},
+        {"confused_with", "effects that do as well, separated by spaces; `shape`: a wrong body"},
+        {"where", "where and when it acts"},
+        {"evidence", "share of the misfit, fitted size, smallest size that would show"},
+        {"next_measurement", "what would tell it from its rivals"},
+        {"command", "the command that adds it"}}}};
   spec.examples = {
       {"hs-diagnose data.csv --body body.ply --model m0.csv -o effects.csv", "What is missing."},
       {"hs-diagnose data.csv --body body.ply --model m0.csv --plan next.csv -o effects.csv",
@@ -143,6 +155,7 @@ void write_table(std::ostream& out, const Arguments& arguments, const Diagnosis&
   metadata.set("force_noise", format_number(d.noise));
   metadata.set("mesh_uncertainty", format_number(d.mesh_uncertainty));
   metadata.set("floor", format_number(d.floor));
+  metadata.set("shape_error", format_number(d.shape.before));
   metadata.set("seed", arguments.text("--seed"));
   CsvWriter csv(
       out, metadata,
@@ -171,6 +184,9 @@ nlohmann::json as_json(const Arguments& arguments, const Diagnosis& d) {
   j["force_noise"] = d.noise;
   j["mesh_uncertainty"] = d.mesh_uncertainty;
   j["floor"] = d.floor;
+  j["shape_error"] = d.shape.before;
+  j["shape_error_moved"] = d.shape.after;
+  j["shape_in_doubt"] = d.shape_in_doubt;
   j["force_rms"] = d.force_rms;
   j["rmse"] = d.rmse;
   j["heldout"] = d.held_out;
@@ -203,6 +219,11 @@ void report(const Arguments& arguments, const Diagnosis& d) {
       "({}); mesh uncertainty {:.1f} %, floor {:.1f} %",
       d.rmse, 100 * d.rmse / d.force_rms, d.noise, d.noise_measured ? "measured" : "declared",
       100 * d.mesh_uncertainty, 100 * d.floor));
+  if (const std::string shape = d.shape.words(); !shape.empty())
+    line(shape + (d.shape_in_doubt
+                      ? "; the forces do not follow such a move, so the scan is in doubt "
+                        "(surface, unit, frame), and so is what differs by place"
+                      : ""));
   for (const Finding& f : d.findings) {
     if (f.verdict == Verdict::kNotTestable) {
       line(fmt::format("  {:<13} not testable: {}", f.effect, f.evidence));
@@ -267,7 +288,9 @@ int run(const Arguments& arguments) {
   WorkspaceOptions options = workspace_options(arguments, progress);
   options.draft = true;  // many materials are tried; the one that is added is identified finely
   set_poisson_range(model, options);
-  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), true), options);
+  Recording recording = load_recording(arguments, arguments.input(), true);
+  require_presses(make_dataset(recording));
+  Workspace w = make_workspace(body, std::move(recording), options);
   progress.reset();
   DiagnoseOptions diagnose_options;
   diagnose_options.folds = static_cast<int>(arguments.integer("--folds"));

@@ -293,6 +293,8 @@ int run(const Arguments& arguments) {
                     (method == ReconstructMethod::kAuto || method == ReconstructMethod::kWrap);
   if (shape.has_triangles && !mend) shape.cloud = points_of_triangles(shape.surface);
   if (!mend && (arguments.given("--repair") || arguments.given("--no-repair"))) {
+    if (!shape.has_triangles)
+      fail_input(input.name(), "it holds no triangles that could be kept", "leave --repair out");
     fail_usage("--repair is for triangles that are kept", "leave it or --method out");
   }
   Result result = mend ? from_triangles(arguments, shape.surface, input.name())

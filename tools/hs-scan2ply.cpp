@@ -267,7 +267,7 @@ void correct_touch(const Arguments& arguments, const TouchModel& model, const Sc
   Scan touched = pick(scan, index);
   if (touched.touch_force.empty()) {
     if (!arguments.given("--touch-force")) {
-      fail_usage("the scan has no column touch_force", "add it, or give --touch-force");
+      fail_input(name, "the scan has no column touch_force", "add it, or give --touch-force");
     }
     touched.touch_force.assign(index.size(), arguments.number("--touch-force"));
   }

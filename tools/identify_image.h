@@ -25,7 +25,7 @@ inline void write_asked_image(const Arguments& arguments, const Model& model, co
                               const TetMesh& body) {
   const MaterialSpec material = material_of(model);
   if (material.modulus.size() > 1 || !material.features.empty())
-    fail_usage("--image starts from a body of one modulus",
+    fail_input("", "--image starts from a body of one modulus",
                "remove regions, layers, inclusions and anisotropy from the model (--remove)");
   ImageOptions options;
   options.threads = static_cast<int>(arguments.integer("--threads"));

@@ -100,7 +100,8 @@ inline void require_fit_for(const Arguments& arguments, const Plan& plan,
     if (arguments.given(flag)) require_one_setup(dataset, flag);
   for (const char* flag : {"--boundary", "--image"})
     if (arguments.given(flag) && dataset.positions.size() < 4)
-      fail_usage(std::string(flag) + " needs presses at four places or more",
+      fail_input(dataset.recording.name,
+                 std::string(flag) + " needs presses at four places or more",
                  "press at more places");
   if (arguments.given("--locations") && dataset.bodies() > 1)
     fail_usage("--locations is for one body, and there are several", "fit each body by itself");

@@ -48,6 +48,7 @@ inline void report(const Arguments& arguments, const Workspace& w, const FitResu
                    setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
                    w.noise.value, w.noise.measured ? "measured from the data" : "declared",
                    force_rms));
+  if (const std::string shape = w.shape.words(); !shape.empty()) line(shape);
   int shown = 0;
   for (const Parameter& p : result.model.parameters) {
     if (p.state != ParameterState::kFree || ++shown > 12) continue;

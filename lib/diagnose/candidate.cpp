@@ -8,51 +8,14 @@
 #include "base/error.h"
 #include "diagnose/offset_test.h"
 #include "diagnose/probability.h"
+#include "diagnose/unseen.h"
 #include "effects/catalogue.h"
 #include "model/press_offsets.h"
 
 namespace hapsim {
 namespace {
 
-// Regions are solved for where that takes seconds; with more positions they are first order.
-constexpr std::size_t kMostSolvedPositions = 60;
-
-constexpr double kMuchLess = 0.9;  // error on unseen positions
-
-FitOptions fit_options(const Workspace& w, int rounds = 6) {
-  FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
-  options.rounds = rounds;
-  options.settled = 1e-3;
-  options.keep_apart = false;  // a term that coincides with another explains nothing
-  return options;
-}
-
-ExtendOptions extend_options(const Workspace& w) {
-  ExtendOptions options;
-  options.noise = w.noise.value;
-  options.floor = w.floor;
-  return options;
-}
-
-// As the model's own regions were made.
-ExtendOptions extend_options(const Workspace& w, const Model& model) {
-  ExtendOptions options = extend_options(w);
-  if (material_of(model).local) options.regions = kEverySite;
-  return options;
-}
-
-// The model without its location-based effects, which must be rebuilt from training data alone.
-Model without_locations(const Model& model, std::vector<std::string>& rebuilt) {
-  Model plain = model;
-  for (const std::string& name : model.effects())
-    if (require_effect(name).card().from_locations) {
-      std::erase_if(plain.parameters, [&](const Parameter& p) { return p.effect == name; });
-      rebuilt.push_back(name);
-    }
-  if (!rebuilt.empty())
-    std::erase_if(plain.parameters, [](const Parameter& p) { return p.region > 0; });
-  return plain;
-}
+constexpr double kMuchLess = 0.9;  // of two errors
 
 // Parameters that the data have to pay for: free ones and offsets solved for press by press.
 double parameter_count(const Model& model) {
@@ -92,13 +55,21 @@ Eigen::MatrixXd new_columns(const Effect& effect, const FitResult& fitted, const
   return columns;
 }
 
-// Whether any start of the effect changes the forces by more than a trace of the noise.
+// Whether any start of the effect changes the forces by more than a trace of the noise. A start
+// without forces tells nothing; Error(kNoConvergence) when none has any.
 bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Baseline& base,
                 const Workspace& w) {
   const Selection all = all_episodes(w.dataset);
   const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  std::size_t without = 0;
   for (const Model& start : starts) {
-    const Signal signal = model_forces(start, w.dataset, all, *w.body, true);
+    Signal signal;
+    try {
+      signal = model_forces(start, w.dataset, all, *w.body, true);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kNoConvergence || ++without == starts.size()) throw;
+      continue;
+    }
     if ((signal.f - f).norm() > w.noise.value) return true;
     const std::vector<int> free = start.free_parameters();
     for (std::size_t c = 0; c < free.size(); ++c) {
@@ -134,27 +105,15 @@ CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const 
 
 }  // namespace
 
-// Refits in a fold start from the fit on all data.
-HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds) {
-  std::vector<std::string> rebuilt;
-  const Model plain = without_locations(fitted, rebuilt);
-  const auto builder = [&](const Selection& training) -> std::vector<Model> {
-    Model model = plain;
-    for (const std::string& name : rebuilt) {
-      model = fit(model, w.dataset, training, *w.body, fit_options(w, 0)).model;
-      model =
-          with_effect(model, name, w.dataset, training, *w.body, extend_options(w, fitted)).front();
-    }
-    return {model};
-  };
-  return held_out_error(builder, w.dataset, folds, *w.body, fit_options(w));
-}
-
 Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
   Baseline base;
   const Selection all = all_episodes(w.dataset);
-  base.fitted = fit(model, w.dataset, all, *w.body, fit_options(w));
-  if (!folds.held_out.empty()) base.held_out = held_out_of(base.fitted.model, w, folds);
+  base.fitted = fit(model, w.dataset, all, *w.body, trial_fit_options(w));
+  if (folds.held_out.empty()) return base;
+  base.held_out = held_out_of(base.fitted.model, w, folds, Map::kAnew);
+  base.on_known_map = has_map(base.fitted.model)
+                          ? held_out_of(base.fitted.model, w, folds, Map::kKnown)
+                          : base.held_out;
   return base;
 }
 
@@ -169,16 +128,16 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   candidate.effect = &effect;
   candidate.one_more_term = model.has(card.name);
   const std::vector<Model> starts =
-      with_effect(model, card.name, w.dataset, all, *w.body, extend_options(w));
+      with_effect(model, card.name, w.dataset, all, *w.body, trial_extend_options(w));
   // What an earlier model made of this effect is no place to look from.
   if (card.solved) w.body->forget(material_of(starts.front()));
-  if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, w)) {
-    lack = "nothing in these presses depends on it; record " + card.separated_by;
-    return std::nullopt;
-  }
-  // Estimates; refine() solves where that is promising.
   try {
-    candidate.fitted = fit_best(starts, w.dataset, all, *w.body, fit_options(w, 0));
+    if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, w)) {
+      lack = "nothing in these presses depends on it; record " + card.separated_by;
+      return std::nullopt;
+    }
+    // Estimates; refine() solves where that is promising.
+    candidate.fitted = fit_best(starts, w.dataset, all, *w.body, trial_fit_options(w, 0));
     if (card.solved) candidate.starts = starts;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kNoConvergence) throw;
@@ -193,26 +152,33 @@ void refine(Candidate& candidate, Workspace& w) {
   const Selection all = all_episodes(w.dataset);
   if (card.solved)
     candidate.fitted = fit_solved(candidate.fitted.model, candidate.starts, w.dataset, all, *w.body,
-                                  fit_options(w));
+                                  trial_fit_options(w));
   else if (card.from_locations)
-    candidate.fitted = fit(candidate.fitted.model, w.dataset, all, *w.body, fit_options(w));
+    candidate.fitted = fit(candidate.fitted.model, w.dataset, all, *w.body, trial_fit_options(w));
 }
 
 void hold_out(Candidate& candidate, Workspace& w, const Folds& folds) {
-  if (!folds.held_out.empty()) candidate.held_out = held_out_of(candidate.fitted.model, w, folds);
+  if (folds.held_out.empty()) return;
+  const Map map = candidate.effect->card().from_locations ? Map::kAnew : Map::kKnown;
+  candidate.held_out = held_out_of(candidate.fitted.model, w, folds, map);
 }
 
 void prefer_sites(Candidate& candidate, const Baseline& base, Workspace& w, const Folds& folds) {
   if (!candidate.effect->card().from_locations || folds.held_out.empty()) return;
-  ExtendOptions options = extend_options(w);
+  ExtendOptions options = trial_extend_options(w);
   options.regions = kEverySite;
   Candidate sites = candidate;
   sites.every_site = true;
   sites.fitted = fit_best(with_effect(base.fitted.model, candidate.effect->card().name, w.dataset,
                                       all_episodes(w.dataset), *w.body, options),
-                          w.dataset, all_episodes(w.dataset), *w.body, fit_options(w, 0));
+                          w.dataset, all_episodes(w.dataset), *w.body, trial_fit_options(w, 0));
   hold_out(sites, w, folds);
-  if (sites.held_out.rmse < kMuchLess * candidate.held_out.rmse) candidate = std::move(sites);
+  // Between pressed places a boundary may lie anywhere and errs there, but one that leaves the
+  // pressed ones noise alone is there.
+  const bool proven = candidate.fitted.rmse < kLikeNoise * w.noise.value &&
+                      candidate.fitted.rmse < kMuchLess * sites.fitted.rmse;
+  if (!proven && sites.held_out.rmse < kMuchLess * candidate.held_out.rmse)
+    candidate = std::move(sites);
 }
 
 Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& candidates,

@@ -10,11 +10,19 @@
 
 namespace hapsim {
 
+constexpr double kLikeNoise = 1.1;  // errors of less than this times the noise are noise alone
+
 // A fitted model that candidates are compared against.
 struct Baseline {
   FitResult fitted;
-  HeldOut held_out;
+  HeldOut held_out;      // any map made anew
+  HeldOut on_known_map;  // what effects that make no map are compared with
 };
+
+// On which the effect is judged by unseen positions.
+inline const HeldOut& held_out_for(const Effect& effect, const Baseline& base) {
+  return effect.card().from_locations ? base.held_out : base.on_known_map;
+}
 
 struct Candidate {
   const Effect* effect = nullptr;
@@ -51,19 +59,17 @@ struct Measured {
   double smallest_seen = 0;  // size of the first parameter that would show
 };
 
-// The error on held-out data of a fitted model, by true refits; what is made from the positions is
-// made anew from the training positions.
-HeldOut held_out_of(const Model& fitted, Workspace& workspace, const Folds& folds);
 Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
                                     Workspace& workspace, std::string& lack);
 // Fits with finite elements solved what was fitted by estimates.
 void refine(Candidate& candidate, Workspace& workspace);
-// Its error on held-out positions, by true refits.
+// Its error on held-out positions, on the known map if it makes none (held_out_for()).
 void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);
 // Of regions: where positions stand for themselves and others are interpolated between them, if
-// that errs much less on unseen positions than boundaries do (a stiffness that changes gradually).
+// that errs much less on unseen positions than boundaries do (a stiffness that changes gradually),
+// unless boundaries alone explain what was pressed.
 void prefer_sites(Candidate& candidate, const Baseline& baseline, Workspace& workspace,
                   const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnose/both_act.h"
 #include "diagnose/departures.h"
 #include "diagnose/few_presses.h"
 #include "diagnose/round.h"
@@ -121,8 +122,9 @@ void drop_superfluous(Baseline& base, Workspace& w, const Folds& folds,
     base = std::move(*lesser);
     d.findings[k + 1].rmse_now = earlier.rmse_now;
     d.findings[k + 1].held_out_now = earlier.held_out_now;
-    d.findings.back().rmse_after = base.fitted.rmse;
-    d.findings.back().held_out_after = base.held_out.rmse;
+    Finding& latest = d.findings.back();
+    latest.rmse_after = base.fitted.rmse;
+    latest.held_out_after = held_out_for(require_effect(latest.effect), base).rmse;
     d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }
@@ -140,6 +142,10 @@ void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOpti
     if (best == last.findings.size()) break;
     std::vector<std::size_t> rivals =
         rivals_of(best, last, options.gates, can_hold_out, w.noise.value);
+    if (std::any_of(rivals.begin(), rivals.end(), [&](std::size_t k) {
+          return both_act(last.candidates[best], last.candidates[k], w);
+        }))
+      rivals.clear();  // the next rounds find the other
     if (!rivals.empty()) {
       rivals.insert(rivals.begin(), best);
       for (const std::size_t k : rivals) {
@@ -166,6 +172,10 @@ void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOpti
     last.findings[best].effect.clear();
     drop_superfluous(base, w, folds, options, d);
   }
+  for (Finding& f : d.findings)
+    std::erase_if(f.confused_with, [&](const std::string& other) {
+      return f.verdict == Verdict::kMissing && base.fitted.model.has(other);
+    });
   for (const Finding& f : last.findings) {
     if (f.effect.empty()) continue;
     const bool known = std::any_of(d.findings.begin(), d.findings.end(),
@@ -224,7 +234,9 @@ std::string verdict_name(ModelVerdict verdict) {
   }
 }
 
-Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& options) {
+namespace {
+
+Diagnosis with_floor(const Model& model, Workspace& w, const DiagnoseOptions& options) {
   const Folds folds = make_folds(w.dataset, options.folds);
   Baseline base = make_baseline(model, w, folds);
   if (!base.fitted.converged)
@@ -234,6 +246,7 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
   d.noise = w.noise.value;
   d.noise_measured = w.noise.measured;
   d.floor = w.floor;
+  d.shape = w.shape;
   d.mesh_uncertainty = w.body->mesh_uncertainty();
   d.rmse = base.fitted.rmse;
   d.held_out = base.held_out.rmse;
@@ -283,6 +296,42 @@ Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& opti
         "presses "
         "or more.",
         count, kLeastPresses);
+  return d;
+}
+
+bool tells_of_move(const Diagnosis& d) {
+  return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return f.effect == "shift" &&
+           (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable);
+  });
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& options) {
+  Diagnosis d = with_floor(model, w, options);
+  // Points off the surface that no move explains, of the kind that forces follow, are a wrong
+  // shape: what differs by place may be its work.
+  if (d.verdict == ModelVerdict::kComplete || !w.shape.plain() || w.doubted_floor <= w.floor ||
+      model.has("shift") || tells_of_move(d))
+    return d;
+  if (options.progress) options.progress("the shape in doubt");
+  w.floor = w.doubted_floor;
+  d = with_floor(model, w, options);
+  d.shape_in_doubt = true;
+  std::string doubted;
+  for (Finding& f : d.findings) {
+    if (f.verdict != Verdict::kMissing || !require_effect(f.effect).card().like_shape) continue;
+    f.verdict = Verdict::kIndistinguishable;
+    f.confused_with.push_back("shape");
+    doubted += (doubted.empty() ? "" : ", ") + f.effect;
+  }
+  if (doubted.empty()) return d;
+  d.verdict = ModelVerdict::kAmbiguous;
+  d.explanation = fmt::format(
+      "the data cannot tell {} from a wrong shape of the body: scan it again, or touch it where it "
+      "is pressed.",
+      doubted);
   return d;
 }
 

@@ -50,6 +50,7 @@ struct Finding {
   bool one_more_term = false;
   bool every_site = false;   // regions: a stiffness that changes from position to position
   bool within_form = false;  // no more than an approximate law in the model may leave
+  bool by_presses = false;   // held_out_* are of unseen presses: it helps no unseen position
   bool plain = false;        // large beyond chance by its size, whatever unseen positions say
 };
 
@@ -58,6 +59,9 @@ struct Diagnosis {
   std::vector<Finding> findings;  // best first
   double noise = 0, floor = 0, mesh_uncertainty = 0;
   bool noise_measured = false;
+  ShapeError shape;
+  bool shape_in_doubt =
+      false;  // contact points lie off it, not by a move; the floor allows for that
   double rmse = 0, held_out = 0, force_rms = 0;  // of the model as given, refitted [N]
   double rmse_end = 0, held_out_end = 0;         // with all missing effects added [N]
   double reduced_chi_square_end = 1;             // whitened

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnose/unseen.h"
+#include "effects/catalogue.h"
 #include "model/edit.h"
 
 namespace hapsim {
@@ -15,8 +17,24 @@ ImprovementStep fitted_step(const std::string& added, const std::vector<Model>& 
   step.fitted = fit_best(starts, w.dataset, all_episodes(w.dataset), *w.body, options.fit);
   step.held_out = std::nan("");
   if (step.fitted.converged && !folds.held_out.empty())
-    step.held_out = held_out_of(step.fitted.model, w, folds).rmse;
+    step.held_out = held_out_of(step.fitted.model, w, folds, Map::kAnew).rmse;
   return step;
+}
+
+// Of the error on what is unseen, judged as the diagnosis judged it, by the effect that `after` has
+// more.
+double remaining(const ImprovementStep& before, const ImprovementStep& after,
+                 const Finding& finding, Workspace& w, const Folds& folds) {
+  const Model& model = before.fitted.model;
+  const auto by = [&](const Folds& parts, Map map) {
+    return held_out_of(after.fitted.model, w, parts, map).rmse /
+           held_out_of(model, w, parts, map).rmse;
+  };
+  if (finding.by_presses)
+    return by(make_press_folds(w.dataset, static_cast<int>(folds.held_out.size())), Map::kAnew);
+  if (!has_map(model) || require_effect(after.added).card().from_locations)
+    return after.held_out / before.held_out;
+  return by(folds, Map::kKnown);
 }
 
 struct Ended {};  // by the watch of the fits
@@ -70,10 +88,9 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
       result.stopped = step.fitted.stopped;
       if (result.stopped) return result;
       // Without anything to hold out the diagnosis decides alone.
-      const bool helps =
-          step.fitted.converged &&
-          (std::isnan(step.held_out) ||
-           step.held_out <= (1 - options.diagnose.gates.held_out_fall) * before.held_out);
+      const bool helps = step.fitted.converged && (std::isnan(step.held_out) ||
+                                                   remaining(before, step, finding, fine, folds) <=
+                                                       1 - options.diagnose.gates.held_out_fall);
       if (!helps) {
         result.refused = finding.effect;
         return result;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/departures.h"
+#include "diagnose/unseen.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 
@@ -81,6 +82,21 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, 
   }
 }
 
+// What acts at one position is not known from the others. Where it takes away all that is beyond
+// noise, presses that are left out of positions pressed otherwise too are what it has to help.
+void judge_by_presses(const Candidate& c, const Baseline& base, Workspace& w,
+                      const DiagnoseOptions& options, Finding& f) {
+  constexpr double kAllOfIt = 0.9;
+  if (!c.effect->card().local || f.share < kAllOfIt || f.rmse_after > kLikeNoise * w.noise.value ||
+      std::isnan(f.held_out_after) || held_out_fall(f) >= kPlainFall)
+    return;
+  const Folds folds = make_press_folds(w.dataset, options.folds);
+  if (folds.held_out.empty()) return;
+  f.by_presses = true;
+  f.held_out_now = held_out_of(base.fitted.model, w, folds, Map::kAnew).rmse;
+  f.held_out_after = held_out_of(c.fitted.model, w, folds, Map::kAnew).rmse;
+}
+
 }  // namespace
 
 std::vector<const Effect*> untried(const Model& model) {
@@ -111,7 +127,7 @@ Finding ruled_out(const Effect& effect, const Baseline& base) {
   Finding finding;
   finding.effect = effect.card().name;
   finding.rmse_now = finding.rmse_after = base.fitted.rmse;
-  finding.held_out_now = finding.held_out_after = base.held_out.rmse;
+  finding.held_out_now = finding.held_out_after = held_out_for(effect, base).rmse;
   finding.evidence =
       "no position asks for another stiffness than the model's, beyond noise and mesh";
   finding.next_measurement = effect.card().separated_by;
@@ -157,7 +173,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     f.one_more_term = c.one_more_term;
     f.rmse_now = base.fitted.rmse;
     f.rmse_after = c.fitted.rmse;
-    f.held_out_now = base.held_out.rmse;
+    f.held_out_now = held_out_for(*c.effect, base).rmse;
     f.held_out_after = std::nan("");
     f.evidence = implausible(c.fitted.model, *c.effect, w.dataset);
     if (!f.evidence.empty()) {
@@ -182,6 +198,7 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
       f.rmse_after = c.fitted.rmse;
     }
     f.held_out_after = c.held_out.rmse;
+    judge_by_presses(c, base, w, options, f);
     // Where few presses carry an effect their signs cannot prove it, however large it is.
     const double by_size =
         std::min(1.0, 2 * m.p_by_size * static_cast<double>(round.candidates.size()));
@@ -196,6 +213,11 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
           "; changes the forces by less than the {:.2g} N that an approximate law in the model may "
           "leave",
           by_laws);
+    if (f.by_presses)
+      f.evidence +=
+          "; seen by too few positions for a position to be foretold from the others, so the "
+          "unseen "
+          "error is that of presses: press around it";
     f.next_measurement = c.effect->card().separated_by;
     round.findings.push_back(f);
   }

@@ -8,8 +8,6 @@
 
 namespace hapsim {
 
-constexpr double kLikeNoise = 1.1;  // errors of less than this times the noise are noise alone
-
 struct Round {
   std::vector<Candidate> candidates;
   std::vector<Finding> findings;   // one a candidate, same order

@@ -27,8 +27,10 @@ std::optional<Baseline> without_superfluous(const std::string& effect, const Bas
   const double more = without.fitted.rmse * without.fitted.rmse;
   const double fall = more - base.fitted.rmse * base.fitted.rmse;
   const double share = more > 1.01 * noise ? fall / (more - noise) : 0;
-  const bool helps_unseen = folds.held_out.empty() ||
-                            base.held_out.rmse < (1 - gates.held_out_fall) * without.held_out.rmse;
+  const bool helps_unseen =
+      folds.held_out.empty() ||
+      held_out_for(*candidate.effect, base).rmse <
+          (1 - gates.held_out_fall) * held_out_for(*candidate.effect, without).rmse;
   if (gain > gates.criterion_gain && share >= gates.share && helps_unseen) return std::nullopt;
   return without;
 }

@@ -8,6 +8,8 @@
 namespace hapsim {
 namespace {
 
+constexpr double kByChance = 0.5;  // this often errors of random sign lose as much
+
 std::string with_error(double value, double error, const std::string& unit) {
   const std::string number = std::isnan(error) ? fmt::format("{:.3g}", value)
                                                : fmt::format("{:.3g} ± {:.1g}", value, error);
@@ -44,7 +46,8 @@ std::string describe_where(const Candidate& candidate, const Workspace& w) {
 std::string describe_evidence(const Candidate& candidate, const Measured& measured,
                               const Finding& finding) {
   std::string text =
-      fmt::format("takes away {:.0f} % of the squared misfit beyond noise", 100 * finding.share);
+      fmt::format("takes away {:.0f} % of the squared misfit beyond noise{}", 100 * finding.share,
+                  finding.share > 0.005 && finding.p_value > kByChance ? ", as chance would" : "");
   const EffectCard& card = candidate.effect->card();
   if (card.from_locations) {
     const MaterialSpec material = material_of(candidate.fitted.model);

@@ -33,6 +33,7 @@ class Anisotropic : public Effect {
                        {"azimuth", "rad", "of the axis about z, from x", 0, 0, -4 * kRight,
                         4 * kRight, 0.3, false}},
         .solved = true,
+        .like_shape = true,
         .signature =
             "forces along one direction ask for another modulus than those along the others",
         .confounders = {"sensor-gain", "sensor-rotation", "layer", "friction"},

@@ -34,6 +34,7 @@ class Base : public Effect {
         .needs_positions = true,
         .one_body = true,
         .solved = true,
+        .like_shape = true,
         .signature = "too stiff on one side, more so sideways and where the body is thin",
         .confounders = {"regions", "inclusion", "layer", "shift"},
         .separated_by =

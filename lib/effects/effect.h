@@ -52,6 +52,8 @@ struct EffectCard {
   bool by_press = false;  // three offsets of the force a press (numbered), after all other effects
   bool solved = false;    // finite elements are solved for its parameters (add_feature())
   double form_error = 0;  // share of the force that it changes by which its law may err
+  bool local = false;     // may act at few positions only, of which the others tell nothing
+  bool like_shape = false;      // a wrong shape of the body looks like it
   bool from_locations = false;  // built from each position's own modulus (from_locations())
   std::string signature;        // what its absence looks like in the residuals
   std::vector<std::string> confounders;

@@ -29,6 +29,8 @@ class Inclusion : public Effect {
         .needs_positions = true,
         .one_body = true,
         .solved = true,
+        .local = true,
+        .like_shape = true,
         .signature = "too soft (or too stiff) at neighbouring positions, and less so further away",
         .confounders = {"regions", "layer", "base", "shift"},
         .separated_by = "presses 5 mm apart around the place, and a second tool radius"};
@@ -37,12 +39,15 @@ class Inclusion : public Effect {
   void describe(const Values& values, MaterialSpec& material) const override {
     add_feature(Feature::kInclusion, values, card(), material);
   }
-  // Its centre inside the body, and no larger than that.
+  // Its centre inside the body, and no larger than that; a ball of more than two thirds of the
+  // body's width is a core, and what is around it a skin (layer).
   std::vector<std::pair<double, double>> limits(const DataSummary& data) const override {
     auto limits = Effect::limits(data);
     for (int k = 0; k < 3; ++k) limits[static_cast<std::size_t>(k)] = {data.low[k], data.high[k]};
-    limits[3].second =
-        std::clamp((data.high - data.low).minCoeff() / 2, limits[3].first, limits[3].second);
+    Vec3 size = data.high - data.low;
+    std::sort(size.begin(), size.end());
+    const double most = std::min(size[0] / 2, size[1] / 3);
+    limits[3].second = std::clamp(most, limits[3].first, limits[3].second);
     return limits;
   }
   std::string implausible(const Values& values, const std::vector<Vec3>& pressed) const override {

@@ -21,6 +21,7 @@ class Layer : public Effect {
                         0.3, true}},
         .one_body = true,
         .solved = true,
+        .like_shape = true,
         .signature =
             "sideways forces and normal ones ask for different moduli, at every position alike",
         .confounders = {"anisotropic", "sensor-gain", "base", "inclusion"},

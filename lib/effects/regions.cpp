@@ -34,6 +34,8 @@ class Regions : public Effect {
         .terms = true,
         .needs_positions = true,
         .one_body = true,
+        .local = true,
+        .like_shape = true,
         .from_locations = true,
         .signature = "too stiff at some positions and too soft at others, at all depths and rates",
         .confounders = {"layer", "inclusion", "base", "shift"},

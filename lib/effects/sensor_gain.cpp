@@ -18,6 +18,7 @@ class SensorGain : public Effect {
             "wrong gain g of z alone shows as gx = gy = 1/g and E times g",
         .parameters = {{"gx", "1", "gain along x over that along z", 1, 1, 0.01, 100, 0.1, false},
                        {"gy", "1", "gain along y over that along z", 1, 1, 0.01, 100, 0.1, false}},
+        .like_shape = true,
         .signature = "one component of the force is wrong by a factor, in all presses",
         .confounders = {"anisotropic", "sensor-rotation", "friction"},
         .separated_by = "a calibration weight along each axis; sideways presses at turned corners"};

@@ -44,6 +44,7 @@ class SensorRotation : public Effect {
         .parameters = {{"rx", "rad", "rotation about x", 0, 0, -1, 1, 0.02, false},
                        {"ry", "rad", "rotation about y", 0, 0, -1, 1, 0.02, false},
                        {"rz", "rad", "rotation about z", 0, 0, -1, 1, 0.02, false}},
+        .like_shape = true,
         .signature =
             "sideways forces in the proportion of the normal force, turned everywhere alike",
         .confounders = {"shift", "sensor-gain", "anisotropic"},

@@ -24,6 +24,7 @@ class BodyStiffness {
 
   int threads() const { return setups_.front()->threads(); }
   std::size_t size() const { return place_.size(); }  // positions
+  std::size_t setups() const { return setups_.size(); }
   const SetupStiffness& setup(std::size_t s) const { return *setups_[s]; }
   const PreparedContact& contact(std::size_t position) const;
   const Vec3& position(std::size_t position) const;

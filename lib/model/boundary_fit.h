@@ -38,7 +38,7 @@ struct BoundaryFit {
 // weights of the components: across the surface, where the boundary shows, the force is small and
 // so is what it may err. Each shift is drawn to 0 by the error of a boundary that is only known to
 // lie between presses, half their spacing, and stays within one spacing, thesis (5.43).
-// One setup only. Error(kUsage): no boundary between the regions of the model lies on the body.
+// One setup only. Error(kBadInput): no boundary between the regions of the model lies on the body.
 BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, BodyStiffness& body,
                               const TetMesh& mesh, const BoundaryOptions& options);
 

@@ -87,7 +87,7 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
   const Effect& effect = require_effect(name);
   const EffectCard& card = effect.card();
   if (const std::string lack = lacking_for(card, dataset); !lack.empty())
-    fail_usage("the data cannot show " + name, lack);
+    fail_input(dataset.recording.name, "the data cannot show " + name, lack);
   if (fitted.has(name) && !(card.terms && !card.from_locations))
     fail_usage("the model has " + name + " already", "remove it first (--remove " + name + ")");
   if (card.from_locations) return {with_regions(fitted, dataset, selection, body, options)};

@@ -20,8 +20,8 @@ struct ExtendOptions {
 Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body);
 
 // Starts of `fitted` with `effect` added (an effect already there gets one more term where it has
-// terms). Uses only the chosen episodes. Error(kUsage) when it is there and cannot be repeated, or
-// when the data cannot bear it (testable()).
+// terms). Uses only the chosen episodes. Error(kUsage) when it is there and cannot be repeated,
+// Error(kBadInput) when the data cannot bear it (lacking_for()).
 std::vector<Model> with_effect(const Model& fitted, const std::string& effect,
                                const Dataset& dataset, const Selection& selection,
                                const BodyStiffness& body, const ExtendOptions& options);

@@ -327,6 +327,18 @@ Folds make_folds(const Dataset& dataset, int count) {
   return folds;
 }
 
+Folds make_press_folds(const Dataset& dataset, int count) {
+  Folds folds{std::vector<Selection>(static_cast<std::size_t>(count)), "presses"};
+  std::vector<std::size_t> presses(dataset.positions.size(), 0);
+  for (std::size_t e = 0; e < dataset.episodes.size(); ++e) {
+    const auto p = static_cast<std::size_t>(dataset.episodes[e].position);
+    folds.held_out[(p + presses[p]++) % folds.held_out.size()].push_back(static_cast<int>(e));
+  }
+  std::erase_if(folds.held_out, [](const Selection& part) { return part.empty(); });
+  if (folds.held_out.size() < 2) folds.held_out.clear();
+  return folds;
+}
+
 HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
                        BodyStiffness& body, const FitOptions& options) {
   HeldOut result;

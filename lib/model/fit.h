@@ -82,6 +82,9 @@ struct Folds {
       by;  // "positions", "presses" or "" when nothing can be held out (one press, one part)
 };
 Folds make_folds(const Dataset& dataset, int count);
+// Presses at positions that were pressed otherwise too: of each position's at most one is left out
+// at a time. Says nothing of other positions.
+Folds make_press_folds(const Dataset& dataset, int count);
 
 // Builds the starts of a model from the episodes it may see.
 using ModelBuilder = std::function<std::vector<Model>(const Selection& training)>;

@@ -120,21 +120,22 @@ class Simulation {
       if (i.effect->full(i.values, material_.modulus[0], spec_)) continue;
       const Stage stage = i.effect->card().stage;
       if (stage != Stage::kSensor && stage != Stage::kMotion)
-        fail_usage("the full simulation has no form of the effect " + i.effect->card().name,
+        fail_input("", "the full simulation has no form of the effect " + i.effect->card().name,
                    "take it out of the model, or simulate without --full");
       if (options.force_control)
-        fail_usage("forces are given to the body itself, without " + i.effect->card().name,
+        fail_input("", "forces are given to the body itself, without " + i.effect->card().name,
                    "take it out of the model, or simulate displacements");
       around_.push_back(std::move(i));
     }
     if (material_.shift != Vec3::Zero() || material_.rotation != Vec3::Zero())
-      fail_usage("the full simulation does not move the body", "move the contact points instead");
+      fail_input("", "the full simulation does not move the body",
+                 "move the contact points instead");
     if (material_.local)
-      fail_usage("the full simulation has no contacts that feel their own region alone",
+      fail_input("", "the full simulation has no contacts that feel their own region alone",
                  "set local of regions to 0");
     for (const FeatureSpec& f : material_.features)
       if (f.feature.kind == Feature::kTransverse && spec_.finite)
-        fail_usage("finite strain of a transversely isotropic body is not in the model",
+        fail_input("", "finite strain of a transversely isotropic body is not in the model",
                    "take hyperelastic or anisotropic out");
     base_ = make_contact_base(body);
     surface_ = free_surface(base_);
@@ -162,7 +163,8 @@ class Simulation {
   // The first row's press alone, in steps from outside.
   void begin() {
     if (!around_.empty())
-      fail_usage("steps from outside are of the body itself, without " +
+      fail_input("",
+                 "steps from outside are of the body itself, without " +
                      around_.front().effect->card().name,
                  "take it out of the model");
     Steps steps;

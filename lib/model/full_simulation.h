@@ -44,14 +44,14 @@ struct FullResult {
 // step of a press. Body, support and contact effects are solved (Effect::full()), effects on the
 // motion and of the sensor act before and after it, tool by tool. A flat tool is bonded; with
 // friction it is a flat punch that may part and slip; the tip is a whole ball of radius 1/kappa.
-// Error(kUsage): an effect that has no such form. Error(kBadInput) with line: tools that change
+// Error(kBadInput): an effect that has no such form. Error(kBadInput) with line: tools that change
 // within a press, no node under a tool. Error(kNoConvergence) with line: a step that does not
 // converge, and how far it came.
 FullResult simulate_full(const TetMesh& body, const Model& model, const Recording& recording,
                          const FullOptions& options);
 
 // One press of one tool, step by step, where the motion is not known beforehand. Errors as above;
-// also Error(kUsage): effects on the motion or of the sensor. `body` must outlive it. Not to be
+// also Error(kBadInput): effects on the motion or of the sensor. `body` must outlive it. Not to be
 // shared between threads.
 class FullPress {
  public:

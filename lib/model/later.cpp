@@ -12,16 +12,16 @@ namespace hapsim {
 Recording beginning_of_presses(const Recording& recording, double seconds,
                                std::vector<Setup>& setup_of_row) {
   if (recording.t.empty())
-    fail_usage(recording.name + " has no column t, so it has no later", "record the times");
+    fail_input(recording.name, "there is no column t, so there is no later", "record the times");
   if (recording.metadata.find("recovery").value_or("") == "none")
-    fail_usage(recording.name + " says 'recovery: none', so its presses cannot be cut",
+    fail_input(recording.name, "it says 'recovery: none', so its presses cannot be cut",
                "leave whole presses out instead (--folds)");
   std::vector<char> keep(recording.rows(), 0);
   for (const Press& press : recording.presses())
     for (const int row : press.rows)
       keep[row] = recording.t[row] - recording.t[press.rows.front()] <= seconds;
   if (std::find(keep.begin(), keep.end(), 0) == keep.end())
-    fail_usage(fmt::format("no press of {} is longer than {:g} s", recording.name, seconds),
+    fail_input(recording.name, fmt::format("no press is longer than {:g} s", seconds),
                "give a shorter time");
   Recording cut = recording;
   const auto thin = [&](auto& column) {

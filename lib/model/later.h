@@ -8,7 +8,7 @@
 namespace hapsim {
 
 // The rows up to `seconds` after their press's first row; the same of `setup_of_row`, unless that
-// is empty. Error(kUsage): no times, nothing later than that, or `recovery: none` (what a press
+// is empty. Error(kBadInput): no times, nothing later than that, or `recovery: none` (what a press
 // remembers would be lost).
 Recording beginning_of_presses(const Recording& recording, double seconds,
                                std::vector<Setup>& setup_of_row);

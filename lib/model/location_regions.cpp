@@ -127,8 +127,8 @@ int join_lone_samples(const Eigen::MatrixXd& distances, std::vector<int>& label)
 
 RegionEstimate estimate_regions(const LocationTable& table, const RegionOptions& options) {
   if (options.regions > static_cast<int>(table.size()))
-    fail_usage(
-        fmt::format("--regions {} is more than the {} samples", options.regions, table.size()),
+    fail_input(
+        "", fmt::format("--regions {} is more than the {} samples", options.regions, table.size()),
         "ask for fewer regions, or press at more places");
   const Features f = features_of(table, options);
   RegionEstimate result;

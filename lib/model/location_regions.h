@@ -40,8 +40,8 @@ struct RegionEstimate {
 };
 
 // Clusters log E and nu scaled by their standard errors, not positions: thesis (5.7) mixes units.
-// Error(kUsage) when more regions are asked for than there are samples, or more components than
-// parameters.
+// Error(kBadInput) when there are fewer samples than regions are asked for, Error(kUsage) for more
+// components than parameters.
 RegionEstimate estimate_regions(const LocationTable& table, const RegionOptions& options);
 
 const char* linkage_name(Linkage linkage);

@@ -54,6 +54,16 @@ void check_row(const Parameter& p, const std::string& where) {
                "give it in " + card->unit);
   if (p.lower > p.upper)
     fail_input(where, "the lower bound is above the upper bound", "exchange them");
+  // Nothing can be solved of an incompressible body, or of one without stiffness.
+  if (!std::isnan(card->log_limit) && (p.lower < card->lower || !(p.upper < card->log_limit)))
+    fail_input(where,
+               fmt::format("{} {}: its bounds [{}, {}] reach what it cannot be", p.effect, p.name,
+                           format_number(p.lower), format_number(p.upper)),
+               fmt::format("keep them within [{}, {}]", format_number(card->lower),
+                           format_number(card->upper)));
+  if (card->logarithmic && !(p.value > 0))
+    fail_input(where, fmt::format("{} {} = {}", p.effect, p.name, format_number(p.value)),
+               "it must be positive");
   if (p.value < p.lower || p.value > p.upper)
     fail_input(where,
                fmt::format("{} {} = {} lies outside its bounds [{}, {}]", p.effect, p.name,

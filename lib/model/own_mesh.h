@@ -15,7 +15,7 @@ namespace hapsim {
 class OwnMesh {
  public:
   // One factorisation or iteration for all positions; some thirty where regions relax each in its
-  // own way. Error(kUsage): the model has an effect that
+  // own way. Error(kBadInput): the model has an effect that
   // needs meshes of its own (features, a body that moved). Error(kBadInput): a position off the
   // surface. `mesh` must outlive it.
   OwnMesh(const TetMesh& mesh, const Model& model, const std::vector<Vec3>& positions,
@@ -31,7 +31,7 @@ class OwnMesh {
   // the mean density of the energy stored in its springs [J/m^3], at sample `at` of a press from a
   // relaxed body, as a VTU file. With displacements u of the tool and h_i their memory,
   // sigma = C eps(u + sum_i (E_i/E) h_i), energy = (u.D u + sum_i (E_i/E) h_i.D h_i) / 2 with D the
-  // densities of the unit fields. Error(kUsage): the model has an effect without such a form,
+  // densities of the unit fields. Error(kBadInput): the model has an effect without such a form,
   // or its regions relax each in its own way.
   void write_field(std::ostream& out, const Episode& episode, std::size_t at) const;
 

@@ -14,7 +14,7 @@ using SolveMaterial = std::function<std::vector<Eigen::Matrix3d>(const MaterialS
 
 // Relaxed stiffness and Maxwell elements (PositionStiffness::relaxing) by position, from some
 // thirty solutions with moduli along the regions' relaxation: RelaxationSpectrum. `misfit`: what
-// the elements leave of the stiffness, the worst position's, relative to it. Error(kUsage): more
+// the elements leave of the stiffness, the worst position's, relative to it. Error(kBadInput): more
 // elements than RelaxationSpectrum takes.
 std::vector<PositionStiffness> regional_stiffness(const std::vector<RegionRelaxation>& regions,
                                                   const MaterialSpec& material,

@@ -16,7 +16,7 @@ struct ModelRelaxation {
 };
 
 // Terms with a region above 0 make the relaxation regional: each region has those of its own
-// number, none where there are none. Error(kUsage): an effect that has no form for a loop
+// number, none where there are none. Error(kBadInput): an effect that has no form for a loop
 // (Effect::live); `asked` says by what, "the real-time loop".
 ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
                               const std::string& asked);
@@ -24,7 +24,7 @@ ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
 // The same, empty where all regions relax alike; other effects of the model are no matter.
 std::vector<RegionRelaxation> regional_relaxation_of(const Model& model,
                                                      const MaterialSpec& material);
-// Error(kUsage) where the relaxation is regional, for what cannot do that.
+// Error(kBadInput) where the relaxation is regional, for what cannot do that.
 void refuse_regional_relaxation(const Model& model);
 
 }  // namespace hapsim

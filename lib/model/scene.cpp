@@ -15,7 +15,7 @@ namespace hapsim {
 namespace {
 
 [[noreturn]] void refuse(const std::string& effect, const std::string& why) {
-  fail_usage(fmt::format("the effect {} cannot be exported: {}", effect, why),
+  fail_input("", fmt::format("the effect {} cannot be exported: {}", effect, why),
              "take it out of the model (hs-identify --remove " + effect + ")");
 }
 
@@ -26,7 +26,7 @@ FullSpec checked_effects(const Model& model, const MaterialSpec& material, bool 
     const EffectCard& card = i.effect->card();
     if (card.stage == Stage::kSensor || card.stage == Stage::kMotion) {
       if (bare) continue;
-      fail_usage("the effect " + card.name + " acts on what is measured, not on the body",
+      fail_input("", "the effect " + card.name + " acts on what is measured, not on the body",
                  "add --bare to export the body without it");
     }
     FullSpec own;
@@ -42,7 +42,7 @@ FullSpec checked_effects(const Model& model, const MaterialSpec& material, bool 
     all.terms.insert(all.terms.end(), own.terms.begin(), own.terms.end());
   }
   if (!material.features.empty() || material.shift.norm() > 0 || material.rotation.norm() > 0)
-    fail_usage("the model has an effect that moves the body or is solved on meshes of its own",
+    fail_input("", "the model has an effect that moves the body or is solved on meshes of its own",
                "take it out of the model (hs-identify --remove)");
   if (material.local)
     refuse("regions", "its contacts feel their own region alone; set local to 0 and fit again");

@@ -27,15 +27,15 @@ struct SceneOptions {
 };
 
 // The tool's nodes are those of patch_under_tool(): the forces are those of the body's own mesh
-// (hs-simulate --own-mesh). `press` empty: no tool and no motion. Error(kUsage) naming the effect
-// that has no such form: features solved on meshes of their own, a spherical tip, friction,
+// (hs-simulate --own-mesh). `press` empty: no tool and no motion. Error(kBadInput) naming the
+// effect that has no such form: features solved on meshes of their own, a spherical tip, friction,
 // stiffening beyond neo-Hooke, regions that relax each in its own way; sensor and motion unless
 // `bare`. Error(kBadInput): a press off the surface.
 Scene make_scene(const TetMesh& body, const Model& model, const Recording& recording,
                  const std::vector<int>& press, const SceneOptions& options);
 
 // CalculiX, Abaqus: a step for each time, RF summed over the node set TOOL printed after each (the
-// force of the tool on the body). Error(kUsage): relaxation, which CalculiX does not have.
+// force of the tool on the body). Error(kBadInput): relaxation, which CalculiX does not have.
 void write_calculix(std::ostream& out, const Scene& scene);
 
 // FEBio, febio_spec 4.0: the motion as load curves, the tool's nodal reactions in its log file.
@@ -44,7 +44,7 @@ void write_calculix(std::ostream& out, const Scene& scene);
 void write_febio(std::ostream& out, const Scene& scene);
 
 // SOFA, from 23.12: one XML scene with its mesh, a static solver and linear tetrahedra.
-// Error(kUsage): second order, finite strain, relaxation.
+// Error(kBadInput): second order, finite strain, relaxation.
 void write_sofa(std::ostream& out, const Scene& scene);
 
 }  // namespace hapsim

@@ -11,7 +11,7 @@ namespace hapsim {
 
 void write_calculix(std::ostream& out, const Scene& scene) {
   if (!scene.terms.empty())
-    fail_usage("CalculiX has no linear viscoelasticity",
+    fail_input("", "CalculiX has no linear viscoelasticity",
                "export to FEBio, or take viscoelastic out of the model");
   write_mesh_abaqus(out, scene.mesh);
   const std::set<int> regions(scene.mesh.region.begin(), scene.mesh.region.end());

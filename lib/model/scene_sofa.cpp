@@ -8,9 +8,10 @@ namespace hapsim {
 void write_sofa(std::ostream& out, const Scene& scene) {
   const TetMesh& mesh = scene.mesh;
   if (mesh.order != 1)
-    fail_usage("SOFA's tetrahedra are of first order", "mesh again with hs-tetmesh --order 1");
+    fail_input("", "SOFA's tetrahedra are of first order", "mesh again with hs-tetmesh --order 1");
   if (scene.finite || !scene.terms.empty())
-    fail_usage(
+    fail_input(
+        "",
         std::string("the scene for SOFA has no ") + (scene.finite ? "finite strain" : "relaxation"),
         "export to FEBio, or take the effect out of the model");
   const double end = scene.t.empty() ? 1 : scene.t.back();

@@ -60,7 +60,7 @@ refuse() { # CODE TEXT TOOL ARGUMENTS...
     complain "exit $got, not $code with '$text': $*"
 }
 printf 't,x,y,z\n0,0,0,0\n' >between-tip.csv
-refuse 2 'no body is given' hs-simulate --live between-tip.csv --model acfm.csv
+refuse 3 'those of a moving tip' hs-simulate --live between-tip.csv --model acfm.csv
 refuse 2 '--body is required' hs-simulate motion.csv --model model.csv
 refuse 2 '--full is of finite elements' hs-simulate motion.csv --model acfm.csv --full
 refuse 2 '--add is of models with effects' hs-identify motion-fe.csv --body body.ply --acfm 1 --add tip

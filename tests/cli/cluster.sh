@@ -62,7 +62,7 @@ expect 3 "missing.csv: column 'E_std' is missing" missing.csv -o out.csv
 expect 3 'place.csv: all location samples lie at one place' place.csv -o out.csv
 expect 3 'held.csv: nu_std is 0 in 1 of 20 rows' held.csv -o out.csv
 expect 3 'the position is more than 10 m away' units.csv -o out.csv
-expect 2 '--regions 30 is more than the 20 samples' two.csv --regions 30 -o out.csv
+expect 3 '--regions 30 is more than the 20 samples' two.csv --regions 30 -o out.csv
 expect 2 '--labels needs a body' two.csv --labels l.ply -o out.csv
 expect 5 'none.csv' none.csv -o out.csv
 [[ ! -e out.csv && ! -e boundary.csv ]] || complain 'a failed run leaves nothing behind'

@@ -39,10 +39,13 @@ expect 3 'moving.csv:' first.csv --data moving.csv "${common[@]}"
 expect 0 'after 1.5 s, not seen by the fit: 120 samples, error 0.00' data.csv "${common[@]}" \
   --add viscoelastic --until 1.5
 grep -q '^# heldout_later: 0.002' out.csv || complain 'the error on later rows is in the model'
-expect 2 'no press of data.csv is longer than 5 s' data.csv "${common[@]}" --until 5
+expect 3 'data.csv: no press is longer than 5 s' data.csv "${common[@]}" --until 5
 sed '1i # recovery: none' data.csv >goes-on.csv
-expect 2 "goes-on.csv says 'recovery: none', so its presses cannot be cut" goes-on.csv "${common[@]}" --until 1
+expect 3 "goes-on.csv: it says 'recovery: none', so its presses cannot be cut" goes-on.csv "${common[@]}" --until 1
 
+# What data lack is a matter of the data, not of the command.
+cut -d, -f1,3- data.csv >still.csv
+expect 3 'still.csv: the data cannot show viscoelastic; the recording has no column t' still.csv "${common[@]}" --add viscoelastic
 expect 2 '--add is of recordings, and --follow reads a stream' data.csv --follow --body block.ply --add tip
 
 # Another tool on the same body; the same recordings as of two bodies; what one body or one tool
@@ -102,10 +105,10 @@ done
 [[ ! -e l.csv && ! -e i.csv && ! -e lab.db ]] || complain 'a refused run leaves nothing beside the model'
 awk -F, '/^[0-9]/ { if ($1 > 1) next } 1' data.csv >place.csv
 expect 0 'all presses are at one place' place.csv --body block.ply --rim-edge 0.3 --folds 0 -o placed.csv
-expect 2 'too few contact positions' place.csv "${common[@]}" --add regions
-expect 2 '--boundary needs presses at four places or more' place.csv "${common[@]}" --model whole.csv \
+expect 3 'too few contact positions' place.csv "${common[@]}" --add regions
+expect 3 '--boundary needs presses at four places or more' place.csv "${common[@]}" --model whole.csv \
   --boundary 8
-expect 2 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
+expect 3 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
 [[ ! -e out.csv ]] || complain 'a refused run leaves nothing behind'
 
 ((failures == 0)) && echo 'all as expected'

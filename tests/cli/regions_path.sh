@@ -54,7 +54,7 @@ for body in body regions; do
 done
 cmp -s body-forces.csv regions-forces.csv || complain 'labels change no force'
 hs-compare -q data.csv --simulated regions-forces.csv -o residuals.csv || complain 'the comparison'
-expect 2 'the model has no boundary between regions' data.csv "${common[@]}" --model m0.csv \
+expect 3 'the model has no boundary between regions' data.csv "${common[@]}" --model m0.csv \
   --boundary 5 --folds 0 -o no.csv
 [[ ! -e no.csv ]] || complain 'a refused run leaves nothing behind'
 

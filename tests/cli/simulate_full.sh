@@ -88,7 +88,7 @@ grep -q 'hs-simulate: deep.csv:7: the body was deformed to' err || complain 'no 
 [[ -e none.csv ]] && complain 'a failed run leaves a file behind'
 { cat linear.csv; printf 'damper,0,c,1,N s/m,,0,1000000,fixed\n'; } >damped.csv
 "$bin/hs-simulate" --full motion.csv --body body.ply --model damped.csv -q 2>err >/dev/null
-[[ $? == 2 ]] && grep -q damper err || complain 'an effect without such a form is not refused'
+[[ $? == 3 ]] && grep -q damper err || complain 'an effect without such a form is not refused'
 "$bin/hs-simulate" --force-control motion.csv --body body.ply --model linear.csv -q 2>err >/dev/null
 [[ $? == 2 ]] || complain '--force-control without --full is not refused'
 

@@ -65,10 +65,10 @@ refuse 2 'add --own-mesh' motion.csv --body body1.ply --model model.csv --vtu x
 refuse 2 'batch mode' --live "${common[@]}"
 { cat model.csv; echo 'tip,0,R,0.003,m,fixed'; } >tip.csv
 { cat model.csv; echo 'layer,0,thickness,0.003,m,fixed'; echo 'layer,0,ratio,2,1,fixed'; } >layer.csv
-refuse 2 'without --own-mesh' motion.csv --body body1.ply --model layer.csv --own-mesh
+refuse 3 'without --own-mesh' motion.csv --body body1.ply --model layer.csv --own-mesh
 { cat model.csv; printf 'elastic,1,E,10000,Pa,fixed\nviscoelastic,1,E1,9000,Pa,fixed\nviscoelastic,1,tau1,1,s,fixed\n'; } >own.csv
 own=(motion.csv --body body1.ply --model own.csv)
-refuse 2 'each in its own way' "${own[@]}" --own-mesh --vtu x
+refuse 3 'each in its own way' "${own[@]}" --own-mesh --vtu x
 for mode in --live --own-mesh; do
   "$bin/hs-simulate" $mode "${own[@]}" >out.csv 2>err || complain "regions that relax apart, $mode"
 done

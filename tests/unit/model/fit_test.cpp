@@ -106,7 +106,7 @@ TEST_F(Fit, WithoutTimeRelaxationCannotBeAdded) {
   const Model model = test::elastic(1e4, 0.4);
   EXPECT_NE(
       error_of([&] { with_effect(model, "viscoelastic", still.dataset, {0}, *still.body, {}); },
-               ExitCode::kUsage)
+               ExitCode::kBadInput)
           .find("no column t"),
       std::string::npos);
 }

@@ -83,6 +83,14 @@ TEST(ModelFile, RefusesWhatItCannotMean) {
               read(kHead + kElastic + "damper,0,c,-3,N s/m,,0,2,free\n");
             }).find("outside its bounds"),
             std::string::npos);
+  // Solvers cannot do with what these bounds would allow.
+  for (const char* nu : {"0.4,1,,0,0.5,free\n", "-0.5,1,,-2,0.49,free\n", "0.6,1,,0,0.9,fixed\n"})
+    EXPECT_NE(error_of([&] {
+                read(kHead + "elastic,0,E,1e4,Pa,,1,1e12,free\nelastic,0,nu," + nu);
+              }).find("reach what it cannot be; keep them within [0, 0.499]"),
+              std::string::npos);
+  EXPECT_NE(error_of([] { read(kHead + "elastic,0,E,0,Pa,,0,1e12,free\n"); }).find("positive"),
+            std::string::npos);
   EXPECT_NE(error_of([] { read(kHead + kElastic + kElastic); }).find("stands twice"),
             std::string::npos);
   EXPECT_NE(

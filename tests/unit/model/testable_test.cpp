@@ -1,6 +1,7 @@
 // What data must have for an effect to be testable, and what presses tell of their past.
 #include <gtest/gtest.h>
 
+#include "expect_error.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -45,6 +46,24 @@ TEST(Dataset, KnowsThePressesBefore) {
   Recording healed = two_presses();
   healed.metadata.set("recovery", "full");
   EXPECT_EQ(dataset_of(healed).episodes[1].view.past_depth, 0);
+}
+
+TEST(Workspace, RefusesDisplacementsBeyondTheBody) {
+  Recording wild = two_presses();
+  wild.u[2] = {0.6, 0, -1e-3};
+  const auto prepare = [](const Recording& r) {
+    WorkspaceOptions options;
+    options.rim_edge = 0.5;
+    return make_workspace(test::block_mesh({0.08, 0.08, 0.04}, 4, 4, 3, 1), r, options);
+  };
+  EXPECT_NE(error_of([&] { prepare(wild); }).find("two:4: a displacement of 0.6 m on a body of"),
+            std::string::npos);
+  wild.contact.assign(wild.rows(), 1);
+  wild.contact[2] = 0;  // far away in the air
+  EXPECT_NO_THROW(prepare(wild));
+  wild.position[5] = wild.position[6] = {0.01, 0.02, 0.5};
+  EXPECT_NE(error_of([&] { prepare(wild); }).find("two: contact at (0.01, 0.02, 0.5): lies"),
+            std::string::npos);
 }
 
 TEST(Testable, SaysWhatTheDataLack) {
