@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "diagnose/candidate.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/unseen.h"
 #include "effects/catalogue.h"
 #include "geometry/tetmesh.h"
 #include "summary.h"
@@ -207,20 +208,6 @@ void count_sizes(const Model& found, const Model& truth, const Workspace& w, Tri
   }
 }
 
-// Of each position's presses at most one is left out at a time.
-Folds press_folds(const Dataset& dataset) {
-  constexpr std::size_t kParts = 6;
-  Folds folds{std::vector<Selection>(kParts), "presses"};
-  std::vector<std::size_t> presses(dataset.positions.size(), 0);
-  for (std::size_t e = 0; e < dataset.episodes.size(); ++e) {
-    const auto p = static_cast<std::size_t>(dataset.episodes[e].position);
-    folds.held_out[(p + presses[p]++) % kParts].push_back(static_cast<int>(e));
-  }
-  std::erase_if(folds.held_out, [](const Selection& part) { return part.empty(); });
-  if (folds.held_out.size() < 2) folds.held_out.clear();
-  return folds;
-}
-
 std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, " "));
 }
@@ -286,7 +273,8 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
   trial.after = d.held_out_end / floor;
   trial.own_form = truth.model != nullptr;
   if (trial.rivals.empty() && !trial.missing.empty())
-    trial.presses = held_out_of(d.rivals.front(), w, press_folds(w.dataset)).rmse / floor;
+    trial.presses =
+        held_out_of(d.rivals.front(), w, make_press_folds(w.dataset, 6), Map::kAnew).rmse / floor;
   if (trial.rivals.empty() && !d.rivals.empty())
     count_sizes(d.rivals.front(), drawn.model, pair.truth, trial);
   return trial;

@@ -3,6 +3,7 @@
 Every body is bonded at z = 0. A place is (point, outward unit normal)."""
 import numpy as np
 
+BODIES = ("cuboid", "ball", "organ")
 CUBOID = (120.0, 210.0, 60.0)
 BALL_MIDDLE, BALL_RADIUS = np.array([0.0, 0.0, 35.0]), 50.0
 ORGAN_MIDDLE, ORGAN_AXES = np.array([0.0, 0.0, 22.0]), np.array([58.0, 41.0, 33.0])
@@ -21,18 +22,21 @@ def rotation(vector):
 
 ORGAN_FRAME = rotation([0, 0, ORGAN_TURN]) @ rotation([0, ORGAN_TILT, 0])
 
-SHAPES = {
-    "cuboid": "Box(1) = {0, 0, 0, %g, %g, %g};" % CUBOID,
-    "ball": "Sphere(1) = {%g, %g, %g, %g};\n" % (*BALL_MIDDLE, BALL_RADIUS)
-    + "Box(9) = {-200, -200, 0, 400, 400, 400};\n"
-    "BooleanIntersection{ Volume{1}; Delete; }{ Volume{9}; Delete; }",
-    "organ": "Sphere(1) = {0, 0, 0, 1};\nDilate{ {0, 0, 0}, {%g, %g, %g} }{ Volume{1}; }\n" % tuple(ORGAN_AXES)
-    + "Rotate{ {0, 1, 0}, {0, 0, 0}, %g }{ Volume{1}; }\n" % ORGAN_TILT
-    + "Rotate{ {0, 0, 1}, {0, 0, 0}, %g }{ Volume{1}; }\n" % ORGAN_TURN
-    + "Translate{ %g, %g, %g }{ Volume{1}; }\n" % tuple(ORGAN_MIDDLE)
-    + "Box(9) = {-200, -200, 0, 400, 400, 400};\n"
-    "BooleanIntersection{ Volume{1}; Delete; }{ Volume{9}; Delete; }",
-}
+
+def shape(body, skin=0.0, number=1):
+    """The body for Gmsh as that volume; with a skin, what is below it."""
+    above = ("Box(%d) = {-200, -200, 0, 400, 400, 400};\nBooleanIntersection{ Volume{%d}; Delete; }{ Volume{%d}; Delete; }"
+             % (number + 8, number, number + 8))
+    if body == "cuboid":
+        x, y, z = CUBOID
+        return "Box(%d) = {%g, %g, 0, %g, %g, %g};" % (number, skin, skin, x - 2 * skin, y - 2 * skin, z - skin)
+    if body == "ball":
+        return "Sphere(%d) = {%g, %g, %g, %g};\n" % (number, *BALL_MIDDLE, BALL_RADIUS - skin) + above
+    return ("Sphere(%d) = {0, 0, 0, 1};\n" % number
+            + "Dilate{ {0, 0, 0}, {%g, %g, %g} }{ Volume{%d}; }\n" % (*(ORGAN_AXES - skin), number)
+            + "Rotate{ {0, 1, 0}, {0, 0, 0}, %g }{ Volume{%d}; }\n" % (ORGAN_TILT, number)
+            + "Rotate{ {0, 0, 1}, {0, 0, 0}, %g }{ Volume{%d}; }\n" % (ORGAN_TURN, number)
+            + "Translate{ %g, %g, %g }{ Volume{%d}; }\n" % (*ORGAN_MIDDLE, number) + above)
 
 
 def on_ball(direction):

@@ -1,5 +1,8 @@
 """The recordings: body, tool radius [mm], variant, laws in the
 order in which the force passes them, hidden effects, and what else a recording has."""
+import zlib
+
+import bodies
 import laws
 
 SLOW = {"holds": (3.0, 5.0)}
@@ -14,6 +17,15 @@ def case(name, body, hidden, variant="plain", chain=(), radius=4.0, **more):
     return {"name": name, "body": body, "hidden": hidden, "variant": variant, "chain": list(chain), "radius": radius, **more}
 
 
+def seed(case):
+    """Of its motion and noise."""
+    return zlib.crc32(case["name"].encode())
+
+
+def places(case):
+    return bodies.places(case["body"])[: case.get("places", 12)]
+
+
 def every_case():
     c = []
     for body in ("cuboid", "ball", "organ"):
@@ -24,6 +36,7 @@ def every_case():
     c += [
         case("null-wide", "organ", "", radius=6.0),
         case("base-wide", "organ", "base", "base", radius=6.0),
+        case("stiffening-organ", "organ", "hyperelastic", stiffens=3.0, places=6, aslant=0),
         case("damper-ball", "ball", "damper", chain=[laws.dashpot(4.0)]),
         case("damper-body", "cuboid", "damper", chain=[laws.viscous_body(0.03)]),
         case("relaxing-short", "organ", "viscoelastic", chain=[laws.relaxing([(0.4, 0.05)])], **SLOW),

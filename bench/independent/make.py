@@ -3,18 +3,17 @@ there, as OUT/data/NAME.csv; OUT/truth.csv says what is hidden."""
 import pathlib
 import subprocess
 import sys
-import zlib
 
 import numpy as np
 
 import bodies
 import cases
-import motion
+import finite
 import stiffnesses
 
 
 def write_bodies(out):
-    for body, shape in bodies.SHAPES.items():
+    for body in bodies.BODIES:
         scan = out / (body + "_scan.csv")
         if not scan.exists():
             rows = 1e-3 * bodies.scan(body)
@@ -23,23 +22,25 @@ def write_bodies(out):
         if not surface.exists():
             script = out / (body + ".geo")
             script.write_text('SetFactory("OpenCASCADE");\n%s\nMesh.CharacteristicLengthMax = 3;\n'
-                              "Mesh.ScalingFactor = 0.001;\n" % shape)
+                              "Mesh.ScalingFactor = 0.001;\n" % bodies.shape(body))
             subprocess.run(["gmsh", script, "-2", "-format", "stl", "-o", surface, "-v", "2"], check=True)
             script.unlink()
 
 
 def forces(case, presses, out):
     """The body's forces on the tool, press by press."""
+    if "stiffens" in case:
+        return finite.forces(case, presses, out)
     K = stiffnesses.load(out, case["body"], case["radius"], case["variant"])
     return [-p.u @ K[p.place].T for p in presses]
 
 
 def write(case, out):
     name, body = case["name"], case["body"]
-    seed = zlib.crc32(name.encode())
+    seed = cases.seed(case)
     random = np.random.default_rng(seed)
-    places = bodies.places(body)
-    presses = motion.session(places, seed, case.get("holds", (2.0, 3.0)))
+    places = cases.places(case)
+    presses = finite.presses(case)
     swing = case.get("swing")
     for p in presses:
         p.temperature = 22 + (swing or 0) * np.sin(2 * np.pi * p.t / 800)

@@ -6,20 +6,24 @@ import numpy as np
 import bodies
 
 
-def geometry(body, place, radius, rim, growth, fine):
+def geometry(body, place, radius, rim, growth, fine, skin):
     """Gmsh's script [mm]; edge length `rim` at the tool's rim, growing by `growth` per length;
-    `fine`: (middle, radius, edge length) of a ball to be resolved as well."""
+    `fine`: (middle, radius, edge length) of a ball to be resolved as well; `skin`: thickness of one whose
+    inner face is imprinted, 0 for none."""
     p, n = place
     a, b = p - 2 * radius * n, 4 * radius * n
     away = "((x-(%.9g))*(%.9g)+(y-(%.9g))*(%.9g)+(z-(%.9g))*(%.9g))" % (p[0], n[0], p[1], n[1], p[2], n[2])
     square = "((x-(%.9g))^2+(y-(%.9g))^2+(z-(%.9g))^2)" % tuple(p)
     aside = "sqrt(abs(%s-%s^2))" % (square, away)
     size = "%g+%g*sqrt((%s-%g)^2+%s^2)" % (rim, growth, aside, radius, away)
+    parts = "BooleanFragments{ Volume{1}; Delete; }{ Volume{part()}; Delete; }"
+    if skin:
+        parts = bodies.shape(body, skin, 50) + parts.replace("part()", "part(), 50")
     return """SetFactory("OpenCASCADE");
 %s
 Cylinder(2) = {%.9g, %.9g, %.9g, %.9g, %.9g, %.9g, %g};
 part() = BooleanIntersection{ Volume{1}; }{ Volume{2}; Delete; };
-BooleanFragments{ Volume{1}; Delete; }{ Volume{part()}; Delete; }
+%s
 Field[1] = MathEval;
 Field[1].F = "%s";
 Field[2] = Ball;
@@ -41,11 +45,12 @@ Mesh.SecondOrderLinear = 1;
 Mesh.Optimize = 1;
 Mesh.SaveAll = 1;
 Mesh.MshFileVersion = 2.2;
-""" % (bodies.SHAPES[body], *a, *b, radius, size, *fine[0], *fine[1:])
+""" % (bodies.shape(body), *a, *b, radius, parts, size, *fine[0], *fine[1:])
 
 
 def read_msh(name):
-    """Nodes (n, 3) [mm] and tetrahedra (m, 10), indices from 0, CalculiX's order of nodes."""
+    """Nodes (n, 3) [mm], tetrahedra (m, 10), indices from 0, CalculiX's order of nodes, and the
+    volume that each lies in (m)."""
     with open(name) as file:
         lines = file.read().split("\n")
     at = lines.index("$Nodes")
@@ -54,15 +59,16 @@ def read_msh(name):
     index = {int(number): i for i, number in enumerate(rows[:, 0])}
     at = lines.index("$Elements")
     count = int(lines[at + 1])
-    tets = []
+    tets, volumes = [], []
     for line in lines[at + 2 : at + 2 + count]:
         row = line.split()
         if row[1] == "11":
+            volumes.append(int(row[4]))
             tets.append([index[int(number)] for number in row[3 + int(row[2]) :]])
     tets = np.array(tets)
     tets[:, [8, 9]] = tets[:, [9, 8]]
     used, renumbered = np.unique(tets, return_inverse=True)
-    return rows[used, 1:], renumbered.reshape(tets.shape)
+    return rows[used, 1:], renumbered.reshape(tets.shape), np.array(volumes)
 
 
 # A face's six nodes in a tetrahedron's ten.
@@ -76,15 +82,15 @@ def boundary_faces(tets):
 
 
 class Mesh:
-    """nodes (n, 3) [mm], tets (m, 10), patch and bottom: indices of nodes."""
+    """nodes (n, 3) [mm], tets (m, 10), volumes (m), patch and bottom: indices of nodes."""
 
-    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5):
+    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5, skin=0.0):
         script, result = folder / "mesh.geo", folder / "mesh.msh"
-        script.write_text(geometry(body, place, radius, rim, growth, fine))
+        script.write_text(geometry(body, place, radius, rim, growth, fine, skin))
         done = subprocess.run(["gmsh", script, "-3", "-o", result, "-v", "2", "-nt", "1"], capture_output=True, text=True)
         if done.returncode != 0 or not result.exists():
             raise RuntimeError("gmsh failed on %s: %s" % (script, done.stdout + done.stderr))
-        self.nodes, self.tets = read_msh(result)
+        self.nodes, self.tets, self.volumes = read_msh(result)
         result.unlink()
         p, n = place
         faces = boundary_faces(self.tets)

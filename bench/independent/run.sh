@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh BIN OUT [scan|stl [NAME...]]: recordings that CalculiX computed on meshes of Gmsh's, diagnosed as a
-# user would. OUT keeps the stiffnesses (half an hour on two cores), the recordings and the results;
+# user would. OUT keeps the stiffnesses (an hour on two cores), the recordings and the results;
 # what is there is not made again: delete OUT/diagnosed to diagnose anew.
 set -euo pipefail
 bin=$1 out=$2 from=${3:-stl}
@@ -17,6 +17,7 @@ if [[ ${HAPSIM_SOLVE:-yes} == yes ]]; then
     "$python" "$here/stiffnesses.py" "$out" "$body" 4 plain base anisotropic regions inclusion layer
   done
   "$python" "$here/stiffnesses.py" "$out" organ 6 plain base
+  "$python" "$here/finite.py" "$out"
 fi
 "$python" "$here/make.py" "$out" "$@"
 for body in cuboid ball organ; do

@@ -25,8 +25,11 @@ def solve_place(out, body, radius, names, k):
     middle, ball, _ = variants.INCLUSION[body]
     with tempfile.TemporaryDirectory(prefix="hapsim-bench-") as folder:
         folder = pathlib.Path(folder)
-        mesh = meshes.Mesh(body, bodies.places(body)[k], radius, folder, (middle, ball, ball / 3))
-        for name in names:
+        mesh = None
+        for name in sorted(names, key=lambda n: n == "layer"):
+            if mesh is None or name == "layer":
+                skin = variants.SKIN[body][0] if name == "layer" else 0.0
+                mesh = meshes.Mesh(body, bodies.places(body)[k], radius, folder, (middle, ball, ball / 3), skin=skin)
             K = calculix.stiffness(folder, mesh, *variants.build(name, body, mesh))
             target = file_of(out, body, radius, name, k)
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -48,8 +48,11 @@ def build(name, body, mesh):
     if name == "regions":
         return two_parts(stiffer_part(body, mesh.centroids), STIFFER[body]), mesh.bottom, ""
     if name == "layer":
+        # The mesh has the skin's inner face: whole volumes are on one side of it.
         thickness, ratio = SKIN[body]
-        return two_parts(bodies.depth_below(body, mesh.centroids) < thickness, ratio), mesh.bottom, ""
+        shallow = bodies.depth_below(body, mesh.centroids) < thickness
+        skin = [v for v in np.unique(mesh.volumes) if np.mean(shallow[mesh.volumes == v]) > 0.5]
+        return two_parts(np.isin(mesh.volumes, skin), ratio), mesh.bottom, ""
     if name == "inclusion":
         middle, radius, ratio = INCLUSION[body]
         return two_parts(np.linalg.norm(mesh.centroids - middle, axis=1) < radius, ratio), mesh.bottom, ""
