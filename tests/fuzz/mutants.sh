@@ -2,17 +2,17 @@
 # mutants.sh [-j JOBS] BUILD FOLDER COUNT [ROW...]: gives every tool COUNT mutants of a valid file of each
 # format that it reads, and counts how it ends: with 0, or with 3 and lines that say why, and never otherwise.
 # Before that the readers alone (row readers) have COUNT mutants of each of these files, of the cases
-# and of the shipped examples, in one process. ROW are patterns of row names ('hs-fuse*'). Rows that
-# FOLDER/rows.csv holds are not made again, so an interrupted call is gone on with; mutants that end
-# otherwise stay in FOLDER/ROW. Prints the table of all rows so far; exit code 1 when any mutant ended
-# otherwise.
+# and of the shipped examples, in one process. ROW are patterns of row names ('hs-fuse*'). An interrupted
+# call is gone on with by the same, one of fewer mutants by one of more; a row whose folder FOLDER/ROW is
+# removed begins anew. Mutants that end otherwise stay there and are tried again by every call. Prints
+# the table of all rows so far; exit code 1 when any mutant ended otherwise.
 set -uo pipefail
 jobs=1
 while getopts j: flag; do
   case $flag in j) jobs=$OPTARG ;; *) exit 2 ;; esac
 done
 shift $((OPTIND - 1))
-(($# >= 3)) || { sed -n '2,8s/^# //p' "$0" >&2; exit 2; }
+(($# >= 3)) || { sed -n '2,9s/^# //p' "$0" >&2; exit 2; }
 build=$(cd "$1" && pwd) folder=$2 count=$3
 shift 3
 patterns=("${@:-*}")
@@ -125,7 +125,6 @@ readers() {
   "$build/tests/fuzz/test_fuzz_cases" "$r" "$count" >"$folder/readers.new" && mv "$folder/readers.new" "$folder/readers.table"
 }
 
-touch "$folder/rows.csv"
 make_row() { # NAME EXAMPLE COMMAND...
   local name=$1 example=$2 mutant word command=() checks=() ends
   shift 2
@@ -134,7 +133,7 @@ make_row() { # NAME EXAMPLE COMMAND...
   for word; do command+=("${word/#@/$mutant}"); done
   [[ ${command[0]} != hs-check ]] || checks=(-c)
   ends=$("$build/tests/fuzz/tool_mutants" "${checks[@]}" "$count" "$example" "$mutant" "$bin/${command[0]}" "${command[@]:1}" -q)
-  [[ -n $ends ]] && echo "$name $ends" >>"$folder/rows.csv"
+  [[ -n $ends ]] && echo "$ends" >"$folder/$name/row"
 }
 wanted() { # NAME
   local pattern
@@ -151,12 +150,17 @@ if wanted readers && [[ ! -e $folder/readers.table ]]; then
 fi
 for line in "${rows[@]}"; do
   eval "words=($line)"
-  wanted "${words[0]}" && ! grep -q "^${words[0]} " "$folder/rows.csv" || continue
+  wanted "${words[0]}" || continue
+  ends=$(cat "$folder/${words[0]}/row" 2>/dev/null)
+  awk -v count="$count" '{ made = $1 + $2 + $3; bad = $3 } END { exit made >= count && bad == 0 }' <<<"$ends" || continue
   while (($(jobs -rp | wc -l) >= jobs)); do wait -n; done
   make_row "${words[@]}" &
 done
 wait
 printf '%-28s %9s %9s %10s\n' 'tool and format' 'exit 0' 'exit 3' otherwise
-awk '{ printf "%-28s %9d %9d %10d\n", $1, $2, $3, $4; bad += $4 } END { exit bad > 0 }' "$folder/rows.csv" || bad=1
+for line in "${rows[@]}"; do
+  eval "words=($line)"
+  [[ -s $folder/${words[0]}/row ]] && echo "${words[0]} $(cat "$folder/${words[0]}/row")"
+done | awk '{ printf "%-28s %9d %9d %10d\n", $1, $2, $3, $4; bad += $4 } END { exit bad > 0 }' || bad=1
 cat "$folder/readers.table" 2>/dev/null
 exit $bad

@@ -17,13 +17,16 @@
 #include "io/vtu.h"
 #include "model/location_file.h"
 #include "model/model.h"
+#include "model/search_state.h"
 #include "realtime/acfm.h"
 #include "realtime/fuse_recordings.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
+#include "realtime/packets.h"
 #include "scan/pcd.h"
 #include "scan/robot.h"
 #include "scan/scan_file.h"
+#include "scan/sections.h"
 #include "scan/volume.h"
 
 namespace hapsim::fuzz {
@@ -70,7 +73,12 @@ void recording(const std::string& bytes) {
 }
 
 void model(const std::string& bytes) {
-  there_and_back(bytes, read_model, write_model);
+  const auto read = [](Input& input) {
+    Model model = read_model(input);
+    unfinished_search(model, input.name());
+    return model;
+  };
+  there_and_back(bytes, read, write_model);
 }
 
 void manifest(const std::string& bytes) {
@@ -140,6 +148,31 @@ void motion(const std::string& bytes) {
   follow(lines);
 }
 
+// Contours in parallel sections.
+void sections(const std::string& bytes) {
+  Input input = input_of(bytes);
+  sections_scan(read_sections(read_csv(input), 1, 0.01));
+}
+
+// A datagram, also with the sum that it should end with: no fuzzer finds that. What is taken for a
+// packet must be the same when it is written.
+void packets(const std::string& bytes) {
+  PacketBytes summed{};
+  std::uint64_t sum = 14695981039346656037ULL;
+  for (std::size_t i = 0; i + 8 < kPacketBytes; ++i) {
+    summed[i] = i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0;
+    sum = (sum ^ summed[i]) * 1099511628211ULL;
+  }
+  for (std::size_t i = 0; i < 8; ++i)
+    summed[kPacketBytes - 8 + i] = static_cast<unsigned char>(sum >> (8 * i));
+  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
+  Packet packet;
+  read_packet({data, bytes.size()}, packet);
+  if (read_packet(summed, packet) != PacketFault::kNone)
+    fail_input(kName, "no packet", "send packets");
+  if (write_packet(packet) != summed) std::abort();
+}
+
 void records(const std::string& bytes) {
   for (const auto kind : {MotionRecords::Kind::kTip, MotionRecords::Kind::kPress}) {
     Input input = input_of(bytes);
@@ -161,7 +194,8 @@ const std::vector<Reader>& readers() {
                                        {"records", records},   {"motion", motion},
                                        {"urdf", urdf},         {"off", off},
                                        {"volume", volume},     {"acfm", acfm},
-                                       {"fusion", fusion}};
+                                       {"fusion", fusion},     {"sections", sections},
+                                       {"packets", packets}};
   return all;
 }
 

@@ -1,20 +1,23 @@
 // tool_mutants [-c] COUNT EXAMPLE MUTANT COMMAND...: damages the file EXAMPLE in COUNT ways, writes
 // each to the file MUTANT, which COMMAND reads, and counts how COMMAND ends. A tool must end with 0
 // or with 3 (with -c also with 1) and then say so: lines that begin with its name. Mutants with
-// which it does otherwise, takes more than a minute or 4 GB, are kept as MUTANT.N. Prints one line:
-// how many ended with 0, how many with 3, how many otherwise and, for these, the first number N;
-// exit code 1 when there are any.
+// which it does otherwise, takes more than a minute or 4 GB, are kept as MUTANT.N. An interrupted
+// call, or one of a smaller COUNT, is gone on with: MUTANT.progress says where; mutants that were
+// kept are tried again first. Prints one line: how many ended with 0, how many with 3, how many
+// otherwise and, for these, the first number N; exit code 1 when there are any.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -66,6 +69,71 @@ bool well_said(const std::string& said, const std::string& tool) {
   return count > 0;
 }
 
+// Where a call went on to, and how the mutants so far ended.
+struct Progress {
+  long next = 0, done = 0, refused = 0;  // 0: the example itself has not been tried
+  std::set<long> otherwise;
+
+  bool read(const std::string& file) {
+    std::ifstream in(file);
+    long n;
+    if (!(in >> next >> done >> refused)) return false;
+    while (in >> n) otherwise.insert(n);
+    return true;
+  }
+  void write(const std::string& file) const {
+    {
+      std::ofstream out(file + ".new", std::ios::trunc);
+      out << next << ' ' << done << ' ' << refused;
+      for (const long n : otherwise) out << ' ' << n;
+      out << '\n';
+    }
+    fs::rename(file + ".new", file);
+  }
+};
+
+class Trial {
+ public:
+  Trial(bool checks, std::string file, char** command)
+      : checks_(checks),
+        file_(std::move(file)),
+        command_(command),
+        tool_(fs::path(command[0]).filename().string()) {
+    progress.read(file_ + ".progress");
+  }
+
+  // The exit code with these bytes; counted as the mutant of that number, if it has one.
+  int with(const std::string& bytes, long number) {
+    std::ofstream(file_, std::ios::binary | std::ios::trunc) << bytes;
+    const int code = run(command_, said());
+    if (number == 0) return code;
+    const std::string kept = file_ + "." + std::to_string(number);
+    const bool refused = code == 3 && well_said(content(said()), tool_);
+    if (code == 0 || (checks_ && code == 1) || refused) {
+      ++(refused ? progress.refused : progress.done);
+      progress.otherwise.erase(number);
+      fs::remove(kept);
+      fs::remove(kept + ".said");
+    } else {
+      progress.otherwise.insert(number);
+      std::ofstream(kept, std::ios::binary) << bytes;
+      std::ofstream(kept + ".said") << "exit " << code << "\n" << content(said());
+    }
+    return code;
+  }
+  void again(long number) { with(content(file_ + "." + std::to_string(number)), number); }
+  void save() const { progress.write(file_ + ".progress"); }
+  std::string said() const { return file_ + ".said"; }
+
+  Progress progress;
+
+ private:
+  bool checks_;
+  std::string file_;
+  char** command_;
+  std::string tool_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,31 +144,26 @@ int main(int argc, char** argv) {
     return 2;
   }
   const long count = std::atol(argv[1]);
-  const std::string good = content(argv[2]), file = argv[3], said = file + ".said";
-  const std::string tool = fs::path(argv[4]).filename().string();
-  Random random(13);
-  long done = 0, refused = 0, first = 0, otherwise = 0;
-  for (long k = 0; k <= count; ++k) {
-    const std::string bad = k == 0 ? good : fuzz::mutant(good, random);
-    std::ofstream(file, std::ios::binary | std::ios::trunc) << bad;
-    const int code = run(argv + 4, said);
-    if (k == 0) {  // the example itself
-      if (code == 0) continue;
-      std::fprintf(stderr, "tool_mutants: the valid file ends with exit %d: %s", code,
-                   content(said).c_str());
-      return 2;
-    }
-    if (code == 0 || (checks && code == 1)) {
-      ++done;
-    } else if (code == 3 && well_said(content(said), tool)) {
-      ++refused;
-    } else {
-      if (otherwise++ == 0) first = k;
-      const std::string kept = file + "." + std::to_string(k);
-      std::ofstream(kept, std::ios::binary) << bad;
-      std::ofstream(kept + ".said") << "exit " << code << "\n" << content(said);
-    }
+  const std::string good = content(argv[2]);
+  Trial trial(checks, argv[3], argv + 4);
+  Progress& progress = trial.progress;
+  if (const int code = trial.with(good, 0); code != 0) {
+    std::fprintf(stderr, "tool_mutants: the valid file ends with exit %d: %s", code,
+                 content(trial.said()).c_str());
+    return 2;
   }
-  std::printf("%ld %ld %ld %ld\n", done, refused, otherwise, first);
-  return otherwise > 0 ? 1 : 0;
+  for (const long number : std::set<long>(progress.otherwise)) trial.again(number);
+  Random random(13);
+  progress.next = std::max(progress.next, 1L);
+  for (long k = 1; k <= count; ++k) {
+    const std::string bad = fuzz::mutant(good, random);  // the same ones in every call
+    if (k < progress.next) continue;
+    trial.with(bad, k);
+    progress.next = k + 1;
+    if (k % 20 == 0) trial.save();
+  }
+  trial.save();
+  std::printf("%ld %ld %zu %ld\n", progress.done, progress.refused, progress.otherwise.size(),
+              progress.otherwise.empty() ? 0 : *progress.otherwise.begin());
+  return progress.otherwise.empty() ? 0 : 1;
 }
