@@ -55,7 +55,9 @@ hs-simulate lesson.csv --model acfm.csv -q | hs-fuse - --slow lesson.fe.csv --de
 for kind in slow fast; do
   motion $kind 0.001 >$kind.csv
   motion $kind 0.02 | hs-simulate $fe -o $kind.fe.csv
+  began=$(date +%s%N)
   hs-simulate $kind.csv $fe -o $kind.exact.csv
+  step=$(awk -v ns=$(($(date +%s%N) - began)) '/^[0-9]/ { ++n } END { printf "%.0f", ns / n / 1e6 }' $kind.csv)
   echo "$kind motion:"
   hs-simulate $kind.csv --model acfm.csv -q |
     hs-fuse - --slow $kind.fe.csv --delay 0.02 --parameters filter.csv --exact $kind.exact.csv -o $kind.fused.csv 2>$kind.txt
@@ -65,6 +67,7 @@ for kind in slow fast; do
 done
 {
   echo 'figure,thesis,ours'
+  echo "organ: a step of its finite elements [ms],20 to 90,$step"
   for kind in slow fast; do
     sed -n "s/.*fused  *error *\([0-9.]*\) N .*step \([0-9.]*\) N.*/organ: error fused ($kind) [N],about 0.1,\1\norgan: largest step in a ms ($kind) [N],0.5 to 0.8,\2/p" $kind.txt
   done

@@ -70,8 +70,8 @@ done <<'END'
 10 ramp 0.05 0.2 0.2
 END
 
-# An analytical model of two Maxwell elements from each row's forces: its error on them, and on a
-# faster press with a hold that it has not seen.
+# An analytical model of two Maxwell elements from each row's forces, exact and with noise: its error
+# on them, and on a faster press with a hold that it has not seen, both without the noise.
 awk 'BEGIN {
   print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
   for (i = 0; i <= 600; ++i) {
@@ -84,21 +84,31 @@ error_of() { # FORCES MOTION: of acfm.csv, in % of the forces' rms
     hs-compare "$1" --simulated - -o residuals.csv 2>&1 | sed -n 's/.*pooled.*; \(.*\) % of the force.s rms.*/\1/p'
 }
 echo 'Analytical model of Table A.2 against finite elements, error in % of the force:'
-echo 'row  seen      unseen'
+echo '     from exact forces from forces with noise of 0.01 N'
+echo 'row  seen      unseen  seen      unseen'
 for index in 1 2 3 4 5 6 7 8 9 10; do
   name=viscoelastic-$index
-  hs-identify "$name.csv" --body cuboid.ply --acfm 2 -q -o acfm.csv
+  hs-simulate "$name.motion.csv" --body cuboid.ply --model "$name.model.csv" --add-noise 0.01 -q -o noisy.csv
   hs-simulate unseen.motion.csv --body cuboid.ply --model "$name.model.csv" -q -o unseen.csv
-  printf '%-4s %-9s %s\n' "$index" "$(error_of "$name.csv" "$name.motion.csv")" \
-    "$(error_of unseen.csv unseen.motion.csv)"
+  printf '%-3s' "$index"
+  for forces in "$name.csv" noisy.csv; do
+    hs-identify "$forces" --body cuboid.ply --acfm 2 -q -o acfm.csv
+    printf '  %-8s  %-6s' "$(error_of "$name.csv" "$name.motion.csv")" "$(error_of unseen.csv unseen.motion.csv)"
+  done
+  echo
 done
 
 # What the thesis gives figures of: making ready, and a force.
-hs-simulate --live viscoelastic-1.motion.csv --body cuboid.ply --model viscoelastic-1.model.csv -o /dev/null 2>said.txt
+figures() { # KIND READY FORCE: the thesis's, beside ours
+  hs-simulate --live "$1-1.motion.csv" --body cuboid.ply --model "$1-1.model.csv" -o /dev/null 2>said.txt
+  sed -n "s/.*condensed in \([0-9.]*\) ms.*/virtual cuboid: made ready ($1) [ms],$2,\1/p" said.txt
+  sed -n 's/.*median \([0-9.]*\) us.*/\1/p' said.txt |
+    awk -v kind="$1" -v theirs="$3" '{ printf "virtual cuboid: a force (%s) [ms],%s,%.4f\n", kind, theirs, $1 / 1000 }'
+}
 {
   echo 'figure,thesis,ours'
-  sed -n 's/.*condensed in \([0-9.]*\) ms.*/virtual cuboid: made ready (viscoelastic) [ms],120,\1/p' said.txt
-  sed -n 's/.*median \([0-9.]*\) us.*/virtual cuboid: a force (viscoelastic) [ms],30,\1e-3/p' said.txt
+  figures elastic 95 15
+  figures viscoelastic 120 30
 } >summary.csv
 
 plot() { # FILE TITLE NAME...
