@@ -18,90 +18,19 @@
 #include "fem/unit_law.h"
 #include "io/number.h"
 #include "model/forces.h"
+#include "model/full_contact.h"
 #include "model/nearest_region.h"
 #include "model/relaxation.h"
+#include "model/tool_steps.h"
 
 namespace hapsim {
 namespace {
-
-// Rows of a press, step by step: one a tool in each.
-struct Steps {
-  std::vector<std::vector<std::size_t>> rows;
-  std::size_t tools() const { return rows.front().size(); }
-};
-
-std::string line(const Recording& r, std::size_t row) {
-  return fmt::format("{}:{}", r.name, r.line[row]);
-}
-
-Steps steps_of(const Recording& r, const Press& press) {
-  const auto found = std::find(r.extra_header.begin(), r.extra_header.end(), "tool_id");
-  const std::vector<std::string>* tool =
-      found == r.extra_header.end()
-          ? nullptr
-          : &r.extra[static_cast<std::size_t>(found - r.extra_header.begin())];
-  Steps steps;
-  for (const int i : press.rows) {
-    const auto row = static_cast<std::size_t>(i);
-    bool joins = tool != nullptr && !steps.rows.empty();
-    if (joins) {
-      for (const std::size_t other : steps.rows.back())
-        joins = joins && (*tool)[other] != (*tool)[row] && (r.t.empty() || r.t[other] == r.t[row]);
-    }
-    if (!joins) steps.rows.emplace_back();
-    steps.rows.back().push_back(row);
-    const std::vector<std::size_t>& first = steps.rows.front();
-    const std::size_t place = steps.rows.back().size() - 1;
-    const bool known = steps.rows.size() == 1 || place < first.size();
-    if (!known || (tool != nullptr && (*tool)[first[place]] != (*tool)[row]) ||
-        (r.position[first[place]] - r.position[row]).norm() > 1e-4)
-      fail_input(line(r, row), "the tools or their contact points change within a press",
-                 "give every step the same tools in the same order, and each contact its press");
-  }
-  if (steps.rows.back().size() != steps.tools())
-    fail_input(line(r, steps.rows.back().front()), "a tool is missing in the last step of a press",
-               "give every step the same tools");
-  return steps;
-}
-
-struct Contact {
-  Vec3 point, normal;
-  std::vector<int> nodes;  // under the flat tool
-};
-
-// Where a tool meets the body's own mesh: the boundary nodes within its radius about the nearest
-// boundary node, on faces that look the same way.
-Contact own_contact(const TetMesh& mesh, const Vec3& at, double radius) {
-  Contact c{at, Vec3::Zero(), {}};
-  double nearest = 1e300;
-  for (const Triangle& f : mesh.faces)
-    for (const int n : f) nearest = std::min(nearest, (mesh.nodes[n] - at).norm());
-  const auto area = [&](const Triangle& f) -> Vec3 {
-    return (mesh.nodes[f[1]] - mesh.nodes[f[0]]).cross(mesh.nodes[f[2]] - mesh.nodes[f[0]]);
-  };
-  for (const Triangle& f : mesh.faces)
-    for (const int n : f)
-      if ((mesh.nodes[n] - at).norm() <= nearest + 1e-9 && !mesh.fixed[n]) c.normal += area(f);
-  if (c.normal.norm() == 0) return c;
-  c.normal.normalize();
-  std::vector<char> up(mesh.nodes.size(), 0);
-  for (const Triangle& f : mesh.faces)
-    if (area(f).dot(c.normal) > 0.5 * area(f).norm())
-      for (const int n : f) up[n] = 1;
-  if (mesh.order == 2)
-    for (const auto& t : mesh.tets)
-      for (int e = 0; e < 6; ++e) up[t[4 + e]] |= up[t[kTetEdges[e][0]]] && up[t[kTetEdges[e][1]]];
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    if (up[n] && !mesh.fixed[n] && (mesh.nodes[n] - at).norm() <= radius * (1 + 1e-6))
-      c.nodes.push_back(static_cast<int>(n));
-  return c;
-}
 
 // One press: its mesh and its body.
 struct Session {
   ContactMesh own;  // unless the body's mesh serves
   const TetMesh* mesh = nullptr;
-  std::vector<Contact> contacts;
+  std::vector<FullContact> contacts;
   std::unique_ptr<ToolBody> body;
   double last_time = 0;
 };
@@ -148,7 +77,7 @@ class Simulation {
     std::vector<Vec3> before;
     int number = 0;
     for (const Press& press : recording_.presses()) {
-      const Steps steps = steps_of(recording_, press);
+      const ToolSteps steps = tool_steps(recording_, press);
       std::vector<Vec3> points;
       for (const std::size_t row : steps.rows.front()) points.push_back(recording_.position[row]);
       const bool continues = goes_on && session_ && points == before && !recording_.t.empty() &&
@@ -167,7 +96,7 @@ class Simulation {
                  "steps from outside are of the body itself, without " +
                      around_.front().effect->card().name,
                  "take it out of the model");
-    Steps steps;
+    ToolSteps steps;
     steps.rows = {{0}};
     prepare(steps);
   }
@@ -182,7 +111,7 @@ class Simulation {
   }
 
  private:
-  void prepare(const Steps& steps) {
+  void prepare(const ToolSteps& steps) {
     session_ = std::make_unique<Session>();
     Session& s = *session_;
     const std::vector<std::size_t>& rows = steps.rows.front();
@@ -195,14 +124,14 @@ class Simulation {
     } else {
       s.mesh = &body_;
       for (const std::size_t row : rows) {
-        s.contacts.push_back(own_contact(body_, recording_.position[row], radius_));
+        s.contacts.push_back(full_contact(body_, recording_.position[row], radius_));
         if (s.contacts.back().normal.norm() > 0 && !s.contacts.back().nodes.empty()) continue;
-        fail_input(line(recording_, row), "no free node of the body lies under the tool",
+        fail_input(recording_line(recording_, row), "no free node of the body lies under the tool",
                    "mesh it with hs-tetmesh --contacts, or check the contact point");
       }
     }
     std::vector<BodyTool> tools;
-    for (const Contact& c : s.contacts) {
+    for (const FullContact& c : s.contacts) {
       const bool bonded = spec_.curvature == 0 && !std::isfinite(spec_.friction);
       BodyTool tool;
       if (bonded)
@@ -272,7 +201,7 @@ class Simulation {
   }
 
   // The press of one tool as effects see it.
-  PressView view_of(const Steps& steps, std::size_t tool, int number) const {
+  PressView view_of(const ToolSteps& steps, std::size_t tool, int number) const {
     PressView view;
     const Recording& r = recording_;
     for (const std::vector<std::size_t>& rows : steps.rows) {
@@ -292,7 +221,7 @@ class Simulation {
     return view;
   }
 
-  void solve(const Steps& steps, bool continues, int number) {
+  void solve(const ToolSteps& steps, bool continues, int number) {
     Session& s = *session_;
     const std::size_t tools = steps.tools();
     std::vector<PressView> views;
@@ -321,7 +250,7 @@ class Simulation {
       result_.newton_steps += report.newton_steps;
       if (!report.ok()) {
         const std::size_t split = report.message.find("; ");
-        fail_numerics(line(recording_, row), report.message.substr(0, split),
+        fail_numerics(recording_line(recording_, row), report.message.substr(0, split),
                       report.message.substr(split + 2));
       }
       s.last_time = time;
