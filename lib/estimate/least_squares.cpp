@@ -69,11 +69,13 @@ LeastSquaresResult minimise(const std::vector<Unknown>& start, const ResidualFun
       const bool low = y <= coordinates.low(i) + 1e-12 && gradient[i] > 0;
       const bool high = y >= coordinates.high(i) - 1e-12 && gradient[i] < 0;
       result.at_bound[i] = low || high;
-      if (!result.at_bound[i]) open.push_back(static_cast<int>(i));
+      // What changes nothing here (friction where nothing slips) has no direction to be moved in.
+      const bool idle = J.col(i).norm() <= 1e-12 * r.norm();
+      if (!result.at_bound[i] && !idle) open.push_back(static_cast<int>(i));
     }
     if (open.empty()) {
       result.converged = true;
-      result.message = "every free parameter is at a bound";
+      result.message = "every free parameter is at a bound or changes nothing";
       break;
     }
     const Eigen::Index k = static_cast<Eigen::Index>(open.size());

@@ -75,6 +75,28 @@ TEST(LeastSquares, NamesWhatTheDataDoNotSee) {
   EXPECT_TRUE(result.undetermined[0] && result.undetermined[1]);
 }
 
+TEST(LeastSquares, LeavesWhatChangesNothing) {
+  // The second unknown acts from 2 on only, as friction does from where a tip slips.
+  const auto residuals = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    r = Eigen::VectorXd::LinSpaced(10, 1, 2) * x[0] - Eigen::VectorXd::Constant(10, 3);
+    if (J == nullptr) return;
+    *J = Eigen::MatrixXd::Zero(10, 2);
+    J->col(0) = Eigen::VectorXd::LinSpaced(10, 1, 2);
+  };
+  const auto both = minimise({{0, -10, 10, 1, false}, {3, 2, 1000, 1, true}}, residuals);
+  EXPECT_TRUE(both.converged);
+  EXPECT_NEAR(both.x[0], 3 * 1.5 / (7.0 / 3 + 1.0 / 54), 1e-6);
+  EXPECT_EQ(both.x[1], 3);
+  EXPECT_TRUE(!both.undetermined[0] && both.undetermined[1]);
+  const auto alone = minimise({{3, 2, 1000, 1, true}},
+                              [](const Eigen::VectorXd&, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+                                r = Eigen::VectorXd::Ones(10);
+                                if (J != nullptr) *J = Eigen::MatrixXd::Zero(10, 1);
+                              });
+  EXPECT_TRUE(alone.converged && alone.undetermined[0]);
+  EXPECT_EQ(alone.x[0], 3);
+}
+
 TEST(LeastSquares, RosenbrockFromFarAway) {
   const auto residuals = [](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     r.resize(2);
