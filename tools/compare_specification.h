@@ -38,7 +38,14 @@ inline ToolSpec compare_specification() {
       "that, "
       "without a jump in the force. A shift is named from three presses and refined with each "
       "further one, up to fifteen; a changed material is given one factor at once, and its "
-      "relaxation is identified anew from whole presses, up to six, where they tell it."};
+      "relaxation is identified anew from whole presses, up to six, where they tell it. What the "
+      "model is usually off decides what is noticed: the change of stiffness that goes unnoticed "
+      "is "
+      "told, and a model that fits better sees more. Along a face a shift rests on how the model's "
+      "stiffness goes with the place; there its standard error may be too small.",
+      "Rows of a stream have a column contact, 0 where the tool is off the body; without it every "
+      "row is in contact, and a displacement out of the body pulls. SIGINT or SIGTERM ends the "
+      "stream; what was answered until then, or before a bad row, is written."};
   spec.options = {
       {.flag = "--simulated",
        .kind = OptionKind::kFile,

@@ -13,6 +13,7 @@
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
 #include "realtime/real_time.h"
+#include "stream_options.h"
 
 namespace hapsim {
 namespace {
@@ -39,7 +40,11 @@ ToolSpec specification() {
       "those differences squared over their variances: 1 when the filter knows its own error, with "
       "the band that it should lie in.",
       "With --exact the error and the largest step per millisecond are told, beside those of the "
-      "fast source alone, of the last slow force held, and of the last two drawn on."};
+      "fast source alone, of the last slow force held, and of the last two drawn on. It is of "
+      "whole recordings, as --slow and --learn "
+      "are. With --live SIGINT or SIGTERM ends the motion; what was answered until then, or before "
+      "a "
+      "bad row, is written."};
   spec.options = {
       {
           .flag = "--slow",
@@ -204,6 +209,7 @@ int run_live_fusion(const Arguments& arguments) {
   if (!(radius > 0))
     fail_input(input.name(), "the motion does not say its tool's radius",
                "give --tool-radius M [m]");
+  keep_within(motion, body);
   AcfmLoop fast(acfm), coarse(acfm);
   FusedLoop loop(
       fast,
@@ -220,14 +226,17 @@ int run_live_fusion(const Arguments& arguments) {
   output.stream().flush();
   LiveReport report;
   say(arguments, "hs-fuse", enter_real_time());  // this thread alone; the solver has begun before
-  run_live(motion, output.stream(), loop, live, report);
-  leave_real_time();
-  loop.stop();
-  output.commit();
-  say(arguments, "hs-fuse",
-      report.latency.summary() + fmt::format("; {} later than a period", report.misses));
-  say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
-  tell(arguments, loop.report());
+  answer_stream(
+      arguments, "hs-fuse", input, [&] { run_live(motion, output.stream(), loop, live, report); },
+      [&] {
+        leave_real_time();
+        loop.stop();
+        output.commit();
+        say(arguments, "hs-fuse",
+            report.latency.summary() + fmt::format("; {} later than a period", report.misses));
+        say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
+        tell(arguments, loop.report());
+      });
   if (!loop.failure().empty())
     fail_numerics("", "the finite elements stopped: " + loop.failure(),
                   "the rest is the analytical model's alone");

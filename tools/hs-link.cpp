@@ -24,8 +24,11 @@ namespace hapsim {
 namespace {
 
 std::atomic<bool> stopped{false};
-void on_signal(int) {
-  stopped = true;
+void stop_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { stopped = true; };
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
 }
 
 Impairment impairment(const Arguments& a) {
@@ -54,10 +57,7 @@ int run_teleoperator(const Arguments& arguments) {
   Teleoperator far(loop, draw_sender());
   ImpairedChannel channel(impairment(arguments),
                           static_cast<std::uint64_t>(arguments.integer("--seed")) + 1000);
-  struct sigaction action {};
-  action.sa_handler = on_signal;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  stop_on_signals();
   Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
   const double noise = arguments.number("--add-noise");
   const double idle = arguments.number("--idle");
@@ -152,11 +152,13 @@ int run_operator(const Arguments& arguments) {
         ++strangers;
     }
   };
+  stop_on_signals();  // what was felt and identified until then is written
   Pacer pacer(rate);
   LatencyHistogram latency;
   long misses = 0;
   std::string text;
   for (const MotionLine& line : lines) {
+    if (stopped) break;
     const std::int64_t due = pacer.wait();
     exchange(monotonic_ns());
     channel.push(monotonic_ns(), write_packet(near.move(line)));

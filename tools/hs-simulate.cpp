@@ -78,6 +78,11 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
 int run_own_mesh(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
+  if (const double nu = material_of(model).nu; mesh.order == 1 && nu > 0.4)
+    say(arguments, "hs-simulate",
+        fmt::format("elements of first order are too stiff at nu {:g} where a body's own mesh is "
+                    "pressed; mesh it with --order 2, or add --full",
+                    nu));
   std::vector<FieldRow> fields;
   if (arguments.given("--vtu"))
     fields = field_rows(dataset, arguments.given("--rows") ? arguments.text("--rows") : "");

@@ -44,6 +44,7 @@ inline int run_follow(const Arguments& arguments) {
   require_contact_points(lines, input.name(), "press,t,x,y,z,ux,uy,uz,fx,fy,fz");
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
+  keep_within(lines, mesh);
   const PreparedBody body(mesh, unit_model(arguments.number("--nu")), options);
   UnitResponse response(body, times);
   OnlineIdentification identification(static_cast<int>(times.size()) + 1,
@@ -72,22 +73,31 @@ inline int run_follow(const Arguments& arguments) {
     csv.row(row);
     output.stream().flush();
   };
-  while (lines.next(line)) {
-    if (rows == 0 || line.press != press) response.begin(line.point);
-    press = line.press;
-    response.press(line.t, line.u, line.in_air);
-    if (!line.in_air) identification.add(response.unit_forces(), lines.force());
-    if (++rows % every == 0) tell();
-  }
-  if (rows == 0) fail_input(input.name(), "there are no rows", "send some");
-  if (rows % every != 0) tell();
-  output.commit();
-  const OnlineEstimate e = identification.estimate();
-  std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", e.moduli[0], e.error[0]);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    words +=
-        fmt::format(", {:.4g} Pa at {:g} s", e.moduli[static_cast<Eigen::Index>(i + 1)], times[i]);
-  say(arguments, "hs-identify", fmt::format("{} rows: {}; error {:.3g} N", rows, words, e.rmse));
+  answer_stream(
+      arguments, "hs-identify", input,
+      [&] {
+        while (lines.next(line)) {
+          if (rows == 0 || line.press != press) response.begin(line.point);
+          press = line.press;
+          response.press(line.t, line.u, line.in_air);
+          if (!line.in_air) identification.add(response.unit_forces(), lines.force());
+          if (++rows % every == 0) tell();
+        }
+        if (rows == 0 && !input.ended_by_signal())
+          fail_input(input.name(), "there are no rows", "send some");
+      },
+      [&] {
+        if (rows == 0) return;
+        if (rows % every != 0) tell();
+        output.commit();
+        const OnlineEstimate e = identification.estimate();
+        std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", e.moduli[0], e.error[0]);
+        for (std::size_t i = 0; i < times.size(); ++i)
+          words += fmt::format(", {:.4g} Pa at {:g} s", e.moduli[static_cast<Eigen::Index>(i + 1)],
+                               times[i]);
+        say(arguments, "hs-identify",
+            fmt::format("{} rows: {}; error {:.3g} N", rows, words, e.rmse));
+      });
   return 0;
 }
 

@@ -28,7 +28,8 @@ inline ToolSpec link_specification() {
       "back is served again.",
       "Every line of the operator goes out at once: on standard output nothing but the last one "
       "can be "
-      "lost, however it ends."};
+      "lost, however it ends. SIGINT or SIGTERM ends either side in its order: what was felt and "
+      "identified is written."};
   spec.options = {
       {.flag = "--listen",
        .kind = OptionKind::kText,

@@ -75,21 +75,17 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
   if (!in.binary) CsvWriter(output.stream(), in.metadata, kForceColumns);
   output.stream().flush();
   LiveReport report;
-  const auto tell = [&] {
-    std::string text = report.latency.summary();
-    if (live.rate > 0)
-      text += fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
-    say(arguments, "hs-simulate", text);
-  };
-  try {
-    run_live(*in.source, output.stream(), loop, live, report);
-  } catch (const Error&) {
-    output.commit();  // the forces before a bad line stay
-    tell();
-    throw;
-  }
-  output.commit();
-  tell();
+  answer_stream(
+      arguments, "hs-simulate", in.input,
+      [&] { run_live(*in.source, output.stream(), loop, live, report); },
+      [&] {
+        output.commit();
+        std::string text = report.latency.summary();
+        if (live.rate > 0)
+          text +=
+              fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
+        say(arguments, "hs-simulate", text);
+      });
   return 0;
 }
 
@@ -108,6 +104,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
     };
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
+  keep_within(*in.source, mesh);
   say(arguments, "hs-simulate",
       fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
                   body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
@@ -126,7 +123,11 @@ inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
     fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
   LiveInput in(arguments);
   std::optional<SignedDistance> surface;
-  if (arguments.given("--body")) surface.emplace(boundary_surface(load_body(arguments)), "body");
+  if (arguments.given("--body")) {
+    const TetMesh mesh = load_body(arguments);
+    surface.emplace(boundary_surface(mesh), "body");
+    keep_within(*in.source, mesh);
+  }
   if (!surface && !in.source->has_contact_point())
     fail_input(in.input.name(),
                "its columns are those of a moving tip, whose contacts only a body shows",

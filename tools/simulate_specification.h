@@ -24,7 +24,10 @@ inline ToolSpec simulate_specification() {
       "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
       "which contacts are found. At the positions of --contacts the forces are those of the batch "
       "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
-      "live.",
+      "live. SIGINT or SIGTERM ends the motion; what was answered until then, or before a bad row, "
+      "is written.",
+      "A column contact is 0 where the tool is off the body, and the force zero; without it every "
+      "row is in contact, and a displacement out of the body pulls.",
       "Rows of the viscoelastic effect with a region above 0 give each region Maxwell elements of "
       "its own (none where it has no rows), in every mode; without such rows all regions have "
       "those "
@@ -41,7 +44,9 @@ inline ToolSpec simulate_specification() {
       "interpolated by inverse distances. It is answered by the same flags, in batch and live.",
       "With --own-mesh nothing is meshed: the body's own tetrahedra, of either order, are pressed "
       "at the nodes under the tool, by a sparse factorisation or by conjugate gradients, whichever "
-      "is faster for the size (it says which). The force is as good as that mesh is fine there.",
+      "is faster for the size (it says which). The force is as good as that mesh is fine there; "
+      "elements "
+      "of first order are too stiff where Poisson's ratio is above 0.4.",
       "With --full finite elements are solved at every step, tool and body as they are: a body of "
       "hyperelastic (finite) at finite strain, a tip of the effect tip as a ball whose contact "
       "grows, friction on the contact itself, relaxation in every element; each press on a mesh "

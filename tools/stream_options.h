@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "effects/catalogue.h"
+#include "geometry/tetmesh.h"
 #include "model/model.h"
 #include "realtime/motion_lines.h"
 #include "realtime/online_identification.h"
@@ -55,6 +56,29 @@ inline double stream_radius(const Arguments& arguments, const Metadata& metadata
   if (!(radius > 0))
     fail_input(name, "the motion does not say its tool's radius", "give --tool-radius M [m]");
   return radius;
+}
+
+inline void keep_within(MotionSource& motion, const TetMesh& body) {
+  Vec3 low = body.nodes.front(), high = low;
+  for (const Vec3& node : body.nodes) low = low.cwiseMin(node), high = high.cwiseMax(node);
+  motion.within(low, high);
+}
+
+// Answers rows until they end. What was answered stays, before a bad row and after a signal too:
+// `finish` writes it.
+template <class Answer, class Finish>
+void answer_stream(const Arguments& arguments, const std::string& tool, Input& input,
+                   const Answer& answer, const Finish& finish) {
+  input.end_on_signals();
+  try {
+    answer();
+  } catch (const Error&) {
+    finish();
+    throw;
+  }
+  finish();
+  if (input.ended_by_signal())
+    say(arguments, tool, "ended by a signal; what was answered until then is written");
 }
 
 inline void require_contact_points(const MotionLines& lines, const std::string& name,

@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "io/input_signals.h"
 #include "io/stream.h"
 #include "io/system_error.h"
 
@@ -77,8 +79,10 @@ struct Input::Impl {
     stream.exceptions(std::ios::badbit);
   }
   std::string name;
+  bool ended_by_signal() const { return signals && InputSignals::came(); }
   ReadBuffer buffer;
   std::istream stream;
+  std::optional<InputSignals> signals;
 };
 
 Input::Input(const std::string& path_or_dash)
@@ -100,8 +104,16 @@ const std::string& Input::name() const {
   return impl_->name;
 }
 
+void Input::end_on_signals() {
+  impl_->signals.emplace(impl_->buffer.fd(), impl_->name.c_str());
+}
+bool Input::ended_by_signal() const {
+  return impl_->ended_by_signal();
+}
+
 bool Input::read_line(std::string& line) {
   line.clear();
+  if (ended_by_signal()) return false;
   bool any = false;
   for (std::string_view text; !(text = impl_->buffer.available()).empty();) {
     any = true;
@@ -113,7 +125,7 @@ bool Input::read_line(std::string& line) {
     if (line.size() > kLongestLine)
       fail_input(impl_->name, "a line is longer than 64 MB", "this is not a text file; check it");
   }
-  return any;
+  return any && !ended_by_signal();
 }
 
 std::string Input::read_all() {

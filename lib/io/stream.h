@@ -29,6 +29,11 @@ class Input {
   // Next line without its newline, false at the end. Error(kBadInput) when a line exceeds 64 MB.
   bool read_line(std::string& line);
   std::string read_all();  // the rest; Error(kIo) on a read error
+  // From now on the first SIGINT or SIGTERM is the end of this input, at once; a line that was not
+  // whole by then is left. The next one ends the process as it would have. Ignored signals stay
+  // ignored. For one input at a time.
+  void end_on_signals();
+  bool ended_by_signal() const;
 
  private:
   struct Impl;

@@ -6,12 +6,9 @@
 namespace hapsim {
 namespace {
 
-constexpr double kReference = 0.5;  // of the cumulative sum, in standard deviations
-
 // The limit h of a one-sided cumulative sum of independent unit normal values with reference k, at
 // which false alarms come every `run` values: run = (e^(2kb) - 2kb - 1) / (2 k^2), b = h + 1.166.
-double limit_for(double run) {
-  const double k = kReference;
+double limit_for(double run, double k) {
   double low = 0, high = 100;
   for (int i = 0; i < 100; ++i) {
     const double b = 0.5 * (low + high), x = 2 * k * b;
@@ -26,7 +23,7 @@ ChangeTest::ChangeTest(const ChangeTestOptions& options)
     : options_(options),
       block_length_(
           std::max<std::size_t>(1, static_cast<std::size_t>(options.block * options.rate + 0.5))),
-      limit_(limit_for(3600 / options.block / std::max(options.false_alarms, 1e-9))) {}
+      limit_(limit_for(3600 / options.block / std::max(options.false_alarms, 1e-9), kReference)) {}
 
 double ChangeTest::size(const Vec3& force) const {
   return std::sqrt(noise_ * noise_ + share_ * share_ * force.squaredNorm() / 3);
@@ -94,7 +91,7 @@ void ChangeTest::learn() {
     squares += roots.back() * roots.back();
     count += 1;
   }
-  mean_ = sum / count;
+  mean_ = seen_ = sum / count;
   const double variance = std::max(squares / count - mean_ * mean_, 1e-6) * count / (count - 1);
   double together = 0;
   for (std::size_t i = 1; i < roots.size(); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -36,9 +37,13 @@ class ChangeTest {
   double size(const Vec3& force) const;    // usual size of a residual component there [N]
   double share() const { return share_; }  // of the force in that
   double limit() const { return limit_; }
+  // Times which the usual error must grow for the sum to grow.
+  double least_growth() const { return std::pow((mean_ + kReference * deviation_) / seen_, 1.5); }
   std::size_t since() const { return since_; }  // sample at which the sum was last zero
 
  private:
+  static constexpr double kReference = 0.5;  // of the cumulative sum, in standard deviations
+
   void learn();
 
   ChangeTestOptions options_;
@@ -46,6 +51,7 @@ class ChangeTest {
   double limit_ = 0;
   bool learned_ = false;
   double noise_ = 0, share_ = 0, mean_ = 1, deviation_ = 1;
+  double seen_ = 1;  // mean while learning; mean_ is to the safe side of it
   std::vector<std::array<double, 2>> usual_;  // squared force and squared residual, while learning
   std::size_t count_ = 0, in_contact_ = 0, since_ = 0;
   double block_squares_ = 0, sum_ = 0;

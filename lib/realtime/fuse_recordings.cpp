@@ -19,6 +19,31 @@ struct SlowRow {
   Vec3 force = Vec3::Zero();
 };
 
+// Slow forces of another motion, or of times counted otherwise, are off by its size; those of a
+// sampling or a clock of their own by far less.
+void require_same_motion(const Recording& fast, const Recording& slow) {
+  double off = 0, size = 0;
+  std::map<int, Press> presses;
+  for (const Press& p : fast.presses()) presses[p.id] = p;
+  for (std::size_t i = 0; i < slow.rows(); ++i) {
+    const std::vector<int>& rows = presses[slow.press[i]].rows;
+    const auto after = std::lower_bound(
+        rows.begin(), rows.end(), slow.t[i],
+        [&](int row, double t) { return fast.t[static_cast<std::size_t>(row)] < t; });
+    if (after == rows.begin() || after == rows.end()) continue;
+    const auto b = static_cast<std::size_t>(*after), a = static_cast<std::size_t>(*(after - 1));
+    const double step = fast.t[b] - fast.t[a];
+    const double share = step > 0 ? (slow.t[i] - fast.t[a]) / step : 1;
+    off += ((1 - share) * fast.u[a] + share * fast.u[b] - slow.u[i]).squaredNorm();
+    size += slow.u[i].squaredNorm();
+  }
+  if (off > 0.25 * size)
+    fail_input(slow.name,
+               fmt::format("its displacements are {:.0f} % off those of {} at the same times",
+                           100 * std::sqrt(off / size), fast.name),
+               "give the slow forces of the same motion, their t counted alike");
+}
+
 // By press, in the order of arrival.
 std::map<int, std::vector<SlowRow>> slow_rows(const Recording& fast, const SlowSource& slow) {
   const Recording& r = *slow.recording;
@@ -44,6 +69,7 @@ std::map<int, std::vector<SlowRow>> slow_rows(const Recording& fast, const SlowS
     }
     found->second.push_back(row);
   }
+  require_same_motion(fast, r);
   for (auto& [press, list] : rows)
     std::stable_sort(list.begin(), list.end(),
                      [](const SlowRow& a, const SlowRow& b) { return a.arrives < b.arrives; });

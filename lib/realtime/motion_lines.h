@@ -31,7 +31,6 @@ class MotionLines : public MotionSource {
   std::array<double, kColumns> value_{};
   std::vector<std::string_view> fields_;
   bool known_ = false;
-  MotionCheck check_;
 };
 
 // One line press,t,x,y,z,ux,uy,uz,fx,fy,fz,contact of a force, with its newline, in place: numbers

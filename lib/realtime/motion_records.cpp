@@ -37,10 +37,11 @@ void put(std::string& to, T value) {
 
 bool MotionRecords::next(MotionLine& line) {
   std::array<char, kPressBytes> bytes;
+  if (input_.ended_by_signal()) return false;
   const std::size_t size = kind_ == Kind::kTip ? kTipBytes : kPressBytes;
   input_.stream().read(bytes.data(), static_cast<std::streamsize>(size));
   const auto got = static_cast<std::size_t>(input_.stream().gcount());
-  if (got == 0) return false;
+  if (got == 0 || (got < size && input_.ended_by_signal())) return false;
   ++record_;
   const auto where = [this] { return input_.name() + ": record " + std::to_string(record_); };
   if (got < size)

@@ -24,7 +24,6 @@ class MotionRecords : public MotionSource {
  private:
   Input& input_;
   Kind kind_;
-  MotionCheck check_;
   long record_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "realtime/motion_source.h"
 
+#include <fmt/format.h>
+
 #include "base/error.h"
 #include "io/number.h"
 
@@ -16,6 +18,18 @@ void MotionCheck::check(const MotionLine& line, const std::function<std::string(
       !(line.u.cwiseAbs().maxCoeff() <= kLargestDisplacement))
     fail_input(where(), "a position beyond 10 m or a displacement beyond 1 m",
                "are these millimetres? divide lengths by 1000");
+  if (bounded_ && line.has_contact_point) {
+    const double size = (high_ - low_).norm();
+    if (!line.in_air && !(line.u.norm() <= size))
+      fail_input(
+          where(),
+          fmt::format("a displacement of {:.3g} m on a body of {:.3g} m", line.u.norm(), size),
+          "correct or remove the row; all lengths are in metres");
+    const Vec3 off = line.point - line.point.cwiseMax(low_).cwiseMin(high_);
+    if (!(off.norm() <= size))
+      fail_input(where(), "the contact point lies far off the body",
+                 "check the frame and the unit [m]");
+  }
   const bool goes_on = !first_ && (!line.has_contact_point || line.press == last_.press);
   if (goes_on && line.t < last_.t)
     fail_input(where(),
@@ -27,6 +41,12 @@ void MotionCheck::check(const MotionLine& line, const std::function<std::string(
                "give each contact point its own press number");
   last_ = line;
   first_ = false;
+}
+
+void MotionCheck::within(const Vec3& low, const Vec3& high) {
+  bounded_ = true;
+  low_ = low;
+  high_ = high;
 }
 
 }  // namespace hapsim

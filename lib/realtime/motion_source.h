@@ -17,6 +17,20 @@ struct MotionLine {
   bool in_air = false;
 };
 
+// What next() promises of a motion, one sample after the other.
+class MotionCheck {
+ public:
+  // `where` it stands is asked for when it is wrong: names take memory.
+  void check(const MotionLine& line, const std::function<std::string()>& where);
+  // Of presses on a body in this box: contact points and displacements of its size.
+  void within(const Vec3& low, const Vec3& high);
+
+ private:
+  bool first_ = true, bounded_ = false;
+  Vec3 low_, high_;
+  MotionLine last_;
+};
+
 class MotionSource {
  public:
   virtual ~MotionSource() = default;
@@ -28,17 +42,12 @@ class MotionSource {
   // The bytes that answer it, in place of `buffer`, which keeps its memory from one to the next.
   virtual void write_force(std::string& buffer, const MotionLine& line,
                            const Vec3& force) const = 0;
-};
+  // From now on next() refuses contact points and displacements that no press of a body in this box
+  // [m] has.
+  void within(const Vec3& low, const Vec3& high) { check_.within(low, high); }
 
-// What next() promises of a motion, one sample after the other.
-class MotionCheck {
- public:
-  // `where` it stands is asked for when it is wrong: names take memory.
-  void check(const MotionLine& line, const std::function<std::string()>& where);
-
- private:
-  bool first_ = true;
-  MotionLine last_;
+ protected:
+  MotionCheck check_;
 };
 
 }  // namespace hapsim

@@ -90,6 +90,16 @@ double ModelWatch::usual_error() const {
   return count_ > from ? std::sqrt(squares / static_cast<double>(count_ - from)) : test_.size({});
 }
 
+// The error of a stiffness that has changed by a share x, beside that usual share s of the force:
+// sqrt(s^2 + x^2).
+double ModelWatch::least_change() const {
+  double squares = 0;
+  for (std::size_t i = oldest(); i < count_; ++i) squares += kept(i).model.squaredNorm() / 3;
+  const double force = std::sqrt(squares / static_cast<double>(std::max(count_ - oldest(), 1UL)));
+  const double growth = test_.least_growth();
+  return force > 0 ? usual_error() / force * std::sqrt(growth * growth - 1) : 0;
+}
+
 void ModelWatch::append(std::size_t begin, std::size_t from,
                         std::vector<WatchedSample>& window) const {
   const auto every =
@@ -103,6 +113,7 @@ void ModelWatch::append(std::size_t begin, std::size_t from,
 
 void ModelWatch::name() {
   std::size_t from = std::max(change_, oldest());
+  const double begun = kept(from).line.t;
   // What changed within a press (a tool stuck to a body that moves) is told by the next one, when
   // there is one soon.
   std::size_t next = from;
@@ -132,7 +143,7 @@ void ModelWatch::name() {
   }
   change_ = from;
   WatchEvent event;
-  event.begun = kept(from).line.t;
+  event.begun = begun;
   event.alarm = alarm_;
   event.named = kept(count_ - 1).line.t;
   event.change = best.change;
@@ -222,7 +233,10 @@ void ModelWatch::settle() {
   events_.back().error_with =
       error_of(since_, corrected_forces(body_, offsets_, since_, correction_));
   events_.back().settled = true;
-  if (events_.back().updated < 0) events_.back().updated = kept(count_ - 1).line.t;
+  if (!events_.back().explains())
+    events_.back().updated = -1;
+  else if (events_.back().updated < 0)
+    events_.back().updated = kept(count_ - 1).line.t;
   since_.clear();
   test_.restart();
   if (events_.back().change == Change::kMoved) test_.learn_anew();  // it is pressed elsewhere

@@ -19,13 +19,17 @@ struct WatchOptions {
 struct WatchEvent {
   double begun = 0, alarm = 0, named = 0;  // times [s] of the stream: change, alarm, verdict
   Change change = Change::kNone;
-  Correction correction;            // in all, from now on
-  Vec3 shift_error = Vec3::Zero();  // of a body that has moved: standard error [m]
-  double error_before = 0;          // usual error [N]
-  double error_with = 0;            // of the samples since the change, corrected [N]
-  int presses = 0;                  // that the correction rests on; grows while it is refined
-  bool settled = true;              // false: still refined
-  double updated = -1;  // when the correction was known well enough [s]; negative: not yet
+  Correction correction;  // in all, from now on
+  // Of a body that has moved: standard error [m], where the model is as wrong at one press as at
+  // another by chance. Along a face it rests on how the model's stiffness goes with the place.
+  Vec3 shift_error = Vec3::Zero();
+  double error_before = 0;  // usual error [N]
+  double error_with = 0;    // of the samples since the change, corrected [N]
+  int presses = 0;          // that the correction rests on; grows while it is refined
+  bool settled = true;      // false: still refined
+  double updated = -1;      // when the correction was known well enough [s]; negative: not yet
+  // Whether the correction brings the error back to about the usual.
+  bool explains() const { return error_with <= 2 * error_before; }
 };
 
 // Forces of a model beside measured ones, sample by sample (thesis 5.6, Algorithm 5.9): a
@@ -50,6 +54,8 @@ class ModelWatch {
   bool learned() const { return learned_; }
   double usual_error() const;  // root mean square of a component of late [N]; after learning
   double limit() const { return test_.limit(); }
+  // By which share of it the stiffness must change before an alarm can follow; after learning.
+  double least_change() const;
 
  private:
   const WatchedSample& kept(std::size_t i) const { return kept_[i % kept_.size()]; }

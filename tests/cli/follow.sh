@@ -36,6 +36,32 @@ for kind in soft bias; do # the last 4 s: noise alone is left
     complain "the model did not go on with it: $kind"
 done
 
+# Ended by a signal while it waits, or by a bad row: what was answered and noticed stays.
+mkfifo pipe
+for signal in INT TERM; do
+  rm -f rows.csv soft.events
+  env --default-signal=INT "$bin/hs-compare" --follow pipe --body body.ply --model model.csv --rate 200 \
+    --learning 6 --events soft.events -o rows.csv 2>err &
+  watching=$!
+  { stream soft; printf '25,30'; exec sleep 60; } >pipe &
+  writing=$!
+  for _ in {1..300}; do grep -q 'stiffness by a factor' err && break; sleep 0.1; done
+  sleep 0.3
+  kill -$signal $watching
+  wait $watching || complain "exit $? after SIG$signal"
+  kill $writing 2>/dev/null
+  wait $writing 2>/dev/null
+  grep -q 'ended by a signal' err && [[ $(grep -c '^[0-9]' rows.csv) == 4800 && $(wc -l <soft.events) == 2 ]] ||
+    complain "SIG$signal loses rows or events"
+done
+rm -f rows.csv soft.events
+{ stream soft; echo 'x,30,0,0,0,0,0,0,0,0,0,1'; } | "$bin/hs-compare" --follow - --body body.ply --model model.csv \
+  --rate 200 --learning 6 --events soft.events -o rows.csv -q 2>err
+(($? == 3)) && [[ $(grep -c '^[0-9]' rows.csv) == 4800 && $(wc -l <soft.events) == 2 ]] || complain 'a bad row loses those before it'
+# Nothing was watched, and that is told.
+stream none | "$bin/hs-compare" --follow - --body body.ply --model model.csv --rate 200 --learning 60 >rows.csv 2>err
+grep -q 'nothing was watched: the usual error is learned from 60 s in contact, and there were 19.2 s' err || complain 'no word of learning'
+
 # The modulus from a stream, line by line.
 stream none | "$bin/hs-identify" --follow - --body body.ply --every 400 >estimates.csv 2>err || complain 'no estimates'
 [[ $(grep -c '^[0-9]' estimates.csv) == 12 ]] || complain 'not a line every 400 rows'
@@ -55,6 +81,9 @@ refuse() { # CODE TEXT ARGUMENTS...
 refuse 2 '--follow needs --model' --follow clean.csv --body body.ply
 refuse 2 'is of a stream' clean.csv --simulated clean.csv --events e.csv
 refuse 2 '--simulated is required' clean.csv
+refuse 3 'the rows come at some 200 Hz by their t, not 1000 Hz' --follow clean.csv --body body.ply --model model.csv
+awk -F, -v OFS=, '$2 == 6.5 { $8 = -0.3 } 1' clean.csv >deep.csv
+refuse 3 'a displacement of 0.3 m on a body of 0.0877 m' --follow deep.csv --body body.ply --model model.csv --rate 200 -q
 refuse 3 "'fx'" --follow motion.csv --body body.ply --model model.csv
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

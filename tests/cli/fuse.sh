@@ -67,6 +67,8 @@ head -5 slow.csv >few.csv
 refuse 3 '4 slow forces are too few to learn from' fast.csv --slow few.csv --learn a.csv
 awk -F, 'NR == 1 { print $0 ",arrives"; next } { print $0 "," $2 - 0.01 }' slow.csv >early.csv
 refuse 3 'early.csv:2: arrives is' fast.csv --slow early.csv
+awk -F, -v OFS=, 'NR > 1 { $8 = -0.005 * sin(9 * $2) ^ 2 } 1' slow.csv >other.csv
+refuse 3 'off those of fast.csv at the same times' fast.csv --slow other.csv --parameters filter.csv
 sed 's/^noise,x,[^,]*/noise,x,-1/' filter.csv >bad.csv
 refuse 3 'noise = -1 is out of its bounds' fast.csv --slow slow.csv --parameters bad.csv
 
