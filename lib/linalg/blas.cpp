@@ -38,7 +38,8 @@ void prepare_blas_for_many_threads() {
     if (auto set = find_symbol<void (*)(int)>("openblas_set_num_threads")) set(1);
   });
   // OpenMP keeps this setting a thread, so it is set in every thread that comes here.
-  if (auto levels = find_symbol<void (*)(int)>("omp_set_max_active_levels")) levels(0);
+  static const auto levels = find_symbol<void (*)(int)>("omp_set_max_active_levels");
+  if (levels != nullptr) levels(0);
 }
 
 BlasThreads::BlasThreads(int threads) : changed_(threads > 1) {

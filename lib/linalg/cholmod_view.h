@@ -5,6 +5,7 @@
 
 #include <new>
 
+#include "linalg/blas.h"
 #include "linalg/sparse_cholesky.h"
 
 namespace hapsim {
@@ -29,6 +30,7 @@ inline cholmod_sparse cholmod_view(const SymmetricSparse& matrix) {
 // Solution of A X = B by a factor of A.
 inline Eigen::MatrixXd cholmod_solution(cholmod_factor* factor, const Eigen::MatrixXd& b,
                                         cholmod_common* common) {
+  prepare_blas_for_many_threads();
   cholmod_dense view{};
   view.nrow = view.d = static_cast<std::size_t>(b.rows());
   view.ncol = static_cast<std::size_t>(b.cols());

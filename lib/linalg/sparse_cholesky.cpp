@@ -91,6 +91,7 @@ SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
 SparseCholesky::~SparseCholesky() = default;
 
 bool SparseCholesky::factorise(const SymmetricSparse& matrix) {
+  prepare_blas_for_many_threads();  // in this thread, which may not be that of the analysis
   cholmod_sparse a = cholmod_view(matrix);
   ++solver_counts.factorisations;
   cholmod_factorize(&a, impl_->factor, &impl_->common);
