@@ -130,7 +130,9 @@ inline ToolSpec compare_specification() {
         {"error", "left by the correction [N]"},
         {"shift_error_x ...", "standard error of the shift [m]: large where no press tells"},
         {"presses", "that the correction rests on; a shift is refined with each"},
-        {"updated", "when it was known to 0.4 of the usual error [s]"},
+        {"updated",
+         "when it was known to 0.4 of the usual error [s]; empty before, and where the error has "
+         "stayed above twice the usual: the correction does not explain it"},
         {"relaxation", "factor of the moduli that relax, beside stiffness"},
         {"slowness", "factor of their times"}}}};
   spec.examples = {

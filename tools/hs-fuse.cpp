@@ -41,9 +41,8 @@ ToolSpec specification() {
       "the band that it should lie in.",
       "With --exact the error and the largest step per millisecond are told, beside those of the "
       "fast source alone, of the last slow force held, and of the last two drawn on. It is of "
-      "whole recordings, as --slow and --learn "
-      "are. With --live SIGINT or SIGTERM ends the motion; what was answered until then, or before "
-      "a "
+      "whole recordings, as --slow and --learn are.",
+      "With --live SIGINT or SIGTERM ends the motion; what was answered until then, or before a "
       "bad row, is written."};
   spec.options = {
       {
@@ -203,12 +202,7 @@ int run_live_fusion(const Arguments& arguments) {
   const SignedDistance surface(boundary_surface(body), "body");
   Input input(arguments.input());
   MotionLines motion(input);
-  const double radius = arguments.given("--tool-radius")
-                            ? arguments.number("--tool-radius")
-                            : motion.metadata().number("tool_radius", input.name()).value_or(0);
-  if (!(radius > 0))
-    fail_input(input.name(), "the motion does not say its tool's radius",
-               "give --tool-radius M [m]");
+  const double radius = stream_radius(arguments, motion.metadata(), input.name());
   keep_within(motion, body);
   AcfmLoop fast(acfm), coarse(acfm);
   FusedLoop loop(

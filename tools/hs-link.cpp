@@ -1,8 +1,6 @@
 // hs-link: an operator and a teleoperator, two processes over UDP.
 #include <fmt/format.h>
-#include <signal.h>
 
-#include <atomic>
 #include <random>
 
 #include "base/error.h"
@@ -10,6 +8,7 @@
 #include "common_options.h"
 #include "effects/catalogue.h"
 #include "io/csv.h"
+#include "io/interrupt.h"
 #include "io/udp.h"
 #include "link_specification.h"
 #include "model/edit.h"
@@ -22,14 +21,6 @@
 
 namespace hapsim {
 namespace {
-
-std::atomic<bool> stopped{false};
-void stop_on_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int) { stopped = true; };
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 Impairment impairment(const Arguments& a) {
   return {a.number("--delay"), a.number("--jitter"), a.number("--loss"), a.number("--duplicate"),
@@ -57,7 +48,7 @@ int run_teleoperator(const Arguments& arguments) {
   Teleoperator far(loop, draw_sender());
   ImpairedChannel channel(impairment(arguments),
                           static_cast<std::uint64_t>(arguments.integer("--seed")) + 1000);
-  stop_on_signals();
+  const Interrupt interrupt;
   Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
   const double noise = arguments.number("--add-noise");
   const double idle = arguments.number("--idle");
@@ -65,7 +56,7 @@ int run_teleoperator(const Arguments& arguments) {
   UdpAddress from, peer;
   Packet answer;
   PacketBytes bytes;
-  for (std::int64_t heard = monotonic_ns(); !stopped;) {
+  for (std::int64_t heard = monotonic_ns(); !interrupt.asked();) {
     std::int64_t now = monotonic_ns();
     if (idle > 0 && now - heard > std::llround(1e9 * idle)) break;
     socket.wait(std::min(channel.next_due(), now + 100'000'000));
@@ -152,13 +143,13 @@ int run_operator(const Arguments& arguments) {
         ++strangers;
     }
   };
-  stop_on_signals();  // what was felt and identified until then is written
+  const Interrupt interrupt;  // what was felt and identified until then is written
   Pacer pacer(rate);
   LatencyHistogram latency;
   long misses = 0;
   std::string text;
   for (const MotionLine& line : lines) {
-    if (stopped) break;
+    if (interrupt.asked()) break;
     const std::int64_t due = pacer.wait();
     exchange(monotonic_ns());
     channel.push(monotonic_ns(), write_packet(near.move(line)));

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "cli/interrupt.h"
 #include "cli/tool.h"
+#include "io/interrupt.h"
 #include "model/fit.h"
 #include "model/search_state.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "io/input_signals.h"
+#include "io/interrupt.h"
 #include "io/stream.h"
 #include "io/system_error.h"
 
@@ -79,10 +79,9 @@ struct Input::Impl {
     stream.exceptions(std::ios::badbit);
   }
   std::string name;
-  bool ended_by_signal() const { return signals && InputSignals::came(); }
   ReadBuffer buffer;
   std::istream stream;
-  std::optional<InputSignals> signals;
+  std::optional<Interrupt> interrupt;
 };
 
 Input::Input(const std::string& path_or_dash)
@@ -105,10 +104,10 @@ const std::string& Input::name() const {
 }
 
 void Input::end_on_signals() {
-  impl_->signals.emplace(impl_->buffer.fd(), impl_->name.c_str());
+  impl_->interrupt.emplace(impl_->buffer.fd(), impl_->name);
 }
 bool Input::ended_by_signal() const {
-  return impl_->ended_by_signal();
+  return impl_->interrupt && impl_->interrupt->asked();
 }
 
 bool Input::read_line(std::string& line) {

@@ -9,31 +9,10 @@
 #include <chrono>
 #include <thread>
 
-#include "linalg/sparse_cholesky.h"
+#include "laplacian.h"
 
 namespace hapsim {
 namespace {
-
-// The Laplacian of a cube of n^3 nodes, its diagonal heavier.
-SymmetricSparse cube(int n) {
-  SymmetricSparse a;
-  a.size = n * n * n;
-  a.column_start.push_back(0);
-  for (int c = 0; c < a.size; ++c) {
-    a.row.push_back(c);
-    a.value.push_back(7);
-    const auto below = [&](bool there, int step) {
-      if (!there) return;
-      a.row.push_back(c + step);
-      a.value.push_back(-1);
-    };
-    below(c % n < n - 1, 1);
-    below(c / n % n < n - 1, n);
-    below(c / (n * n) < n - 1, n * n);
-    a.column_start.push_back(static_cast<int>(a.row.size()));
-  }
-  return a;
-}
 
 std::atomic<int> received{0};
 
@@ -42,7 +21,7 @@ TEST(MetisGuard, SignalsReachTheProgramsHandlerWhileAnotherThreadOrders) {
   action.sa_handler = [](int) { ++received; };
   action.sa_flags = SA_RESTART;
   sigaction(SIGTERM, &action, &before);
-  const SymmetricSparse a = cube(24);
+  const SymmetricSparse a = laplacian(24);
   const double quiet = SparseCholesky(a, 1).factor_nonzeros();
   std::atomic<bool> done{false};
   std::vector<double> nonzeros;

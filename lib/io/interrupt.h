@@ -1,5 +1,8 @@
-// SIGINT and SIGTERM as a wish: a long search ends with the best it has.
+// SIGINT and SIGTERM as a wish: a long search ends with the best it has, a stream with what was
+// answered.
 #pragma once
+
+#include <string>
 
 namespace hapsim {
 
@@ -9,6 +12,9 @@ namespace hapsim {
 class Interrupt {
  public:
   Interrupt();
+  // The first signal also ends the input `name` of this file descriptor: an empty file takes its
+  // place, and a read that waits meets its end. Error(kIo) when there are no descriptors left.
+  Interrupt(int input, const std::string& name);
   ~Interrupt();
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
