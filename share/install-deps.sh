@@ -13,7 +13,7 @@ packages=(
   libeigen3-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
   coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   liborocos-kdl-dev liburdfdom-dev libgdcm-dev libnifti2-dev libteem-dev zlib1g-dev
-  libsqlite3-dev
+  libsqlite3-dev libpugixml-dev
   libgtest-dev libbenchmark-dev mandoc
 )
 dev_packages=(clang-format clang-tidy clang libclang-rt-14-dev ccache chromium debootstrap

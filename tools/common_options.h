@@ -17,7 +17,7 @@ inline std::vector<Option> workspace_flags() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: VTU, "
-               "Gmsh, Abaqus or CalculiX (.inp).",
+               "Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn).",
        .required = true},
       {.flag = "--tool-radius",
        .kind = OptionKind::kNumber,

@@ -28,7 +28,8 @@ ToolSpec specification() {
       "have "
       "is refused by its name.",
       "vtu and gmsh hold the mesh alone, its regions by the model's, and for vtu the moduli. "
-      "hs-tetmesh reads these two and calculix back, and so does every tool that takes --body."};
+      "Every tool that takes --body, and hs-tetmesh, reads any of the five back: nodes, "
+      "tetrahedra, regions and what is fixed."};
   spec.options = {
       {.flag = "--format",
        .kind = OptionKind::kChoice,
@@ -42,7 +43,7 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (VTU, Gmsh, "
-               "CalculiX).",
+               "Abaqus, CalculiX, FEBio, SOFA).",
        .required = true},
       {.flag = "--data",
        .kind = OptionKind::kFile,

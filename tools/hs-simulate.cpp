@@ -89,7 +89,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   const OwnMesh body(mesh, model, dataset.positions, dataset.recording.tool_radius(),
                      solver_kind(arguments));
   if (arguments.given("--vtu") && body.is_regional())
-    fail_input("", "the field of regions that relax each in its own way is not written",
+    fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
   set_normals(dataset, body.normals());
   const Selection all = all_episodes(dataset);

@@ -23,7 +23,8 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = kName;
   spec.summary = "fill a closed surface with tetrahedra";
-  spec.input = "surface: PLY, STL or OFF, closed; or a mesh: PLY, VTU, Gmsh, Abaqus, TetGen";
+  spec.input =
+      "surface: PLY, STL or OFF, closed; or a mesh: PLY, VTU, Gmsh, Abaqus, TetGen, FEBio, SOFA";
   spec.description = {
       "Reads a closed triangle surface, for example from hs-reconstruct, and writes the body: "
       "tetrahedra, boundary triangles and the nodes that are bonded to the support.",
@@ -40,8 +41,9 @@ ToolSpec specification() {
       "edges, doubled vertices, flat triangles, several parts, inverted orientation and "
       "self-intersections are refused with their place, exit code 3.",
       "A mesh of tetrahedra (PLY, VTU, Gmsh 2.2 and 4.1 in ASCII, decks of Abaqus and CalculiX, "
-      "TetGen's .node or .ele with the "
-      "other beside it) is not meshed again but checked, mended and written: nodes of no "
+      "models of FEBio from 2.0, XML scenes of SOFA with the mesh in themselves, TetGen's .node or "
+      ".ele with the other beside it) is not meshed again but checked, mended and written: nodes "
+      "of no "
       "tetrahedron and doubled tetrahedra are dropped, inverted ones turned, and it says so. Its "
       "fixed nodes stay unless --fixed is given; --order 2 adds middles. Flat tetrahedra are "
       "refused with their place. --remesh takes its boundary and meshes that.",

@@ -35,9 +35,9 @@ inline std::vector<Option> recording_flags() {
            .kind = OptionKind::kFile,
            .value = "FILE",
            .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: "
-                   "VTU, Gmsh, Abaqus or CalculiX (.inp). Once: the body of all recordings; or "
-                   "once for each recording, in their order (the main input, then --data): bodies "
-                   "of one material.",
+                   "VTU, Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn). Once: the "
+                   "body of all recordings; or once for each recording, in their order (the main "
+                   "input, then --data): bodies of one material.",
            .required = true,
            .repeatable = true}};
 }

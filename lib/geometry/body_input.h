@@ -15,8 +15,8 @@ struct BodyInput {
   std::optional<Support> base;   // the bottom as "comment base_plane nx ny nz h" of a PLY tells it
 };
 
-// By content: PLY, STL or OFF as surface; PLY with tetrahedra, VTU, Gmsh, Abaqus or TetGen's
-// files as mesh.
+// By content: PLY, STL or OFF as surface; PLY with tetrahedra, VTU, Gmsh, Abaqus, FEBio, SOFA or
+// TetGen's files as mesh.
 // Lengths are multiplied by `factor`. Error(kBadInput): none of these; points, for which it names
 // the commands that make a surface of them.
 BodyInput read_body_input(Input& input, double factor = 1);

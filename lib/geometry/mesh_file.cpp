@@ -216,7 +216,7 @@ bool is_mesh_file(const std::string& bytes) {
     return bytes.substr(0, end).find("element tetrahedron") != bytes.npos;
   }
   return is_vtu(bytes) || starts(bytes, "$MeshFormat") || is_tetgen_file(bytes) ||
-         is_abaqus_deck(bytes);
+         is_abaqus_deck(bytes) || is_febio_model(bytes) || is_sofa_scene(bytes);
 }
 
 MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool mend) {
@@ -231,10 +231,16 @@ MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool men
     raw = parse_tetgen_mesh(bytes, where);
   else if (is_abaqus_deck(bytes))
     raw = parse_abaqus_mesh(bytes, where);
+  else if (is_febio_model(bytes))
+    raw = parse_febio_mesh(bytes, where);
+  else if (is_sofa_scene(bytes))
+    raw = parse_sofa_mesh(bytes, where);
   else {
     refuse_wrapped(where, bytes);
-    fail_input(where, bytes.empty() ? "empty input" : "not a PLY, VTU, Gmsh, TetGen or Abaqus mesh",
-               "write it with hs-tetmesh");
+    fail_input(
+        where,
+        bytes.empty() ? "empty input" : "not a PLY, VTU, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh",
+        "write it with hs-tetmesh");
   }
   return finished(raw, where, mend);
 }

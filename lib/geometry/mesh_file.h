@@ -18,13 +18,13 @@ struct MeshRepairs {
 
 struct MeshFile {
   TetMesh mesh;
-  std::string format;      // "PLY", "VTU", "Gmsh 4.1", "TetGen"
+  std::string format;      // "PLY", "VTU", "Gmsh 4.1", "TetGen", ...
   bool has_fixed = false;  // the file says which nodes are fixed
   MeshRepairs repairs;
 };
 
 // Whether the bytes begin as a mesh of tetrahedra does: PLY with the element tetrahedron, VTU,
-// Gmsh, TetGen's .node or .ele, a deck of Abaqus.
+// Gmsh, TetGen's .node or .ele, a deck of Abaqus, a model of FEBio, a scene of SOFA.
 bool is_mesh_file(const std::string& bytes);
 
 // By content:
@@ -37,6 +37,12 @@ bool is_mesh_file(const std::string& bytes);
 //   TetGen   .node or .ele, the other one is read from beside it; region: the first attribute
 //   Abaqus   and CalculiX: nodes, C3D4 or C3D10, before the first step; region: element sets
 //            REGION_k; fixed: the node set FIXED, and what *BOUNDARY holds in all three directions
+//   FEBio    febio_spec 2.0 to 4.0; tet4 or tet10; region: K of a block of elements named region_K,
+//            otherwise the number of the block; fixed: the node set fixed, and what conditions
+//            outside the steps hold in all three directions
+//   SOFA     XML scenes with the mesh in themselves: the first topology that lists tetrahedra;
+//            region: K of a child node region_K that lists them again; fixed: the indices, or the
+//            BoxROI, of FixedProjectiveConstraint or FixedConstraint beside the topology
 // `mend`: repair what MeshRepairs lists instead of refusing the inverted and leaving the doubled.
 // Error(kBadInput) with file and line (text) or place: truncated, index out of range, flat
 // tetrahedron, faces of more than two tetrahedra, middles that are not on their edges.

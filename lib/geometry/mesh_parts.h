@@ -33,6 +33,10 @@ RawMesh parse_tetgen_mesh(const std::string& bytes, const std::string& where);
 bool is_tetgen_file(const std::string& bytes);
 RawMesh parse_abaqus_mesh(const std::string& bytes, const std::string& where);
 bool is_abaqus_deck(const std::string& bytes);
+RawMesh parse_febio_mesh(const std::string& bytes, const std::string& where);
+bool is_febio_model(const std::string& bytes);
+RawMesh parse_sofa_mesh(const std::string& bytes, const std::string& where);
+bool is_sofa_scene(const std::string& bytes);
 
 // Words of a text file with the line they stand in.
 class TextScanner {

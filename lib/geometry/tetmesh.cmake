@@ -7,12 +7,15 @@ target_sources(hapsim_geometry PRIVATE
   inner_regions.cpp
   insert_points.cpp
   mesh_abaqus.cpp mesh_abaqus_read.cpp
+  mesh_febio.cpp
   mesh_file.cpp
   mesh_gmsh_read.cpp
   mesh_gmsh_write.cpp
   mesh_ply.cpp
+  mesh_sofa.cpp
   mesh_tetgen_files.cpp
   mesh_vtu.cpp
+  mesh_xml.cpp
   quality.cpp
   signed_distance.cpp
   support.cpp

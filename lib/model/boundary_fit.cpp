@@ -212,7 +212,7 @@ BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, Bo
   const double spacing = spacing_of(dataset.positions);
   BoundaryFit result{start, boundaries_of(start.model, mesh, tool_radius), {}, {}, false};
   if (result.lines.empty())
-    fail_input("", "the model has no boundary between regions on this body",
+    fail_input(start.model.name, "the model has no boundary between regions on this body",
                "give a model of hs-cluster --model, or --add regions");
   const std::vector<BoundaryLine> before = result.lines;
   for (int round = 0; round < options.rounds && !result.fitted.stopped; ++round) {

@@ -49,22 +49,24 @@ class Simulation {
       if (i.effect->full(i.values, material_.modulus[0], spec_)) continue;
       const Stage stage = i.effect->card().stage;
       if (stage != Stage::kSensor && stage != Stage::kMotion)
-        fail_input("", "the full simulation has no form of the effect " + i.effect->card().name,
+        fail_input(model.name,
+                   "the full simulation has no form of the effect " + i.effect->card().name,
                    "take it out of the model, or simulate without --full");
       if (options.force_control)
-        fail_input("", "forces are given to the body itself, without " + i.effect->card().name,
+        fail_input(model.name,
+                   "forces are given to the body itself, without " + i.effect->card().name,
                    "take it out of the model, or simulate displacements");
       around_.push_back(std::move(i));
     }
     if (material_.shift != Vec3::Zero() || material_.rotation != Vec3::Zero())
-      fail_input("", "the full simulation does not move the body",
+      fail_input(model.name, "the full simulation does not move the body",
                  "move the contact points instead");
     if (material_.local)
-      fail_input("", "the full simulation has no contacts that feel their own region alone",
+      fail_input(model.name, "the full simulation has no contacts that feel their own region alone",
                  "set local of regions to 0");
     for (const FeatureSpec& f : material_.features)
       if (f.feature.kind == Feature::kTransverse && spec_.finite)
-        fail_input("", "finite strain of a transversely isotropic body is not in the model",
+        fail_input(model.name, "finite strain of a transversely isotropic body is not in the model",
                    "take hyperelastic or anisotropic out");
     base_ = make_contact_base(body);
     surface_ = free_surface(base_);

@@ -29,6 +29,7 @@ struct Parameter {
 struct Model {
   Metadata metadata;
   std::vector<Parameter> parameters;
+  std::string name;  // of the file it was read from, for messages; may be empty
 
   std::vector<std::string> effects() const;  // in order of first appearance
   bool has(const std::string& effect) const;

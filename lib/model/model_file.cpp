@@ -108,6 +108,7 @@ Model read_model(Input& input) {
   };
   const std::vector<double> values = table.numbers("value");
   Model model;
+  model.name = table.name;
   model.metadata = table.metadata;
   std::set<std::string> seen;
   for (std::size_t row = 0; row < table.rows(); ++row) {

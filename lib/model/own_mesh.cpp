@@ -17,7 +17,7 @@ namespace {
 MaterialSpec checked_material(const Model& model) {
   MaterialSpec material = material_of(model);
   if (!material.features.empty() || material.shift.norm() > 0 || material.rotation.norm() > 0)
-    fail_input("", "the model has an effect that the body's own mesh cannot show",
+    fail_input(model.name, "the model has an effect that the body's own mesh cannot show",
                "simulate without --own-mesh: each contact then has a mesh that can");
   return material;
 }
@@ -126,7 +126,7 @@ Eigen::Matrix3d OwnMesh::unit_stress(std::size_t tet, const Eigen::Matrix<double
 
 void OwnMesh::write_field(std::ostream& out, const Episode& episode, std::size_t at) const {
   if (is_regional())
-    fail_input("", "the field of regions that relax each in its own way is not written",
+    fail_input(model_.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
   const std::vector<MaxwellTerm> terms =
       relaxation_of(model_, material_, "the field of the body").common;

@@ -43,7 +43,7 @@ std::vector<RegionRelaxation> regional_relaxation_of(const Model& model,
   const int last = last_region(model);
   if (last == 0) return {};
   if (last >= static_cast<int>(material.modulus.size()))
-    fail_input("model", "region " + std::to_string(last) + " relaxes but has no modulus E",
+    fail_input(model.name, "region " + std::to_string(last) + " relaxes but has no modulus E",
                "give the effect elastic a row E of that region");
   std::vector<RegionRelaxation> regions;
   for (const double modulus : material.modulus) regions.push_back({modulus, {}});
@@ -67,7 +67,8 @@ ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
     if (values_of(model, *effect, -1).empty()) continue;
     std::vector<MaxwellTerm> terms;
     if (!terms_of(model, *effect, -1, material.modulus[0], terms))
-      fail_input("", "the model has " + effect->card().name + ", which " + asked + " cannot do",
+      fail_input(model.name,
+                 "the model has " + effect->card().name + ", which " + asked + " cannot do",
                  "leave it out, or fit a model without that effect");
     if (last_region(model) == 0)
       relaxation.common.insert(relaxation.common.end(), terms.begin(), terms.end());
@@ -77,7 +78,7 @@ ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
 
 void refuse_regional_relaxation(const Model& model) {
   if (last_region(model) > 0)
-    fail_input("", "the model's regions relax each in its own way",
+    fail_input(model.name, "the model's regions relax each in its own way",
                "simulate it with hs-simulate, or give all of them the terms of region 0");
 }
 

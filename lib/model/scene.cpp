@@ -14,8 +14,8 @@
 namespace hapsim {
 namespace {
 
-[[noreturn]] void refuse(const std::string& effect, const std::string& why) {
-  fail_input("", fmt::format("the effect {} cannot be exported: {}", effect, why),
+[[noreturn]] void refuse(const Model& model, const std::string& effect, const std::string& why) {
+  fail_input(model.name, fmt::format("the effect {} cannot be exported: {}", effect, why),
              "take it out of the model (hs-identify --remove " + effect + ")");
 }
 
@@ -26,28 +26,33 @@ FullSpec checked_effects(const Model& model, const MaterialSpec& material, bool 
     const EffectCard& card = i.effect->card();
     if (card.stage == Stage::kSensor || card.stage == Stage::kMotion) {
       if (bare) continue;
-      fail_input("", "the effect " + card.name + " acts on what is measured, not on the body",
+      fail_input(model.name,
+                 "the effect " + card.name + " acts on what is measured, not on the body",
                  "add --bare to export the body without it");
     }
     FullSpec own;
     if (!i.effect->full(i.values, material.modulus[0], own))
-      refuse(card.name, "finite elements have no form of it");
+      refuse(model, card.name, "finite elements have no form of it");
     if (card.solved && card.name != "regions" && !material.features.empty())
-      refuse(card.name, "it is solved on meshes of its own");
-    if (own.curvature > 0) refuse(card.name, "the tool of the scene is flat and bonded");
-    if (std::isfinite(own.friction)) refuse(card.name, "the tool of the scene is flat and bonded");
+      refuse(model, card.name, "it is solved on meshes of its own");
+    if (own.curvature > 0) refuse(model, card.name, "the tool of the scene is flat and bonded");
+    if (std::isfinite(own.friction))
+      refuse(model, card.name, "the tool of the scene is flat and bonded");
     if (own.finite && own.stiffening > 0)
-      refuse(card.name, "its exponential law is in none of these programs; s = 0 is neo-Hookean");
+      refuse(model, card.name,
+             "its exponential law is in none of these programs; s = 0 is neo-Hookean");
     all.finite = all.finite || own.finite;
     all.terms.insert(all.terms.end(), own.terms.begin(), own.terms.end());
   }
   if (!material.features.empty() || material.shift.norm() > 0 || material.rotation.norm() > 0)
-    fail_input("", "the model has an effect that moves the body or is solved on meshes of its own",
+    fail_input(model.name,
+               "the model has an effect that moves the body or is solved on meshes of its own",
                "take it out of the model (hs-identify --remove)");
   if (material.local)
-    refuse("regions", "its contacts feel their own region alone; set local to 0 and fit again");
+    refuse(model, "regions",
+           "its contacts feel their own region alone; set local to 0 and fit again");
   if (!regional_relaxation_of(model, material).empty())
-    refuse("viscoelastic", "its regions relax each in its own way");
+    refuse(model, "viscoelastic", "its regions relax each in its own way");
   return all;
 }
 

@@ -1,9 +1,30 @@
 #include <fmt/format.h>
 
+#include <set>
+
 #include "base/error.h"
 #include "model/scene.h"
 
 namespace hapsim {
+
+namespace {
+
+// The regions beyond the first as parts of the body's topology: to be seen, and read back.
+void write_regions(std::ostream& out, const TetMesh& mesh) {
+  const std::set<int> regions(mesh.region.begin(), mesh.region.end());
+  for (const int region : regions) {
+    if (region == 0) continue;
+    out << "<Node name=\"region_" << region
+        << "\">\n<TetrahedronSetTopologyContainer position=\"@../mesh.position\" tetrahedra=\"";
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+      if (mesh.region[t] == region)
+        out << fmt::format("{} {} {} {}\n", mesh.tets[t][0], mesh.tets[t][1], mesh.tets[t][2],
+                           mesh.tets[t][3]);
+    out << "\"/>\n</Node>\n";
+  }
+}
+
+}  // namespace
 
 void write_sofa(std::ostream& out, const Scene& scene) {
   const TetMesh& mesh = scene.mesh;
@@ -47,6 +68,7 @@ void write_sofa(std::ostream& out, const Scene& scene) {
       out << fmt::format("\n{:.12g} {:.12g} {:.12g}", u.x(), u.y(), u.z());
     out << "\"/>\n";
   }
+  write_regions(out, mesh);
   out << "</Node>\n</Node>\n";
 }
 

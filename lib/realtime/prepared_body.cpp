@@ -76,7 +76,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     prepare_regional(relaxation.regional, material,
                      [&](const MaterialSpec& m) { return maker.field(m, field_.get()); });
   if (terms_.size() > static_cast<std::size_t>(kMostTerms))
-    fail_input("", "the model has " + std::to_string(terms_.size()) + " relaxation times",
+    fail_input(model.name, "the model has " + std::to_string(terms_.size()) + " relaxation times",
                "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");
 }

@@ -46,7 +46,7 @@ prepare() {
     printf 'effect,region,parameter,value\nelastic,0,E,8000\nelastic,0,nu,0.4\nviscoelastic,0,E1,3000\nviscoelastic,0,tau1,0.3\n' >model.csv &&
     head -n 3 model.csv >elastic.csv &&
     "$bin/hs-simulate" -q motion.csv --body body.ply --model model.csv --rim-edge 0.5 --add-noise 0.002 -o data.csv &&
-    for format in vtu gmsh calculix; do
+    for format in vtu gmsh calculix febio sofa; do
       "$bin/hs-export" -q elastic.csv --body body.ply --format $format -o body.$format || return
     done &&
     awk 'BEGIN { srand(3); print "x,y,z"; for (i = 0; i < 400; ++i) { f = int(3 * rand()); a = rand(); b = rand(); s = rand() < 0.5
@@ -95,7 +95,7 @@ row hs-simulate-model model.csv hs-simulate motion.csv --model @ --body body.ply
 row hs-simulate-acfm acfm.csv hs-simulate motion.csv --model @
 row hs-simulate-live press.csv hs-simulate --live @ --model acfm.csv --tool-radius 0.004
 row hs-simulate-records press hs-simulate --live --binary press @ --model acfm.csv --tool-radius 0.004
-for format in ply vtu gmsh calculix; do
+for format in ply vtu gmsh calculix febio sofa; do
   row hs-export-$format body.$format hs-export model.csv --body @ --format vtu
 done
 row hs-export-gmsh41 t1.gmsh41 hs-export model.csv --body @ --format vtu

@@ -33,6 +33,7 @@ tetgen\.h: geometry
 kdl/|urdf_|console_bridge/|gdcm|nifti/|teem/: scan
 CLI/: cli
 sqlite3\.h: io
+pugixml\.hpp: geometry
 "
 
 breach() { # FILE LINE TEXT
