@@ -9,6 +9,8 @@
 namespace hapsim {
 namespace {
 
+constexpr double kLeastOfBox = 0.1;  // a body's area over that of its bounding box: a ball has 0.5
+
 double quantile(std::vector<double> v, double share) {
   const auto at =
       v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
@@ -21,15 +23,17 @@ double quantile(std::vector<double> v, double share) {
 ScanView view_scan(const PointCloud& cloud) {
   ScanView view;
   view.spacing = point_spacing(cloud.points);
-  std::vector<double> heights;
-  Vec3 centre = Vec3::Zero();
-  for (const Vec3& p : cloud.points) {
-    heights.push_back(p.z());
-    centre += p;
-  }
+  Vec3 centre = Vec3::Zero(), low, high;
+  for (const Vec3& p : cloud.points) centre += p;
   centre /= static_cast<double>(cloud.points.size());
-  view.low = quantile(heights, 0.005);
-  view.high = quantile(heights, 0.995);
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> along;
+    for (const Vec3& p : cloud.points) along.push_back(p[k]);
+    low[k] = quantile(along, 0.005);
+    high[k] = quantile(along, 0.995);
+  }
+  view.low = low.z();
+  view.high = high.z();
 
   // Cells of the plan view seen from above, and which of them from below.
   const double cell = 2 * view.spacing;
@@ -49,7 +53,10 @@ ScanView view_scan(const PointCloud& cloud) {
     }
   }
   view.steep_share /= static_cast<double>(cloud.points.size());
-  view.area = view.spacing * view.spacing * static_cast<double>(cloud.points.size());
+  // Dense lines far apart, or part of the points at another scale, have less than lies around them.
+  const Vec3 size = high - low;
+  view.area = std::max(view.spacing * view.spacing * static_cast<double>(cloud.points.size()),
+                       kLeastOfBox * 2 * size.dot(Vec3(size.y(), size.z(), size.x())));
   double both = 0;
   for (const auto& at : above) both += below.count(at) > 0 ? 1 : 0;
   if (!above.empty()) view.under_cover = both / static_cast<double>(above.size());

@@ -13,6 +13,7 @@
 #include "expect_error.h"
 #include "geometry/clean_points.h"
 #include "geometry/crease.h"
+#include "geometry/reconstruct_parts.h"
 #include "geometry/surface_tree.h"
 #include "unit/geometry/shapes.h"
 
@@ -66,6 +67,24 @@ TEST(Reconstruct, Hemisphere) {
   EXPECT_EQ(method_name(report.method), "poisson");
   EXPECT_EQ(report.base, 0);
   EXPECT_NEAR(signed_volume(s) / (2 * M_PI / 3 * std::pow(0.04, 3)), 1, 0.02);
+}
+
+// The nearest neighbour of a laser line's point lies on that line, far nearer than the next line.
+TEST(Reconstruct, DenseLinesFarApartHaveTheAreaAroundThem) {
+  constexpr double kRadius = 0.04, kApart = 3e-3, kAlong = 1e-4;
+  PointCloud cloud;
+  for (double z = kApart / 2; z < kRadius; z += kApart) {
+    const double ring = std::sqrt(kRadius * kRadius - z * z);
+    const int count = static_cast<int>(2 * M_PI * ring / kAlong);
+    for (int i = 0; i < count; ++i) {
+      const double turn = 2 * M_PI * i / count;
+      cloud.points.emplace_back(ring * std::cos(turn), ring * std::sin(turn), z);
+      cloud.normals.push_back(cloud.points.back() / kRadius);
+    }
+  }
+  const double half_ball = 2 * M_PI * kRadius * kRadius;
+  EXPECT_GT(view_scan(cloud).area, 0.2 * half_ball);
+  EXPECT_LT(view_scan(cloud).area, half_ball);
 }
 
 // Exact numbers end the process on what these became.
