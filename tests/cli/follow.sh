@@ -39,14 +39,14 @@ done
 # Ended by a signal while it waits, or by a bad row: what was answered and noticed stays.
 mkfifo pipe
 for signal in INT TERM; do
-  rm -f rows.csv soft.events
+  rm -f rows.csv soft.events err  # words of the run before must not be waited for
   env --default-signal=INT "$bin/hs-compare" --follow pipe --body body.ply --model model.csv --rate 200 \
     --learning 6 --events soft.events -o rows.csv 2>err &
   watching=$!
   { stream soft; printf '25,30'; exec sleep 60; } >pipe &
   writing=$!
-  for _ in {1..300}; do grep -q 'stiffness by a factor' err && break; sleep 0.1; done
-  sleep 0.3
+  for _ in {1..300}; do grep -qs 'stiffness by a factor' err && break; sleep 0.1; done
+  sleep 1
   kill -$signal $watching
   wait $watching || complain "exit $? after SIG$signal"
   kill $writing 2>/dev/null
