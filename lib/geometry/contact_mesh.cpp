@@ -44,6 +44,15 @@ void check_reach(const ContactBase& base, const Vec3& contact, double radius) {
         place(contact),
         fmt::format("lies {:.3g} m off the surface, more than 3 tool radii", nearest.distance),
         "check the unit and that the body and the recording share one frame");
+  const Vec3 normal = face_normal(base.fine, nearest.face).normalized();
+  const auto beyond = [&](const Vec3& p) {
+    const Vec3 d = p - nearest.point;
+    return (d - d.dot(normal) * normal).norm() > radius;
+  };
+  if (std::none_of(base.fine.vertices.begin(), base.fine.vertices.end(), beyond))
+    fail_input(place(contact),
+               fmt::format("a tool of radius {:.3g} m covers the whole body", radius),
+               "check the unit of the radius; compression between plates is not modelled");
   for (std::size_t f = 0; f < base.surface.faces.size(); ++f) {
     if (!base.fixed_face[f]) continue;
     const Triangle& t = base.surface.faces[f];

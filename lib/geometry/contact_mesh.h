@@ -34,7 +34,7 @@ struct ContactMesh {
 // inside: with radius / 6 about 3,000 elements on a smooth body, 6,000 on one as rough as 1 %.
 // The middles of the edges that end at the rim lie at their quarter points. Same input, same bytes;
 // thread-safe. Error(kBadInput) when the contact lies farther than 3 radii (at least 10 mm) from
-// the surface or the patch meets the bonded part.
+// the surface, the tool is wider than the body or the patch meets the bonded part.
 ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, double radius,
                               double rim_edge, double growth = 0.4);
 

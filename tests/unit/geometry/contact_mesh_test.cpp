@@ -168,6 +168,11 @@ TEST(ContactMesh, RefusesWhatCannotBe) {
   EXPECT_NE(what.find("bonded"), std::string::npos) << what;
   std::tie(code, what) = error_at({std::nan(""), 0, 0});
   EXPECT_EQ(code, 3);
+  std::tie(code, what) = test::error_of([&] {
+    make_contact_mesh(base, {0.06, 0.1, 0.06}, 0.15, 0.01);
+  });
+  EXPECT_EQ(code, 3);
+  EXPECT_NE(what.find("covers the whole body"), std::string::npos) << what;
 }
 
 class Independent : public ::testing::TestWithParam<const char*> {};

@@ -69,6 +69,19 @@ TEST(Reconstruct, Hemisphere) {
   EXPECT_NEAR(signed_volume(s) / (2 * M_PI / 3 * std::pow(0.04, 3)), 1, 0.02);
 }
 
+// Poisson's mesher would follow the surface all the way out to it, for hours.
+TEST(Reconstruct, APointFarAstrayDoesNotKeepItForever) {
+  PointCloud cloud = cut_ball(0.04, 0, -0.05, 600, 1e-4, 1);
+  cloud.points.emplace_back(3, 1, 2);
+  for (const Vec3& p : cloud.points) cloud.normals.push_back(p.normalized());
+  ReconstructReport report;
+  const Surface s = reconstruct(cloud, {}, "scan", report);
+  EXPECT_TRUE(is_closed(s));
+  Vec3 low = s.vertices[0], high = low;
+  for (const Vec3& p : s.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  EXPECT_LT((high - low).maxCoeff(), 0.1);
+}
+
 // The nearest neighbour of a laser line's point lies on that line, far nearer than the next line.
 TEST(Reconstruct, DenseLinesFarApartHaveTheAreaAroundThem) {
   constexpr double kRadius = 0.04, kApart = 3e-3, kAlong = 1e-4;
