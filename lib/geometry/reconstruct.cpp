@@ -250,11 +250,19 @@ Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMeth
   } catch (const Error&) {
     throw;
   } catch (const std::exception&) {  // out of the geometry library
-    fail_numerics(name, "method " + method_name(method) + " failed on these points",
+    fail_numerics("", "method " + method_name(method) + " failed on these points",
                   "use another --method, or clean them with hs-scan2ply");
   }
   require_body(surface, name);
   return surface;
+}
+
+// When the method is ours to choose, the points are at fault where none will do.
+[[noreturn]] void fail_all_methods(const std::string& name, const std::string& failure) {
+  fail_input(
+      name,
+      "no method makes a closed body of these points: " + failure.substr(0, failure.find("; ")),
+      "clean them with hs-scan2ply, scan more densely, or try --edge and --method");
 }
 
 // By the chosen method; when that was chosen by us and fails, or leaves the points far off, by the
@@ -262,17 +270,20 @@ Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMeth
 Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
                   const ReconstructOptions& options, const std::string& name,
                   ReconstructReport& report) {
-  const bool free =
-      options.method == ReconstructMethod::kAuto && report.method != ReconstructMethod::kHeight;
-  if (!free) return attempt(cloud, frame, report.method, name, report.sharp);
+  if (options.method != ReconstructMethod::kAuto)
+    return attempt(cloud, frame, report.method, name, report.sharp);
+  // Of a patch the others make no body.
+  std::vector<ReconstructMethod> methods{report.method};
+  if (report.method != ReconstructMethod::kHeight) {
+    methods.insert(methods.end(), {ReconstructMethod::kDelaunay, ReconstructMethod::kPowerCrust,
+                                   ReconstructMethod::kAdvancingFront, ReconstructMethod::kWrap});
+  }
   const double near =
       std::max(kFarOff * std::max(frame.spacing, frame.edge / 3), kNoises * noise_of(cloud.points));
   Surface best;
   double least = 1e300;
   std::string failure;
-  for (const ReconstructMethod method :
-       {report.method, ReconstructMethod::kDelaunay, ReconstructMethod::kPowerCrust,
-        ReconstructMethod::kAdvancingFront, ReconstructMethod::kWrap}) {
+  for (const ReconstructMethod method : methods) {
     try {
       bool sharp = false;
       Surface surface = attempt(cloud, frame, method, name, sharp);
@@ -297,7 +308,7 @@ Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
     }
     if (least < near) return best;
   }
-  if (best.faces.empty()) fail_numerics("", failure, "try another --edge or --method");
+  if (best.faces.empty()) fail_all_methods(name, failure);
   return best;
 }
 

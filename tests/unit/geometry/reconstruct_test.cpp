@@ -243,6 +243,25 @@ TEST(Reconstruct, PointsWithoutVolumeAreRefused) {
   }
 }
 
+// When none of the methods can use them, the points are at fault, not the method.
+TEST(Reconstruct, PointsThatLieOnNoSurfaceAreRefused) {
+  Random random(3);
+  PointCloud cloud;
+  for (int i = 0; i < 400; ++i) {
+    cloud.points.emplace_back(0.1 * random.uniform(), 0.1 * random.uniform(),
+                              0.1 * random.uniform());
+    cloud.normals.push_back(Vec3(random.normal(), random.normal(), random.normal()).normalized());
+  }
+  ReconstructReport report;
+  try {
+    reconstruct(cloud, {}, "scan.csv", report);
+    ADD_FAILURE() << method_name(report.method) << " made a body";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ExitCode::kBadInput);
+    EXPECT_EQ(std::string(error.what()).rfind("scan.csv: no method makes", 0), 0) << error.what();
+  }
+}
+
 TEST(Reconstruct, PointsInAPlaneMakeAPatchOnly) {
   Random random(3);
   PointCloud cloud;
