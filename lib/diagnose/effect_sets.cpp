@@ -30,6 +30,10 @@ bool needs_many_presses(const EffectCard& card) {
   return card.by_press || card.from_locations;
 }
 
+void solve_body_of(const EffectSet& set, Workspace& w) {
+  w.body->solve(material_of(set.fitted.model));
+}
+
 EffectSets::EffectSets(const Baseline& base, Workspace& w, const DiagnoseOptions& options)
     : w_(w), options_(options), departs_(stiffness_departures(base.fitted.model, w).anywhere()) {
   keep({}, base.fitted);
@@ -41,6 +45,7 @@ const EffectSet* EffectSets::grown(const EffectSet& from, const Effect& effect) 
   if (refused_.count(names) > 0) return nullptr;
   if (options_.progress) options_.progress(effect.card().name);
   std::string lack;
+  solve_body_of(from, w_);
   auto candidate = try_effect(effect, {from.fitted, {}}, w_, lack);
   if (candidate) {
     refine(*candidate, w_);

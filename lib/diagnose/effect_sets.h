@@ -22,6 +22,9 @@ EffectNames with(EffectNames names, const std::string& name);
 EffectNames without(EffectNames names, const std::string& name);
 // Whether an effect is told by comparing presses.
 bool needs_many_presses(const EffectCard& card);
+// Before anything is computed with a set's model: the body may since have been solved about another
+// set's material of the same layout.
+void solve_body_of(const EffectSet& set, Workspace& w);
 
 // Each set is fitted once, when it is first asked for. Pointers stay valid.
 class EffectSets {

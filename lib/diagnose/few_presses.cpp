@@ -43,6 +43,8 @@ const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
 // What the effect does on top of a set without it.
 Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& without_it,
                std::size_t tried, Workspace& w) {
+  solve_body_of(without_it, w);
+  solve_body_of(with_it, w);
   const Baseline base{without_it.fitted, {}};
   Candidate candidate;
   candidate.effect = &effect;

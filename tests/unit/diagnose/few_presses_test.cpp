@@ -7,6 +7,8 @@
 
 #include "base/random.h"
 #include "diagnose/diagnose.h"
+#include "diagnose/effect_sets.h"
+#include "effects/catalogue.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -53,16 +55,23 @@ Recording press(const Material& m, std::uint64_t seed) {
   return r;
 }
 
-Diagnosis diagnosed(const Material& m, std::uint64_t seed = 1) {
+Workspace workspace(const Material& m, std::uint64_t seed) {
   WorkspaceOptions options;
   options.rim_edge = 0.3;
   options.noise = m.noise;
   options.floor = 0.01;
-  Workspace w =
-      make_workspace(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), press(m, seed), options);
+  return make_workspace(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), press(m, seed), options);
+}
+
+Model start_of(const Workspace& w) {
   Model start = elastic_model(w.dataset, all_episodes(w.dataset), *w.body);
   start.find("elastic", 0, "nu")->state = ParameterState::kFixed;
-  return diagnose(start, w, {});
+  return start;
+}
+
+Diagnosis diagnosed(const Material& m, std::uint64_t seed = 1) {
+  Workspace w = workspace(m, seed);
+  return diagnose(start_of(w), w, {});
 }
 
 std::vector<std::string> with_verdict(const Diagnosis& d, Verdict verdict) {
@@ -116,6 +125,23 @@ TEST(FewPresses, NothingIsFoundInNothing) {
   }
   std::printf("%d false alarms in 20 presses\n", alarms);
   EXPECT_LE(alarms, 1);
+}
+
+// The finite elements of one set's layer are no basis for what another set's layer does.
+TEST(EffectSets, AreComputedWithTheirOwnBody) {
+  Workspace w = workspace({1.2, 0.6, {{0.4, 1}}}, 1);
+  const DiagnoseOptions options;
+  EffectSets sets(make_baseline(start_of(w), w, {}), w, options);
+  const Effect& layer = require_effect("layer");
+  const EffectSet* alone = sets.grown(*sets.find({}), layer);
+  const EffectSet* beside = sets.grown(*sets.find({"viscoelastic"}), layer);
+  ASSERT_TRUE(alone != nullptr && beside != nullptr);
+  const Selection all = all_episodes(w.dataset);
+  for (const EffectSet* set : {alone, beside, alone}) {
+    solve_body_of(*set, w);
+    const Eigen::VectorXd f = model_forces(set->fitted.model, w.dataset, all, *w.body, false).f;
+    EXPECT_LT((measured_forces(w.dataset, all) - f - set->residual).norm(), 1e-9 * f.norm());
+  }
 }
 
 TEST(FewPresses, SaysThatOnePressSaysNothingOfOtherPlaces) {
