@@ -18,6 +18,9 @@ namespace {
 
 constexpr std::size_t kLargest = 64u << 20;
 constexpr int kDeepest = 200;
+// TinyXML skips as many bytes as the first of a UTF-8 character promises, up to three of them
+// beyond the end of a text that is cut there.
+constexpr const char* kPadding = "\n\n\n\n";
 
 // Keeps the parser's first complaint instead of letting it print.
 class Complaints : public console_bridge::OutputHandler {
@@ -139,7 +142,7 @@ UrdfChain read_urdf_chain(const std::string& urdf, const std::string& name, cons
   urdf::ModelInterfaceSharedPtr model;
   std::string thrown;
   try {
-    model = urdf::parseURDF(urdf);
+    model = urdf::parseURDF(urdf + kPadding);
   } catch (const std::exception& error) {
     thrown = error.what();
   }
