@@ -272,7 +272,7 @@ Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
                   ReconstructReport& report) {
   if (options.method != ReconstructMethod::kAuto)
     return attempt(cloud, frame, report.method, name, report.sharp);
-  // Of a patch the others make no body.
+  // The others need points of the sides, which a patch has not.
   std::vector<ReconstructMethod> methods{report.method};
   if (report.method != ReconstructMethod::kHeight) {
     methods.insert(methods.end(), {ReconstructMethod::kDelaunay, ReconstructMethod::kPowerCrust,

@@ -65,8 +65,8 @@ struct ReconstructReport {
 // Auto takes height or poisson by what was seen (height where hardly a point is steep and the
 // bottom is given clearly below the points), and the best of the others where poisson fails or
 // leaves the points far off.
-// Error(kBadInput) for points that give no surface, Error(kNoConvergence) with the place when the
-// result fails its check.
+// Error(kBadInput) for points that give no surface, by auto also when no method makes a sound body
+// of them; Error(kNoConvergence) when a method that was asked for does not.
 Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                     const std::string& name, ReconstructReport& report);
 
