@@ -22,10 +22,19 @@ constexpr int kDeepest = 200;
 // beyond the end of a text that is cut there.
 constexpr const char* kPadding = "\n\n\n\n";
 
-// Keeps the parser's first complaint instead of letting it print.
+// Keeps the parser's first complaint instead of letting it print. urdfdom gives what it quotes to
+// printf as part of the format: where a percent sign can be quoted it is not let complain.
 class Complaints : public console_bridge::OutputHandler {
  public:
-  Complaints() { console_bridge::useOutputHandler(this); }
+  explicit Complaints(const std::string& urdf) {
+    const bool percent =
+        urdf.find('%') != std::string::npos || urdf.find("&#") != std::string::npos;
+    if (percent) {
+      console_bridge::noOutputHandler();
+    } else {
+      console_bridge::useOutputHandler(this);
+    }
+  }
   ~Complaints() override { console_bridge::restorePreviousOutputHandler(); }
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) first_ = text;
@@ -138,7 +147,7 @@ ChainJoint convert(const urdf::Joint& joint, const std::string& name) {
 UrdfChain read_urdf_chain(const std::string& urdf, const std::string& name, const std::string& root,
                           const std::string& tip) {
   check_text(urdf, name);
-  Complaints complaints;
+  const Complaints complaints(urdf);
   urdf::ModelInterfaceSharedPtr model;
   std::string thrown;
   try {

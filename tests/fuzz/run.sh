@@ -37,6 +37,7 @@ fuzz() { # READER
 }
 
 stopped= running=()
+declare -A last
 trap 'stopped=yes; kill -TERM "${running[@]}" 2>/dev/null' TERM INT
 while [[ -z $stopped ]]; do
   worked=
@@ -44,8 +45,10 @@ while [[ -z $stopped ]]; do
     [[ -z $stopped ]] && awk -v s="$(spent "$reader")" -v m="$minutes" 'BEGIN { exit !(s < m) }' || continue
     worked=yes
     while (($(jobs -rp | wc -l) >= jobs)); do wait -n; done
+    [[ -z ${last[$reader]:-} ]] || wait "${last[$reader]}"  # two slices of one reader would share its log
     [[ -z $stopped ]] || break
     fuzz "$reader" &
+    last[$reader]=$!
     running=($(jobs -rp))
   done
   [[ -n $worked ]] || break
