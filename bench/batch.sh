@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # batch.sh BIN [COUNT [STAGE]]: COUNT synthetic recordings (three bodies, five materials, one in twenty
 # broken in one of five ways) as a batch: with -j1, with -j2, and with -j2 killed three times on the way
-# and resumed. Prints one table: what was found and told, times, parallel efficiency, whether the
-# summaries are equal. The efficiency means something on a machine with nothing else to do.
+# and resumed; and through a Slurm controller and node daemon on loopback where they are installed, also with
+# the node daemon killed, missed by the controller and started again. Prints one table: what was found and
+# told, times, parallel efficiency, whether the summaries are equal. The efficiency means something on a
+# machine with nothing else to do.
 set -euo pipefail
 bin=$(cd "$1" && pwd) count=${2:-300} stage=${3:-model}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. "$root/tests/cli/slurm_daemons.sh"
+trap '[[ $BASHPID != "$$" ]] || { slurm_stop; rm -rf "$work"; }' EXIT
 cd "$work"
 begin=$EPOCHREALTIME
 
@@ -66,11 +69,11 @@ row() { printf '%-30s %s\n' "$1" "$2"; }
 since() { awk -v a="$1" -v b="$EPOCHREALTIME" 'BEGIN { printf "%.1f", b - a }'; }
 row 'recordings' "$count, of them $broken broken; made in $(since "$begin") s"
 
-batch() { # OUT JOBS: its wall time in `wall`, processor time in `cpu`, exit code in `code`
+batch() { # OUT JOBS FLAGS...: its wall time in `wall`, processor time in `cpu`, exit code in `code`
   local from=$EPOCHREALTIME TIMEFORMAT='%U %S'
   code=0
   { time XDG_CACHE_HOME=$work/cache-$1 make --no-print-directory -s -j"$2" -f "$root/Makefile.pipeline" batch \
-    BIN="$bin" MANIFEST=manifest.csv OUT="$1" BATCH_FLAGS="--stages $stage" 2>"$1.log"; } 2>"$1.time" || code=$?
+    BIN="$bin" MANIFEST=manifest.csv OUT="$1" BATCH_FLAGS="--stages $stage" "${@:3}" 2>"$1.log"; } 2>"$1.time" || code=$?
   wall=$(since "$from") cpu=$(awk '{ printf "%.1f", $1 + $2 }' "$1.time")
 }
 batch one 1
@@ -102,4 +105,20 @@ batch killed 2
 same() { cmp -s <(sed "s#\b$1/#two/#g" "$1/summary.csv") two/summary.csv && echo "the same bytes" || echo "DIFFERENT"; }
 row 'summary of killed and resumed' "$(same killed)"
 row 'summary of -j1 and of -j2' "$(same one)"
+if slurm_start >why; then
+  batch slurm 1 CLUSTER=slurm
+  row 'through Slurm' "$wall s; summary: $(same slurm)"
+  batch requeued 1 CLUSTER=slurm &
+  models() { find requeued/recordings -name model.csv 2>/dev/null | wc -l; }
+  while (($(models) < count / 3)) && kill -0 $! 2>/dev/null; do sleep 0.2; done
+  slurm_kill_node
+  row 'Slurm, node daemon killed' "$(models) models were there"
+  for _ in {1..300}; do ! sinfo -h -o %T | grep -q down || break; sleep 0.2; done
+  row 'missed and started again' "$(models) models were there"
+  slurm_node
+  wait $! || true
+  row 'through Slurm in the end' "summary: $(same requeued)"
+else
+  row 'through Slurm' "SKIPPED: $(cat why)"
+fi
 row 'all of this' "$(since "$begin") s"

@@ -4,67 +4,9 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
-skip() { echo "SKIPPED: $*"; exit 77; }
-for program in slurmctld slurmd sbatch munged; do
-  PATH=$PATH:/usr/sbin command -v $program >/dev/null || skip "$program is not installed (apt-get install slurm-wlm munge)"
-done
-PATH=$PATH:/usr/sbin
-[[ $(id -u) == 0 ]] || skip 'slurmd needs root'
-
-# Daemons with everything below this folder.
-host=$(hostname -s)
-mkdir state spool
-munged --force --key-file="$work/munge.key" --socket="$work/munge.socket" --pid-file="$work/munged.pid" \
-  --log-file="$work/munged.log" --seed-file="$work/munge.seed" 2>munge.err ||
-  { head -c 1024 /dev/urandom >munge.key && chmod 400 munge.key && munged --force --key-file="$work/munge.key" \
-    --socket="$work/munge.socket" --pid-file="$work/munged.pid" --log-file="$work/munged.log" \
-    --seed-file="$work/munge.seed" 2>munge.err; } || skip "munged does not start: $(tail -n 1 munge.err)"
-port=$((20000 + $$ % 20000))
-cat >slurm.conf <<CONF
-ClusterName=loopback
-SlurmctldHost=$host(127.0.0.1)
-SlurmUser=root
-AuthType=auth/munge
-AuthInfo=socket=$work/munge.socket
-CredType=cred/munge
-SlurmctldPort=$port
-SlurmdPort=$((port + 1))
-StateSaveLocation=$work/state
-SlurmdSpoolDir=$work/spool
-SlurmctldPidFile=$work/slurmctld.pid
-SlurmdPidFile=$work/slurmd.pid
-SlurmctldLogFile=$work/slurmctld.log
-SlurmdLogFile=$work/slurmd.log
-ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
-JobAcctGatherType=jobacct_gather/none
-AccountingStorageType=accounting_storage/none
-SelectType=select/cons_tres
-SelectTypeParameters=CR_CPU
-MpiDefault=none
-ReturnToService=2
-SlurmdTimeout=5
-KillWait=1
-SchedulerParameters=batch_sched_delay=0,sched_min_interval=100000,sched_interval=1
-NodeName=$host NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN
-PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
-CONF
-export SLURM_CONF=$work/slurm.conf
-stop() { # by the ids that the daemons wrote down
-  [[ $BASHPID == "$$" ]] || return 0
-  local name
-  for name in slurmd slurmctld munged; do
-    [[ ! -s $work/$name.pid ]] || kill -KILL "$(cat "$work/$name.pid")" 2>/dev/null
-  done
-  rm -rf "$work"
-}
-trap stop EXIT
-slurmctld 2>daemon.err && slurmd -N "$host" 2>>daemon.err || skip "Slurm does not start: $(tail -n 1 daemon.err)"
-for try in {1..100}; do
-  sinfo -h -o %T 2>/dev/null | grep -q idle && break
-  sleep 0.1
-done
-sinfo -h -o %T 2>/dev/null | grep -q idle || skip "the node does not come up: $(tail -n 1 slurmd.log)"
+. "$(dirname "${BASH_SOURCE[0]}")/slurm_daemons.sh"
+trap '[[ $BASHPID != "$$" ]] || { slurm_stop; rm -rf "$work"; }' EXIT
+slurm_start >why || { echo "SKIPPED: $(cat why)"; exit 77; }
 
 "$bin/hs-tetmesh" -q box.off --max-volume 2e-8 -o box.ply || exit 1
 box_presses 8 1e-4 >motion.csv
@@ -93,7 +35,7 @@ for try in {1..200}; do
   [[ $(find again/recordings -name model.csv 2>/dev/null | wc -l) -ge 2 ]] && break
   sleep 0.05
 done
-kill -KILL "$(cat slurmd.pid)" && sleep 1 && rm -f slurmd.pid && slurmd -N "$host" 2>>daemon.err
+slurm_kill_node && sleep 1 && slurm_node
 wait $wait_for
 same again
 # Whatever the requeued tasks left open is made by the same command again.
