@@ -201,7 +201,7 @@ class Deck {
     for (const std::string& what : held_) {
       double id = 0;
       if (parse_number(what, id))
-        fix({static_cast<long>(id)});
+        fix({integer(what, "number of a node")});
       else if (sets_.count(what) != 0)
         fix(sets_[what]);
     }
