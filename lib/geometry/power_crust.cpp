@@ -5,10 +5,12 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Regular_triangulation_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/exceptions.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -43,6 +45,17 @@ struct Pole {
   double vote;  // above 0: outside
 };
 
+// A centre that CGAL computes with rounding; not finite where that makes its points lie in one
+// plane, which CGAL's assertions do not allow where they are compiled in.
+template <typename Construct>
+Vec3 rounded(const Construct& construct) {
+  try {
+    return vec(construct());
+  } catch (const CGAL::Assertion_exception&) {
+    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
 // Poles of every sample. The samples -1 are the box: their poles are outer.
 std::vector<Pole> find_poles(const Delaunay& delaunay, const PointCloud& cloud,
                              double least_radius) {
@@ -52,7 +65,7 @@ std::vector<Pole> find_poles(const Delaunay& delaunay, const PointCloud& cloud,
   std::vector<double> radius;
   std::vector<char> beside_box;
   for (auto c = delaunay.finite_cells_begin(); c != delaunay.finite_cells_end(); ++c) {
-    const Vec3 at = vec(c->circumcenter());
+    const Vec3 at = rounded([&] { return c->circumcenter(); });
     if (!at.allFinite()) continue;
     const int number = static_cast<int>(centre.size());
     centre.push_back(at);
@@ -108,7 +121,7 @@ std::vector<Pole> find_poles(const Delaunay& delaunay, const PointCloud& cloud,
 // Where the four balls have equal power. Exactly when they lie so flat that rounding would throw it
 // far away.
 Vec3 power_centre(const Regular& power, Regular::Cell_handle c, double size) {
-  const Vec3 p = vec(power.dual(c));
+  const Vec3 p = rounded([&] { return power.dual(c); });
   std::array<double, 4> value;
   for (int k = 0; k < 4; ++k) {
     const auto& ball = c->vertex(k)->point();

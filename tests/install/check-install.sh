@@ -71,11 +71,12 @@ printf 'effect,region,parameter,value\nelastic,0,E,10000\nelastic,0,nu,0.4\n' >m
 printf '# tool_radius: 0.004\npress,x,y,z,ux,uy,uz\n1,0.03,0.025,0.04,0,0,-0.002\n' >motion.csv
 export XDG_CACHE_HOME=$work/cache
 force=$("$prefix/bin/hs-simulate" -q motion.csv --body body.ply --model model.csv | awk -F, 'END { printf "%.6f", $NF }')
-quietly cmake -S . -B build -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
+flags=$(sed -n 's/^CMAKE_CXX_FLAGS:[A-Z]*=//p' "$build/CMakeCache.txt")  # a sanitizer's libraries want them
+quietly cmake -S . -B build -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="$flags"
 quietly cmake --build build
 export PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name hapsim.pc)")
 [[ $(pkg-config --modversion hapsim) == "$version" ]] || fail "pkg-config tells another version"
-quietly sh -c 'g++ pressing.cpp $(pkg-config --cflags --libs hapsim) -o pressing'
+quietly sh -c "g++ $flags pressing.cpp \$(pkg-config --cflags --libs hapsim) -o pressing"
 for program in build/pressing ./pressing; do
   last=$($program body.ply model.csv 0.03 0.025 0.04 0.004 0.002 | tail -n 1)
   [[ ${last##* } == "$force" ]] || fail "$program tells '$last', hs-simulate $force"
