@@ -1,11 +1,14 @@
 // Flags that the tools with a body and a recording share.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "cli/tool.h"
 #include "geometry/tetmesh.h"
 #include "io/recording.h"
+#include "model/plausible.h"
 #include "model/search_state.h"
 #include "model/workspace.h"
 
@@ -80,6 +83,11 @@ inline Model load_model(const Arguments& arguments, const std::string& tool, Inp
   Model model = read_model(input);
   if (is_unfinished(model))
     say(arguments, tool, input.name() + ": the fit of this model was ended before it converged");
+  for (const int region : idle_regions(model))
+    say(arguments, tool,
+        fmt::format("{}: elastic E of region {} acts nowhere: no row of the effect regions gives "
+                    "that region a place",
+                    input.name(), region));
   if (const auto what = model.metadata.find("interrupted"))
     say(arguments, tool, input.name() + ": interrupted " + *what + ", so more may be missing");
   return model;

@@ -19,7 +19,8 @@ inline ToolSpec compare_specification() {
       "or "
       "unloading, the first or a later press of a place.",
       "The typical error (rmse) is the root of the mean of all squared component residuals: all "
-      "rows, the three components pooled. So it compares with the noise of one component. Per cent "
+      "rows, the measured components pooled (those that are not 0 in every row). So it compares "
+      "with the noise of one component. Per cent "
       "are of the same mean of the measured force, and of its peak.",
       "Noise is the recording's metadata force_noise, otherwise estimated from second differences "
       "in time, median(|d2|) / (0.6745 sqrt 6), which is too small when the noise is not white.",

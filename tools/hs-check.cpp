@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "cli/tool.h"
+#include "common_options.h"
 #include "io/csv.h"
 #include "model/golden.h"
 #include "report/junit.h"
@@ -24,7 +24,9 @@ ToolSpec specification() {
       "times the standard error of the difference, whichever is more. Parameters that only one "
       "model has differ, and so do those that are fixed in one and free in the other. The "
       "errors of the fit and on unseen data (metadata rmse, heldout) may be smaller, but not "
-      "larger by more than --worse.",
+      "larger by more than --worse, nor absent when the golden model has them. A fit that was "
+      "ended "
+      "before it converged differs from one that was not.",
       "Exit code 1 when anything differs, and a line for each that says what."};
   spec.options = {
       {.flag = "--golden",
@@ -53,12 +55,12 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes JUnit's XML, a test a parameter, for CI servers."}};
-  spec.tables = {
-      {"Comparison (output)",
-       {{"effect, region, parameter", "as in the models; rmse and heldout without effect"},
-        {"value, golden", "of the two models, in SI units"},
-        {"allowed", "largest difference that counts as the same"},
-        {"verdict", "same, differs, new (not in the golden model) or gone"}}}};
+  spec.tables = {{"Comparison (output)",
+                  {{"effect, region, parameter",
+                    "as in the models; rmse, heldout and converged without effect"},
+                   {"value, golden", "of the two models, in SI units"},
+                   {"allowed", "largest difference that counts as the same"},
+                   {"verdict", "same, differs, new (not in the golden model) or gone"}}}};
   spec.examples = {
       {"hs-check model.csv --golden golden.csv", "A check in CI."},
       {"hs-identify data.csv --body body.ply | hs-check --golden golden.csv --tolerance 5% -q -o "
@@ -105,15 +107,11 @@ std::string name_of(const GoldenRow& row) {
   return row.region == 0 ? name : fmt::format("{}[{}]", name, row.region);
 }
 
-Model load_model(const std::string& path) {
-  Input input(path);
-  return read_model(input);
-}
-
 int run(const Arguments& arguments) {
   const GoldenOptions options = golden_options(arguments);
-  const Model model = load_model(arguments.input());
-  const Model golden = load_model(arguments.text("--golden"));
+  Input input(arguments.input()), golden_input(arguments.text("--golden"));
+  const Model model = load_model(arguments, "hs-check", input);
+  const Model golden = load_model(arguments, "hs-check", golden_input);
   const std::vector<GoldenRow> rows = compare_with_golden(model, golden, options);
   for (const Tolerance& t : options.tolerances) {
     const bool fits = std::any_of(rows.begin(), rows.end(), [&](const GoldenRow& row) {
@@ -143,7 +141,7 @@ int run(const Arguments& arguments) {
   }
   output.commit();
   for (const GoldenRow& row : rows)
-    if (!row.why.empty()) say(arguments, "hs-check", row.why);
+    if (!row.why.empty()) tell("hs-check", row.why);
   say(arguments, "hs-check",
       differ == 0 ? fmt::format("{} parameters and errors are those of {}", rows.size(),
                                 arguments.text("--golden"))

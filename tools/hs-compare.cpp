@@ -146,12 +146,12 @@ void summarise(const Arguments& arguments, const std::vector<Version>& versions,
                const Recording& measured, const Comparison& c) {
   const auto line = [&](const std::string& text) { say(arguments, "hs-compare", text); };
   line(verdict_line(c));
-  line(
-      fmt::format("rmse {} over {} rows, x y z pooled (x {:.3g}, y {:.3g}, z {:.3g}); {} of the "
-                  "force's rms, {} of its peak {}",
-                  newtons(c.size.rmse), measured.rows(), c.size.rmse_axis[0], c.size.rmse_axis[1],
-                  c.size.rmse_axis[2], percent_of(c.size.rmse, c.size.force_rms),
-                  percent_of(c.size.rmse, c.size.force_peak), newtons(c.size.force_peak)));
+  line(fmt::format(
+      "rmse {} over {} rows, measured components pooled (x {:.3g}, y {:.3g}, z {:.3g}); {} of the "
+      "force's rms, {} of its peak {}",
+      newtons(c.size.rmse), measured.rows(), c.size.rmse_axis[0], c.size.rmse_axis[1],
+      c.size.rmse_axis[2], percent_of(c.size.rmse, c.size.force_rms),
+      percent_of(c.size.rmse, c.size.force_peak), newtons(c.size.force_peak)));
   line(fmt::format("sensor noise {} ({}): the error is {} times that", newtons(c.noise.value),
                    c.noise.estimated ? "estimated from second differences in time: there is no "
                                        "force_noise in the recording"
@@ -248,7 +248,7 @@ int run(const Arguments& arguments) {
                                          newtons(most), arguments.text("--fail-above"));
   if (arguments.given("--junit")) write_verdict(arguments, measured, c, failed ? excess : "");
   if (!failed) return 0;
-  say(arguments, "hs-compare", excess);
+  tell("hs-compare", excess);
   return static_cast<int>(ExitCode::kCheckFailed);
 }
 

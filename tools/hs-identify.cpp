@@ -31,12 +31,12 @@
 namespace hapsim {
 namespace {
 
-std::string words_of(const TermChoice& choice, const std::string& effect) {
+std::string words_of(const TermChoice& choice, const std::string& effect, double per_measured) {
   std::string trials;
   for (const TermTrial& t : choice.trials)
-    trials +=
-        fmt::format("{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.rmse,
-                    std::isnan(t.held_out) ? "" : fmt::format(", unseen {:.4g} N", t.held_out));
+    trials += fmt::format(
+        "{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, per_measured * t.rmse,
+        std::isnan(t.held_out) ? "" : fmt::format(", unseen {:.4g} N", per_measured * t.held_out));
   return fmt::format("{} of {} chosen ({})", counted(choice.terms, "term", "terms"), effect,
                      trials);
 }
@@ -65,7 +65,7 @@ std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& 
       const TermChoice choice = choose_terms(base, plan.add[k], plan.terms.count, w.dataset,
                                              selection, *w.body, searching, extend);
       own.terms = choice.terms;
-      if (plan.say) plan.say(words_of(choice, plan.add[k]));
+      if (plan.say) plan.say(words_of(choice, plan.add[k], per_measured_component(w.dataset)));
     }
     starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, own);
     if (terms && !plan.terms.windows.empty())
@@ -99,17 +99,17 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
     const ImprovementStep& step = improvement.steps[k];
     const std::string label = effects_label(step.fitted.model);
+    const double per_measured = per_measured_component(w.dataset);
+    const double rmse = per_measured * step.fitted.rmse, held_out = per_measured * step.held_out;
     say(arguments, "hs-identify",
-        fmt::format(
-            "{}: error {:.4g} N{}, {:.3g} x noise", label, step.fitted.rmse,
-            std::isnan(step.held_out) ? "" : fmt::format(", unseen {:.4g} N", step.held_out),
-            step.fitted.rmse / w.noise.value));
+        fmt::format("{}: error {:.4g} N{}, {:.3g} x noise", label, rmse,
+                    std::isnan(held_out) ? "" : fmt::format(", unseen {:.4g} N", held_out),
+                    rmse / w.noise.value));
     // The last step is the model itself, which run() writes down.
     if (arguments.given("--history") && k + 1 < improvement.steps.size())
-      add_history(
-          arguments.text("--history"),
-          {arguments.output() + ": " + label, label, step.fitted.rmse, step.held_out, w.noise.value,
-           force_rms, static_cast<int>(step.fitted.model.free_parameters().size())});
+      add_history(arguments.text("--history"),
+                  {arguments.output() + ": " + label, label, rmse, held_out, w.noise.value,
+                   force_rms, static_cast<int>(step.fitted.model.free_parameters().size())});
   }
   if (improvement.stopped) return improvement;
   if (!improvement.refused.empty())
@@ -138,6 +138,7 @@ int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspa
                      FitResult result, const SearchState& search) {
   SearchState state = search;
   state.done = result.starts_done;
+  result.rmse *= per_measured_component(w.dataset);
   describe_fit(result.model, plan, w, result.rmse);
   mark_unfinished(result.model, state);
   Output output(arguments.output());
@@ -208,6 +209,7 @@ int run(const Arguments& arguments) {
   extend.floor = w.floor;
 
   const Selection all = all_episodes(w.dataset);
+  const double per_measured = per_measured_component(w.dataset);
   SearchWatch watch(arguments);
   fit_options.watch = watch.watch();
   FitOptions final_options = fit_options;
@@ -217,7 +219,8 @@ int run(const Arguments& arguments) {
                "a robust loss is no likelihood: use one of them");
   final_options.profile = arguments.given("--profile");
   const double force_rms = std::sqrt(measured_forces(w.dataset, all).squaredNorm() /
-                                     (3.0 * static_cast<double>(w.dataset.rows())));
+                                     (3.0 * static_cast<double>(w.dataset.rows()))) *
+                           per_measured;
   double held_out = std::nan("");
   std::string cut_short;  // what a signal ended
   Folds folds;
@@ -267,6 +270,8 @@ int run(const Arguments& arguments) {
     cut_short = "the error on unseen data was found";
     held_out = std::nan("");
   }
+  result.rmse *= per_measured;
+  held_out *= per_measured;
   Model& model = result.model;
   describe_fit(model, plan, w, result.rmse);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));

@@ -48,8 +48,8 @@ inline int run_acfm(const Arguments& arguments) {
   if (!options.windows.empty() && static_cast<int>(options.windows.size()) != options.terms)
     fail_usage(fmt::format("{} windows for {} elements", options.windows.size(), options.terms),
                "give each element one window");
-  const Noise noise =
-      arguments.given("--noise") ? Noise{arguments.number("--noise"), false} : force_noise(dataset);
+  const Noise noise = arguments.given("--noise") ? Noise{arguments.number("--noise"), false}
+                                                 : force_noise(dataset.recording);
   options.noise = noise.value;
   AcfmFit fit = fit_acfm(dataset, normals, options);
   Metadata& metadata = fit.model.metadata;

@@ -63,6 +63,8 @@ class Planner {
     step.command = shell_line(words);
     for (const std::string& path : given)
       if (!path.empty()) step.given.push_back(path);
+    const Words& files = option_files_of(*row_, stage);
+    step.given.insert(step.given.end(), files.begin(), files.end());
     for (const int earlier : made)
       if (earlier >= 0) step.made.push_back(output(earlier));
     batch_.steps.push_back(std::move(step));
@@ -122,7 +124,9 @@ class Planner {
       more.insert(more.begin(), common.begin(), common.end());
       return more;
     };
-    const Words given{row.data, row.body};
+    const Words recorded{row.data, row.body};
+    Words given = recorded;
+    given.insert(given.end(), row.common_files.begin(), row.common_files.end());
     const int model =
         add_step("model", "model.csv", with({"--effects", row.effects}), given, {data, body}, true);
     int diagnosis = -1;
@@ -134,7 +138,7 @@ class Planner {
                                 {data, body, model}, true);
     Words compare{data_, "--simulated", path_of(forces), "--body", body_, "--title=" + row.name};
     if (diagnosis >= 0) compare.insert(compare.end(), {"--diagnosis", path_of(diagnosis)});
-    add_step("report", "report.html", compare, given, {data, body, forces, diagnosis}, false);
+    add_step("report", "report.html", compare, recorded, {data, body, forces, diagnosis}, false);
   }
 
   Batch& batch_;

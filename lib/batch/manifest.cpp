@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "batch/option_files.h"
 #include "batch/shell_words.h"
 #include "io/csv.h"
 #include "io/length.h"
@@ -45,6 +46,12 @@ void check_columns(const CsvTable& table) {
       fail_input(table.name, "the column " + shown(column) + " is not known",
                  "did you mean '" + near + "'? name columns of your own less like it");
   }
+}
+
+std::size_t number_of(const std::string& step) {
+  const auto found = std::find_if(kBatchStages.begin(), kBatchStages.end(),
+                                  [&](const BatchStage& s) { return step == s.step; });
+  return static_cast<std::size_t>(found - kBatchStages.begin());
 }
 
 // The path as seen from here, when it is given as seen from the manifest's folder.
@@ -98,6 +105,10 @@ void require_sources(const ManifestRow& row, const std::string& where) {
   for (const auto& [what, path] : {std::pair{"data", &row.data}, std::pair{"raw", &row.raw},
                                    std::pair{"body", &row.body}, std::pair{"scan", &row.scan}})
     if (!path->empty()) require_file(what, *path, where);
+  for (std::size_t s = 0; s < kBatchStages.size(); ++s)
+    for (const std::string& path : row.option_files[s])
+      require_file(kBatchStages[s].column, path, where);
+  for (const std::string& path : row.common_files) require_file("common_options", path, where);
 }
 
 void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::string& where) {
@@ -105,9 +116,13 @@ void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::str
     const int c = table.find(column);
     return c < 0 ? "" : std::string(trim(table.columns[static_cast<std::size_t>(c)][r]));
   };
-  for (std::size_t s = 0; s < kBatchStages.size(); ++s)
+  const auto here = [&table](const std::string& path) { return from_here(table.name, path); };
+  for (std::size_t s = 0; s < kBatchStages.size(); ++s) {
     row.options[s] = split_words(cell(kBatchStages[s].column), where);
+    row.option_files[s] = name_files(row.options[s], here);
+  }
   row.common = split_words(cell("common_options"), where);
+  row.common_files = name_files(row.common, here);
   row.data = from_here(table.name, cell("data"));
   row.raw = from_here(table.name, cell("raw"));
   row.body = from_here(table.name, cell("body"));
@@ -129,9 +144,10 @@ void fill(ManifestRow& row, const CsvTable& table, std::size_t r, const std::str
 }  // namespace
 
 const std::vector<std::string>& options_of(const ManifestRow& row, const std::string& step) {
-  const auto found = std::find_if(kBatchStages.begin(), kBatchStages.end(),
-                                  [&](const BatchStage& s) { return step == s.step; });
-  return row.options[static_cast<std::size_t>(found - kBatchStages.begin())];
+  return row.options[number_of(step)];
+}
+const std::vector<std::string>& option_files_of(const ManifestRow& row, const std::string& step) {
+  return row.option_files[number_of(step)];
 }
 
 std::string plain_name(const std::string& text) {

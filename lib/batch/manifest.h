@@ -28,7 +28,7 @@ inline constexpr std::array<BatchStage, 8> kBatchStages{{
 }};
 
 // One recording. Paths are as a command in the current folder names them: those of the manifest
-// are relative to the manifest's own folder.
+// are relative to the manifest's own folder, those of files in its options too.
 struct ManifestRow {
   long line = 0;
   std::string name;
@@ -41,12 +41,17 @@ struct ManifestRow {
   std::string effects = "elastic";  // separated by commas
   std::array<std::vector<std::string>, kBatchStages.size()> options;
   std::vector<std::string> common;  // flags of hs-identify, hs-diagnose and hs-simulate alike
-  std::vector<std::string> extra;   // unknown columns
-  std::string problem;              // why it cannot run: "batch.csv:7: what is wrong; what to do"
+  // Files that these read, beside the above: by stage, and of `common`.
+  std::array<std::vector<std::string>, kBatchStages.size()> option_files;
+  std::vector<std::string> common_files;
+  std::vector<std::string> extra;  // unknown columns
+  std::string problem;             // why it cannot run: "batch.csv:7: what is wrong; what to do"
 };
 
 // The row's flags for the tool of a step.
 const std::vector<std::string>& options_of(const ManifestRow& row, const std::string& step);
+// The files that these flags name.
+const std::vector<std::string>& option_files_of(const ManifestRow& row, const std::string& step);
 
 struct Manifest {
   std::string name;

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "batch/rules.h"
 #include "io/csv.h"
 
 namespace hapsim {
@@ -76,6 +77,8 @@ RecordingOutcome read_outcome(const Batch& batch, std::size_t r) {
     outcome.message = one_line(batch.manifest.rows[r].problem);
     return outcome;
   }
+  for (const int s : chain)
+    if (!is_current(batch, step_at(batch, s))) return outcome;
   if (const auto failure = find_failure(batch, chain)) {
     outcome.state = RecordingState::kFailed;
     outcome.message = one_line(failure->text);

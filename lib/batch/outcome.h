@@ -20,6 +20,7 @@ struct StepFailure {
 // The failure of one of these steps, or none.
 std::optional<StepFailure> find_failure(const Batch& batch, const std::vector<int>& chain);
 
+// kNotRun also where the manifest or a file that it names has changed since the rules were written.
 enum class RecordingState { kDone, kFailed, kNotRun };
 
 struct RecordingOutcome {

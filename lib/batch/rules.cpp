@@ -74,6 +74,8 @@ sh "$folder/$step.sh" </dev/null >/dev/null 2>"$log.$$"
 code=$?
 # An identification that is interrupted ends with 4, and leaves the best model so far.
 [ $code != 4 ] || case $(tail -n 1 "$log.$$") in *": the fit was interrupted"* | *": interrupted while"*) stopped=yes ;; esac
+# --help and the like among the options end well, and make nothing.
+[ $code != 0 ] || [ -e "$output" ] || {{ code=2; echo "$step made no output; take out flags that end it early, as --help" >>"$log.$$"; }}
 [ $code = 0 ] || [ -z "$stopped" ] || {{ rm -f "$log.$$" "$output"; exit 143; }}
 case $code in
   0) rm -f "$folder/failure" ;;
@@ -103,8 +105,8 @@ const BatchStep& step_at(const Batch& batch, int s) {
 // A step's command, and the size and time of each file of the user's that it reads. make sees only
 // files that are newer; with these an older copy that was put back, and one that changed after the
 // clock was stepped back, are noticed too.
-std::string script_of(const BatchStep& step, const std::string& version) {
-  std::string script = "# hapsim " + version + "\n";
+std::string script_of(const BatchStep& step) {
+  std::string script;
   for (const std::string& path : step.given) {
     struct stat info {};
     if (stat(path.c_str(), &info) == 0)
@@ -193,7 +195,8 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
                             ":$PATH\n"));
   write_if_changed(folder / "array.sh", fmt::format(kArrayScript, absolute));
   std::vector<std::string> scripts;
-  for (const BatchStep& step : batch.steps) scripts.push_back(script_of(step, version));
+  for (const BatchStep& step : batch.steps)
+    scripts.push_back("# hapsim " + version + "\n" + script_of(step));
   write_scripts(batch, scripts);
 
   PrepareReport report;
@@ -241,6 +244,13 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
   list.write(targets);
   list.commit();
   return report;
+}
+
+bool is_current(const Batch& batch, const BatchStep& step) {
+  std::ifstream file(script_path(batch, step), std::ios::binary);
+  std::string version;
+  std::ostringstream rest;
+  return std::getline(file, version) && rest << file.rdbuf() && rest.str() == script_of(step);
 }
 
 }  // namespace hapsim

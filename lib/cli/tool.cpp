@@ -116,7 +116,11 @@ std::vector<std::string> Arguments::list(const std::string& flag) const {
 }
 
 void say(const Arguments& arguments, const std::string& tool, const std::string& text) {
-  if (!arguments.quiet()) std::fprintf(stderr, "%s: %s\n", tool.c_str(), text.c_str());
+  if (!arguments.quiet()) tell(tool, text);
+}
+
+void tell(const std::string& tool, const std::string& text) {
+  std::fprintf(stderr, "%s: %s\n", tool.c_str(), text.c_str());
 }
 
 int run_tool(const ToolSpec& spec, int argc, char** argv,

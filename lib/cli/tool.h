@@ -82,6 +82,8 @@ class Arguments {
 
 // A line of summary for people on standard error, unless --quiet: "hs-identify: text".
 void say(const Arguments& arguments, const std::string& tool, const std::string& text);
+// The same, --quiet or not: why a check failed.
+void tell(const std::string& tool, const std::string& text);
 
 // Version of hapsim, "0.1.0".
 std::string version();

@@ -83,10 +83,11 @@ std::vector<BinError> bin_errors(const Grouping& grouping, const RowFacts& facts
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return facts.press[a] < facts.press[b]; });
   std::vector<Sums> sums(grouping.bins.size());
+  const int axes = measured_axes(measured);
   for (const std::size_t row : order)
     for_each_part(grouping, facts, row, measured[row], simulated[row],
                   [&](int bin, const Vec3& m, const Vec3& s, int components) {
-                    sums[bin].add(facts.press[row], m, s, components);
+                    sums[bin].add(facts.press[row], m, s, std::min(components, axes));
                   });
   std::vector<BinError> result;
   for (const Sums& bin : sums) result.push_back(finish(bin, noise));

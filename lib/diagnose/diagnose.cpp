@@ -236,6 +236,15 @@ std::string verdict_name(ModelVerdict verdict) {
 
 namespace {
 
+// The search counts three components; what is told counts those that were measured.
+void count_measured_components(Diagnosis& d, double factor) {
+  for (double* error : {&d.rmse, &d.held_out, &d.force_rms, &d.rmse_end, &d.held_out_end})
+    *error *= factor;
+  for (Finding& f : d.findings)
+    for (double* error : {&f.rmse_now, &f.rmse_after, &f.held_out_now, &f.held_out_after})
+      *error *= factor;
+}
+
 Diagnosis with_floor(const Model& model, Workspace& w, const DiagnoseOptions& options) {
   const Folds folds = make_folds(w.dataset, options.folds);
   Baseline base = make_baseline(model, w, folds);
@@ -260,6 +269,7 @@ Diagnosis with_floor(const Model& model, Workspace& w, const DiagnoseOptions& op
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.rmse;
   d.held_out_end = base.held_out.rmse;
+  count_measured_components(d, per_measured_component(w.dataset));
   const Selection all = all_episodes(w.dataset);
   const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
   Eigen::VectorXd left = measured - f;

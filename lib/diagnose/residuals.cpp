@@ -8,17 +8,12 @@
 
 #include "base/error.h"
 #include "io/number.h"
+#include "model/dataset.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kSamePlace = 1e-5;  // [m]; a file with five decimals still matches
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr double kSameNumber = 1e-5;  // [m]; a file with five decimals still matches
 
 [[noreturn]] void fail_match(const Recording& simulated, std::size_t row, const std::string& what) {
   fail_input(simulated.name + ":" + std::to_string(simulated.line[row]), what,
@@ -28,16 +23,13 @@ double median(std::vector<double>& values) {
 }  // namespace
 
 NoiseLevel noise_level(const Recording& measured) {
-  if (const auto given = measured.force_noise()) return {*given, false};
-  std::vector<double> second;
-  for (const Press& press : measured.presses())
-    for (std::size_t i = 1; i + 1 < press.rows.size(); ++i) {
-      const Vec3 d = measured.f[press.rows[i - 1]] - 2 * measured.f[press.rows[i]] +
-                     measured.f[press.rows[i + 1]];
-      for (int k = 0; k < 3; ++k) second.push_back(std::abs(d[k]));
-    }
-  if (second.empty()) return {0, true};
-  return {median(second) / (0.6745 * std::sqrt(6.0)), true};
+  const std::vector<Press> presses = measured.presses();
+  const bool known =
+      measured.force_noise() || std::any_of(presses.begin(), presses.end(),
+                                            [](const Press& p) { return p.rows.size() >= 3; });
+  if (!known) return {0, true};
+  const Noise noise = force_noise(measured);
+  return {noise.value, noise.measured};
 }
 
 ErrorSize error_size(const std::vector<Vec3>& measured, const std::vector<Vec3>& simulated) {
@@ -50,9 +42,10 @@ ErrorSize error_size(const std::vector<Vec3>& measured, const std::vector<Vec3>&
     size.force_peak = std::max(size.force_peak, measured[i].norm());
   }
   const double n = std::max<double>(1, static_cast<double>(measured.size()));
-  size.rmse = std::sqrt(square.sum() / (3 * n));
+  const int axes = measured_axes(measured);
+  size.rmse = std::sqrt(square.sum() / (axes * n));
   size.rmse_axis = (square / n).cwiseSqrt();
-  size.force_rms = std::sqrt(force / (3 * n));
+  size.force_rms = std::sqrt(force / (axes * n));
   return size;
 }
 
@@ -67,7 +60,7 @@ void check_match(const Recording& measured, const Recording& simulated) {
       fail_match(simulated, i,
                  fmt::format("press {}{}press {}", simulated.press[i], at, measured.press[i]));
     const auto differs = [&](const Vec3& m, const Vec3& s, const char* name) {
-      if ((m - s).cwiseAbs().maxCoeff() <= kSamePlace) return;
+      if ((m - s).cwiseAbs().maxCoeff() <= kSameNumber) return;
       fail_match(simulated, i,
                  fmt::format("{} ({:.6g}, {:.6g}, {:.6g}) m{}({:.6g}, {:.6g}, {:.6g}) m", name,
                              s[0], s[1], s[2], at, m[0], m[1], m[2]));

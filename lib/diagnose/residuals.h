@@ -14,15 +14,13 @@ struct NoiseLevel {
   bool estimated = false;  // from second differences in time, not from `force_noise`
 };
 
-// Metadata `force_noise` of the recording, else median(|f_i-1 - 2 f_i + f_i+1|) / (0.6745 sqrt 6)
-// over the components and presses: a smooth force has small second differences, white noise of
-// standard deviation s has sqrt(6) s. Coloured noise makes the estimate too small. 0 when no press
-// has three rows.
+// As model/dataset.h has it; 0 when it is not declared and no press has three rows.
 NoiseLevel noise_level(const Recording& measured);
 
-// Error sizes in newtons. rmse = sqrt(mean of all squared component residuals): all rows, the three
-// components pooled, so that it compares with the noise of one component. force_rms is the same
-// mean of the measured components; force_peak the largest length of the measured force vector.
+// Error sizes in newtons. rmse = sqrt(mean of all squared component residuals): all rows, the
+// components that were measured pooled, so that it compares with the noise of one component.
+// force_rms is the same mean of the measured force; force_peak the largest length of the measured
+// force vector.
 struct ErrorSize {
   double rmse = 0;
   Vec3 rmse_axis = Vec3::Zero();

@@ -153,7 +153,7 @@ Observation what_is_left(const Search& search, double total) {
       product += r.dot(search.measured[i - 1] - search.simulated[i - 1]);
   }
   const auto rows = static_cast<double>(search.measured.size());
-  const double left = std::sqrt(square / (3 * rows));
+  const double left = std::sqrt(square / (measured_axes(search.measured) * rows));
   Observation rest;
   if (search.noise <= 0 || left < kBeyondNoise * search.noise || product < kAlike * square ||
       square < kSmallestShare * total)
@@ -177,7 +177,8 @@ std::vector<Observation> find_structure(const RowFacts& facts, const std::vector
   std::vector<Grouping> groupings = make_groupings(facts);
   groupings.insert(groupings.begin(), everything(facts));
   const double total = squared_error(measured, simulated);
-  const double by_noise = 3 * noise * noise * static_cast<double>(measured.size());
+  const double by_noise =
+      measured_axes(measured) * noise * noise * static_cast<double>(measured.size());
   std::vector<Observation> found;
   while (found.size() < most) {
     Hypothesis best;

@@ -39,6 +39,12 @@ std::vector<Press> Recording::presses() const {
   return result;
 }
 
+int measured_axes(const std::vector<Vec3>& forces) {
+  Vec3 largest = Vec3::Zero();
+  for (const Vec3& f : forces) largest = largest.cwiseMax(f.cwiseAbs());
+  return std::max(1, static_cast<int>((largest.array() > 0).count()));
+}
+
 void write_recording(std::ostream& out, const Recording& r) {
   std::vector<std::string> header{"press"};
   const auto add = [&](bool present, std::initializer_list<const char*> names) {

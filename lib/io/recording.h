@@ -39,6 +39,10 @@ struct Recording {
   std::vector<Press> presses() const;         // in order of first appearance
 };
 
+// How many components of the forces were measured: a load cell of one axis leaves zeros in every
+// row of the others, which say nothing of noise or error. At least 1.
+int measured_axes(const std::vector<Vec3>& forces);
+
 // Reads by column name. With `need_forces` false the force columns may be absent (a motion).
 // Error(kBadInput): missing column (with the nearest present one), NaN or text (line), time that
 // runs backwards inside a press (line), values whose size says that the unit is wrong (|x| > 10 m,

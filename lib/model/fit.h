@@ -46,7 +46,7 @@ struct FitResult {
   bool stopped = false;  // by the watch; never converged then
   int starts_done = 0;   // of FitOptions::starts, the skipped ones among them
   std::string message;
-  double rmse = 0;  // per force component [N], all components pooled
+  double rmse = 0;  // per force component [N], all three pooled; see per_measured_component()
   Eigen::Index residuals = 0;
   std::vector<std::string> at_bound;      // "elastic nu"
   std::vector<std::string> undetermined;  // parameters that the data cannot tell

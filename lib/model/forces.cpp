@@ -200,4 +200,8 @@ Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selecti
   return f;
 }
 
+double per_measured_component(const Dataset& dataset) {
+  return std::sqrt(3.0 / measured_axes(dataset.recording.f));
+}
+
 }  // namespace hapsim

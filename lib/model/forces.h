@@ -46,4 +46,8 @@ Signal model_forces(const Model& model, const Dataset& dataset, const Selection&
 // The measured forces in the same order.
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);
 
+// What makes of a root mean square over all three components (FitResult, HeldOut) one over those
+// that were measured, which is what people are told: sqrt(3 / measured_axes).
+double per_measured_component(const Dataset& dataset);
+
 }  // namespace hapsim

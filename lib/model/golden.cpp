@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/search_state.h"
+
 namespace hapsim {
 namespace {
 
@@ -72,9 +74,12 @@ void add_error(const Model& model, const Model& golden, const char* key,
                const GoldenOptions& options, std::vector<GoldenRow>& rows) {
   const auto value = model.metadata.number(key, "model"),
              before = golden.metadata.number(key, "golden model");
-  if (!value || !before) return;
-  GoldenRow row{"", 0, key, "N", *value, *before, options.worse * *before};
-  if (!(row.value - row.golden <= row.allowed)) {
+  if (!before) return;
+  GoldenRow row{"", 0, key, "N", value.value_or(std::nan("")), *before, options.worse * *before};
+  if (!value) {
+    row.verdict = GoldenVerdict::kGone;
+    row.why = fmt::format("{} = {} is only in the golden model", key, with_unit(*before, "N"));
+  } else if (!(row.value - row.golden <= row.allowed)) {
     row.verdict = GoldenVerdict::kDiffers;
     row.why = fmt::format("{} = {} is worse than {} by {:.2g} %; allowed {:.2g} %", key,
                           with_unit(row.value, "N"), with_unit(row.golden, "N"),
@@ -95,6 +100,12 @@ std::vector<GoldenRow> compare_with_golden(const Model& model, const Model& gold
       rows.push_back(compare_parameter(&p, nullptr, options));
   add_error(model, golden, "rmse", options, rows);
   add_error(model, golden, "heldout", options, rows);
+  if (is_unfinished(model) && !is_unfinished(golden)) {
+    GoldenRow row{"", 0, "converged", "1", 0, 1};
+    row.verdict = GoldenVerdict::kDiffers;
+    row.why = "the fit was ended before it converged, that of the golden model was not";
+    rows.push_back(row);
+  }
   return rows;
 }
 

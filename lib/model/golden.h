@@ -24,9 +24,9 @@ struct GoldenOptions {
 enum class GoldenVerdict { kSame, kDiffers, kNew, kGone };
 
 struct GoldenRow {
-  std::string effect;  // "" for the errors rmse and heldout
+  std::string effect;  // "" for the errors rmse and heldout, and for converged
   int region = 0;
-  std::string parameter;  // or rmse, heldout [N]
+  std::string parameter;  // or rmse, heldout [N], converged (0, 1)
   std::string unit;
   double value = 0, golden = 0;  // NaN where there is none
   double allowed = 0;            // largest |value - golden| that is the same
@@ -38,7 +38,8 @@ struct GoldenRow {
 // standard errors explain, whichever is more; a fixed one by its tolerance, at least 1e-9 of its
 // size. A parameter that only one model has, or that is free in one and fixed in the other,
 // differs. The error of the fit and that on unseen data (metadata rmse, heldout) may be smaller by
-// any amount. Rows in the order of the golden model, then what is new, then the errors.
+// any amount, but not absent where the golden model has it. A fit that was ended early differs from
+// one that was not. Rows in the order of the golden model, then what is new, then the errors.
 std::vector<GoldenRow> compare_with_golden(const Model& model, const Model& golden,
                                            const GoldenOptions& options);
 

@@ -64,7 +64,8 @@ LaterError later_error(const Model& model, const Dataset& whole, const BodyStiff
       ++error.rows;
     }
   }
-  error.rmse = std::sqrt(squares / std::max(1.0, 3.0 * static_cast<double>(error.rows)));
+  error.rmse = std::sqrt(
+      squares / std::max(1.0, measured_axes(whole.recording.f) * static_cast<double>(error.rows)));
   if (share.empty()) return error;
   const auto middle = share.begin() + static_cast<long>(share.size() / 2);
   std::nth_element(share.begin(), middle, share.end());

@@ -77,4 +77,16 @@ std::string strange_modulus(const Model& model) {
       e->value > kHardest ? "harder" : "softer");
 }
 
+std::vector<int> idle_regions(const Model& model) {
+  std::vector<int> idle;
+  for (const Parameter& p : model.parameters) {
+    if (p.effect != "elastic" || p.name != "E" || p.region == 0) continue;
+    const bool placed = std::any_of(
+        model.parameters.begin(), model.parameters.end(),
+        [&](const Parameter& q) { return q.effect == "regions" && q.region == p.region; });
+    if (!placed) idle.push_back(p.region);
+  }
+  return idle;
+}
+
 }  // namespace hapsim

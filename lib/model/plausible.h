@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/forces.h"
 
@@ -20,5 +21,9 @@ void require_presses(const Dataset& dataset);
 // A sentence when the modulus is far from that of soft bodies, as forces in mN or displacements in
 // mm give; "" when it is not.
 std::string strange_modulus(const Model& model);
+
+// Regions that have a modulus but no place, so that it acts nowhere: no key point (effect regions)
+// is of them.
+std::vector<int> idle_regions(const Model& model);
 
 }  // namespace hapsim

@@ -87,7 +87,8 @@ Scene make_scene(const TetMesh& body, const Model& model, const Recording& recor
   scene.nu = material.nu;
   scene.finite = spec.finite;
   scene.terms = spec.terms;
-  for (std::size_t t = 0; t < body.tets.size(); ++t) {
+  if (material.key_point.empty()) scene.modulus.resize(1);  // the body's own regions stay
+  for (std::size_t t = 0; t < body.tets.size() && !material.key_point.empty(); ++t) {
     const auto& n = body.tets[t];
     scene.mesh.region[t] = region_at(
         material, (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4);

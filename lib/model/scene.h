@@ -11,14 +11,20 @@
 namespace hapsim {
 
 struct Scene {
-  TetMesh mesh;                 // region: an index into `modulus`
-  std::vector<double> modulus;  // Young's modulus by region [Pa], at rest
+  TetMesh mesh;                 // with the regions of the model, else with its own
+  std::vector<double> modulus;  // Young's modulus by the model's regions [Pa], at rest
   double nu = 0.3;
   bool finite = false;  // neo-Hookean (hyperelastic_law.h); else Hooke's law, small strain
   std::vector<MaxwellTerm> terms;  // of the whole body: relaxation added to the modulus at rest
   std::vector<int> tool;           // nodes under the flat, bonded tool: they move together
   std::vector<double> t;  // [s], rising from above 0; without times in the recording 1, 2, ...
   std::vector<Vec3> u;    // displacement of the tool [m], one a time
+
+  // Of a region that the body has and the model has not: that of the whole.
+  double modulus_of(int region) const {
+    const auto r = static_cast<std::size_t>(region);
+    return modulus[r < modulus.size() ? r : 0];
+  }
 };
 
 struct SceneOptions {

@@ -16,7 +16,7 @@ void write_calculix(std::ostream& out, const Scene& scene) {
   write_mesh_abaqus(out, scene.mesh);
   const std::set<int> regions(scene.mesh.region.begin(), scene.mesh.region.end());
   for (const int region : regions) {
-    const double E = scene.modulus[static_cast<std::size_t>(region)];
+    const double E = scene.modulus_of(region);
     const Moduli m = moduli(E, scene.nu);
     out << fmt::format("*MATERIAL, NAME=MATERIAL_{}\n", region);
     if (scene.finite)

@@ -81,7 +81,7 @@ void write_febio(std::ostream& out, const Scene& scene) {
   int id = 0;
   for (const int region : regions)
     out << fmt::format("<material id=\"{}\" name=\"region_{}\" {}</material>\n", ++id, region,
-                       material(scene, scene.modulus[static_cast<std::size_t>(region)]));
+                       material(scene, scene.modulus_of(region)));
   out << "</Material>\n";
   write_mesh(out, scene, regions);
   out << "<Boundary>\n<bc name=\"support\" node_set=\"fixed\" type=\"zero displacement\">"

@@ -52,8 +52,7 @@ void write_sofa(std::ostream& out, const Scene& scene) {
   for (const auto& t : mesh.tets) out << fmt::format("{} {} {} {}\n", t[0], t[1], t[2], t[3]);
   out << "\"/>\n<MechanicalObject template=\"Vec3d\"/>\n<TetrahedronFEMForceField method=\"small\" "
       << fmt::format("poissonRatio=\"{:.12g}\" youngModulus=\"", scene.nu);
-  for (const int region : mesh.region)
-    out << fmt::format("{:.9g}\n", scene.modulus[static_cast<std::size_t>(region)]);
+  for (const int region : mesh.region) out << fmt::format("{:.9g}\n", scene.modulus_of(region));
   out << "\"/>\n<FixedProjectiveConstraint indices=\"";
   for (std::size_t n = 0; n < mesh.fixed.size(); ++n)
     if (mesh.fixed[n] != 0) out << n << ' ';

@@ -65,7 +65,7 @@ Workspace make_workspace(const std::vector<TetMesh>& bodies, Recording recording
   if (options.noise > 0)
     w.noise = {options.noise, false};
   else if (!w.dataset.recording.f.empty())
-    w.noise = force_noise(w.dataset);
+    w.noise = force_noise(w.dataset.recording);
   w.shape = shape_error(*w.body);
   const double mesh = w.body->mesh_uncertainty();
   w.floor = w.doubted_floor = options.floor;

@@ -74,7 +74,7 @@ Report header_of(const Overview& o) {
   const auto add = [&](const char* label, double value, const char* unit, const char* note) {
     if (std::isfinite(value)) report.numbers.push_back({label, number(value) + unit, note});
   };
-  add("median error", c.rmse, " N", "rmse of the fit, components pooled");
+  add("median error", c.rmse, " N", "rmse of the fit, measured components pooled");
   add("median error over noise", c.ratio, " ×", "1 × when nothing but noise is left");
   add("median error, unseen", c.held_out, " N", "on positions left out of the fit");
   if (!c.verdicts.empty())
@@ -142,7 +142,9 @@ std::string page_failures(const Overview& o) {
     out += "</section>\n";
   }
   if (!o.not_run.empty()) {
-    out += "<section><h2>Not run</h2><p>The batch was stopped before these; run it again.</p><ul>";
+    out +=
+        "<section><h2>Not run</h2><p>The batch was stopped before these, or what they are made of "
+        "has changed; run it again.</p><ul>";
     for (const std::string& name : o.not_run) out += "<li>" + escape_html(name) + "</li>";
     out += "</ul></section>\n";
   }

@@ -150,6 +150,20 @@ make -s -k -j2 -C orderly -f batch.mk >log 2>err
   $(grep -n -m1 '^finished' log | cut -d: -f1) -lt $(grep -n -m1 '^step d' log | cut -d: -f1) ]] ||
   complain "the order of steps: $(tr '\n' ' ' <log)"
 
+# Files that options name are the recording's too; --help among the options is a failure, not a wait; quotes
+# in the names that make is given.
+mkdir "it's"
+cp 15000.csv "it's/more.csv"
+printf 'name,body,data,options,common_options\na,../box.ply,../8000.csv,--folds 0 --data more.csv,--rim-edge 0.3\nb,../box.ply,../8000.csv,--help,\n' >"it's/two.csv"
+batch "it's out" "it's/two.csv"
+grep -q 'failed: b: model made no output' err && grep -q '1 of 2 recordings done, 1 failed' err || complain "a step without output fails"
+[[ $(wc -l <err) -lt 8 ]] || complain 'make warns of the names'
+before=$(field "it's out/summary.csv" a E)
+cp 8000.csv "it's/more.csv"
+batch "it's out" "it's/two.csv"
+awk -v a="$before" -v b="$(field "it's out/summary.csv" a E)" 'BEGIN { exit !(a > 10000 && b < 9000) }' ||
+  complain "what the options read is made from again: $before"
+
 # Manifests that cannot be read at all.
 refused() { # TEXT
   local text=$1

@@ -55,6 +55,7 @@ export_to 3 'the effect sensor-bias acts on what is measured' febio bias.csv
 export_to 2 'has no press 9' calculix elastic.csv --press 9
 export_to 3 'inclusion' calculix inclusion.csv
 
+regions() { "$bin/hs-tetmesh" -q "$1" --ascii | awk '$1 == 4 && NF == 6 { print $NF }' | sort | uniq -c; }
 # Meshes come back with their regions, and every tool takes them as a body.
 "$bin/hs-tetmesh" -q body.ply --ascii | awk '$1 == 4 && NF == 6 { $NF = n++ % 2 } 1' >parts.ply
 printf '%s\nelastic,1,E,20000\n' "$elastic" >two.csv
@@ -65,7 +66,13 @@ for format in vtu gmsh calculix febio sofa; do
   paste -d, <(grep '^[0-9]' expected.csv) <(grep '^[0-9]' forces.csv) |
     awk -F, '{ for (k = 9; k <= 11; ++k) { d = $k - $(k + NF / 2); if (d < 0) d = -d; if (d > 1e-9) bad = 1 } n++ } END { exit bad || n != 122 }' ||
     complain "$format gives the same forces"
+  cmp -s <(regions parts.ply) <(regions back.$format) || complain "$format keeps the body's regions"
 done
+grep -q 'elastic E of region 1 acts nowhere' <("$bin/hs-export" two.csv --format vtu --body parts.ply 2>&1 >/dev/null) ||
+  complain 'a modulus without a place is told'
+{ echo '# converged: no'; echo "$elastic"; } >early.csv
+grep -q 'before it converged' <("$bin/hs-export" early.csv --format vtu --body parts.ply 2>&1 >/dev/null) ||
+  complain 'a fit that did not converge is told'
 # A deck as others write them: words in any case, an element over two lines, sets by ranges, a clamp.
 cat >deck.inp <<'INP'
 *Heading

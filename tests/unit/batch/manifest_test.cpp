@@ -49,6 +49,33 @@ TEST_F(ManifestTest, RowsAreReadWithTheirPathsFromHere) {
   EXPECT_EQ(row.extra, std::vector<std::string>{"80"});
 }
 
+TEST_F(ManifestTest, FilesInOptionsAreFromItsFolderAndRead) {
+  const Manifest m = read(
+      "name,scan,data,options,common_options,tetmesh_options,compare_options\n"
+      "x,s.csv,a.csv,--data=a.csv --history h.csv,--rim-edge 0.3,--order 2 --region b.ply --fixed "
+      "bottom+file:s.csv,--simulated old=a.csv\n"
+      "y,s.csv,a.csv,--data gone.csv,,,\n");
+  const ManifestRow& row = m.rows[0];
+  EXPECT_EQ(row.problem, "");
+  EXPECT_EQ(options_of(row, "model"),
+            (std::vector<std::string>{"--data=" + folder_ + "a.csv", "--history", "h.csv"}));
+  EXPECT_EQ(options_of(row, "body"),
+            (std::vector<std::string>{"--order", "2", "--region", folder_ + "b.ply", "--fixed",
+                                      "bottom+file:" + folder_ + "s.csv"}));
+  EXPECT_EQ(options_of(row, "report"),
+            (std::vector<std::string>{"--simulated", "old=" + folder_ + "a.csv"}));
+  const Batch batch = plan_batch(m, {});
+  for (const BatchStep& step : batch.steps) {
+    if (step.name == "body") {
+      EXPECT_EQ(step.given, (std::vector<std::string>{folder_ + "b.ply", folder_ + "s.csv"}));
+    }
+    if (step.name == "model") {
+      EXPECT_EQ(step.given, (std::vector<std::string>{folder_ + "a.csv", folder_ + "a.csv"}));
+    }
+  }
+  EXPECT_NE(m.rows[1].problem.find("gone.csv': No such file"), std::string::npos);
+}
+
 TEST_F(ManifestTest, ARowsFaultIsItsOwn) {
   EXPECT_EQ(problem("x,b.ply,,a.csv,,"), "");
   for (const auto& [row, what] : std::vector<std::pair<std::string, std::string>>{

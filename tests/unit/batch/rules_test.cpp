@@ -141,7 +141,12 @@ TEST_F(RulesTest, WhatIsDoneIsReadBack) {
   EXPECT_EQ(o.effects, "elastic+tip");
   EXPECT_EQ(o.modulus, "9000");
   EXPECT_DOUBLE_EQ(o.held_out, 0.03);
-  write("out/recordings/x/model.csv", "nonsense\n");
+  EXPECT_EQ(read_outcomes(plan(manifest("x", folder_ + "/b.ply")))[0].state,
+            RecordingState::kNotRun);
+  write("a.csv", "other\n");
+  EXPECT_EQ(read_outcomes(batch_)[0].state, RecordingState::kNotRun);
+  write_rules(batch_, "", "1");
+  write("out/recordings/x/model.csv", "nonsense\n");  // again there
   EXPECT_EQ(read_outcomes(batch_)[0].state, RecordingState::kFailed);
 }
 

@@ -19,12 +19,27 @@ std::string message_of(const std::function<void()>& call) {
 }
 
 TEST(Residuals, SizePoolsTheComponents) {
-  const std::vector<Vec3> measured{{3, 0, 0}, {0, 0, 4}}, simulated{{0, 0, 0}, {0, 0, 0}};
+  const std::vector<Vec3> measured{{3, 2, 0}, {0, 0, 4}}, simulated{{0, 0, 0}, {0, 0, 0}};
   const ErrorSize size = error_size(measured, simulated);
-  EXPECT_DOUBLE_EQ(size.rmse, std::sqrt(25.0 / 6));
+  EXPECT_DOUBLE_EQ(size.rmse, std::sqrt(29.0 / 6));
   EXPECT_DOUBLE_EQ(size.force_rms, size.rmse);
   EXPECT_DOUBLE_EQ(size.force_peak, 4);
   EXPECT_DOUBLE_EQ(size.rmse_axis[2], std::sqrt(8.0));
+}
+
+// A load cell of one axis: the zeros of the others are no measurements, and dilute nothing.
+TEST(Residuals, AxesThatWereNotMeasuredDoNotCount) {
+  Synthetic s = synthetic(12, 4, 0.02, 1);
+  const std::vector<Vec3> all = s.measured.f;
+  std::vector<Vec3> simulated;
+  for (Vec3& f : s.measured.f) f = Vec3(0, 0, f.z());
+  for (const Vec3& f : s.simulated) simulated.emplace_back(0, 0, f.z());
+  ASSERT_EQ(measured_axes(all), 3);
+  ASSERT_EQ(measured_axes(s.measured.f), 1);
+  const ErrorSize size = error_size(s.measured.f, simulated);
+  EXPECT_DOUBLE_EQ(size.rmse, size.rmse_axis[2]);
+  s.measured.metadata.remove("force_noise");
+  EXPECT_NEAR(noise_level(s.measured).value, 0.02, 0.002);
 }
 
 TEST(Residuals, NoiseIsDeclaredOrEstimated) {

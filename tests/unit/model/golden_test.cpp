@@ -57,6 +57,20 @@ TEST(Golden, AnErrorMayFall) {
   EXPECT_EQ(verdict(0.111), GoldenVerdict::kDiffers);
 }
 
+TEST(Golden, AnErrorMayNotBeAbsentNorTheFitEndedEarly) {
+  const Model golden = model(10000, 40, 0.1);
+  Model silent = golden, early = golden;
+  silent.metadata.remove("rmse");
+  EXPECT_EQ(compare_with_golden(silent, golden, options(0.01)).back().verdict,
+            GoldenVerdict::kGone);
+  EXPECT_EQ(compare_with_golden(golden, silent, options(0.01)).size(), 2U);
+  early.metadata.set("converged", "no");
+  const GoldenRow row = compare_with_golden(early, golden, options(0.01)).back();
+  EXPECT_EQ(row.verdict, GoldenVerdict::kDiffers);
+  EXPECT_NE(row.why.find("before it converged"), std::string::npos);
+  EXPECT_EQ(compare_with_golden(early, early, options(0.01)).back().parameter, "rmse");
+}
+
 TEST(Golden, FixedValuesByToleranceAlone) {
   Model golden = model(10000, 40, 0.1), now = golden;
   now.parameters[1].value = 0.401;
