@@ -59,7 +59,7 @@ prepare() {
       printf "%.2f,%.2f,0.04,%.0f,%.3f,200,0.01,90\n", 0.01 * (i % 4), 0.01 * int(i / 4), (i < 6 ? 8000 : 16000) + 300 * rand(), 0.4 + 0.02 * rand() }' >samples.csv &&
     "$bin/hs-identify" -q data.csv --body body.ply --rim-edge 0.5 --folds 0 --library lab.db -o identified.csv &&
     "$bin/hs-identify" -q data.csv --body body.ply --acfm 1 -o acfm.csv &&
-    printf 'name,body,data,effects,options,common_options\na,body.ply,data.csv,elastic,--folds 0,--rim-edge 0.5\nb,body.ply,data.csv,elastic viscoelastic,,\n' >manifest.csv &&
+    printf 'name,body,data,effects,options,common_options\na,body.ply,data.csv,elastic,--folds 0 --data data.csv,--rim-edge 0.5\nb,body.ply,data.csv,elastic viscoelastic,,\n' >manifest.csv &&
     awk 'BEGIN { print "q1,q2,q3,q4,q5,q6,d"
       for (i = 0; i < 20; ++i) printf "%.2f,%.2f,-0.3,0.1,0.2,0,%.3f\n", 0.02 * (i % 5), 0.1 + 0.02 * int(i / 5), 0.1 + 0.001 * (i % 3) }' >joints.csv &&
     pcd ascii >text.pcd && awk 'NR % 5 == 2 { gsub(",", " "); print }' scan.csv >>text.pcd &&
