@@ -91,9 +91,9 @@ ToolSpec specification() {
         {"tool", "radius of the tool, 0.004 [m] or 4mm; empty: as the recording says"},
         {"effects", "as hs-identify --effects: elastic (when empty), 'elastic viscoelastic', auto"},
         {"options",
-         "further flags of hs-identify, quoted as in a shell; files that flags read are relative "
-         "to "
-         "the manifest's folder too, and made again from when they change"},
+         "further flags of hs-identify, quoted as in a shell; files that flags read (--data, "
+         "--region) are inputs, and relative to the manifest's folder too; those that they write, "
+         "and a --library, are relative to the folder where make runs"},
         {"common_options",
          "flags of hs-identify, hs-diagnose and hs-simulate alike: --rim-edge 0.2"},
         {"scan_unit", "unit of the scan, m when empty"},

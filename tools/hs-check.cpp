@@ -25,8 +25,7 @@ ToolSpec specification() {
       "model has differ, and so do those that are fixed in one and free in the other. The "
       "errors of the fit and on unseen data (metadata rmse, heldout) may be smaller, but not "
       "larger by more than --worse, nor absent when the golden model has them. A fit that was "
-      "ended "
-      "before it converged differs from one that was not.",
+      "ended before it converged differs from one that was not.",
       "Exit code 1 when anything differs, and a line for each that says what."};
   spec.options = {
       {.flag = "--golden",

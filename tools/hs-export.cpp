@@ -24,12 +24,12 @@ ToolSpec specification() {
       "regions, neo-Hookean finite strain (hyperelastic with s = 0), and for FEBio relaxation. An "
       "effect that the other program cannot have is refused by its name.",
       "The forces of a linear body of first-order tetrahedra are those of hs-simulate --own-mesh; "
-      "the "
-      "finer contact meshes, from which hs-identify works, are not part of the body. With second "
+      "the finer contact meshes, from which hs-identify works, are not part of the body. With "
+      "second "
       "order and with finite strain hapsim averages the change of volume over each tetrahedron, or "
-      "over neighbours, against locking; CalculiX does not, and is stiffer: by 1 % at nu = 0.2, 3 "
-      "% "
-      "at 0.43, 8 % at 0.49 and 15 % at 0.499 on a coarse second-order body.",
+      "over neighbours, against locking; CalculiX does not, and is stiffer: on a second-order "
+      "block "
+      "four elements wide by 2 % at nu = 0.2, 8 % at 0.45, 14 % at 0.49 and 24 % at 0.499.",
       "vtu and gmsh hold the mesh alone, the model's regions or else its own, and for vtu the "
       "moduli. "
       "Every tool that takes --body, and hs-tetmesh, reads any of the five back: nodes, "

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "batch/rules.h"
+#include "batch/step_script.h"
 #include "io/csv.h"
 
 namespace hapsim {

@@ -1,7 +1,6 @@
 #include "batch/rules.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +11,7 @@
 #include "base/error.h"
 #include "batch/outcome.h"
 #include "batch/shell_words.h"
+#include "batch/step_script.h"
 
 namespace hapsim {
 namespace {
@@ -102,24 +102,6 @@ const BatchStep& step_at(const Batch& batch, int s) {
   return batch.steps[static_cast<std::size_t>(s)];
 }
 
-// A step's command, and the size and time of each file of the user's that it reads. make sees only
-// files that are newer; with these an older copy that was put back, and one that changed after the
-// clock was stepped back, are noticed too.
-std::string script_of(const BatchStep& step) {
-  std::string script;
-  for (const std::string& path : step.given) {
-    struct stat info {};
-    if (stat(path.c_str(), &info) == 0)
-      script += fmt::format("# {}: {} bytes, {}.{:09}\n", path, info.st_size, info.st_mtim.tv_sec,
-                            info.st_mtim.tv_nsec);
-  }
-  return script + step.command + "\n";
-}
-
-fs::path script_path(const Batch& batch, const BatchStep& step) {
-  return fs::path(batch.options.folder) / step.folder / (step.name + ".sh");
-}
-
 // Removes what is to be made anew: the results and failures of the steps whose script is another
 // now, and of all that build on them. Before any script is written: a kill on the way then leaves
 // nothing stale behind.
@@ -195,8 +177,7 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
                             ":$PATH\n"));
   write_if_changed(folder / "array.sh", fmt::format(kArrayScript, absolute));
   std::vector<std::string> scripts;
-  for (const BatchStep& step : batch.steps)
-    scripts.push_back("# hapsim " + version + "\n" + script_of(step));
+  for (const BatchStep& step : batch.steps) scripts.push_back(script_of(step, version));
   write_scripts(batch, scripts);
 
   PrepareReport report;
@@ -244,13 +225,6 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
   list.write(targets);
   list.commit();
   return report;
-}
-
-bool is_current(const Batch& batch, const BatchStep& step) {
-  std::ifstream file(script_path(batch, step), std::ios::binary);
-  std::string version;
-  std::ostringstream rest;
-  return std::getline(file, version) && rest << file.rdbuf() && rest.str() == script_of(step);
 }
 
 }  // namespace hapsim

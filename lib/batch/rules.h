@@ -28,8 +28,4 @@ struct PrepareReport {
 // on it, until its command or one of its inputs changes. `bin` goes before the PATH; may be empty.
 PrepareReport write_rules(const Batch& batch, const std::string& bin, const std::string& version);
 
-// Whether the step's script is as write_rules would write it now, by whatever version: neither the
-// command nor a file of the user's that it reads is another.
-bool is_current(const Batch& batch, const BatchStep& step);
-
 }  // namespace hapsim

@@ -134,8 +134,7 @@ std::string page_failures(const Overview& o) {
   if (!o.failures.empty()) {
     out +=
         "<section><h2>Failed</h2><p>The commands repeat the failures, in the folder where the "
-        "batch was "
-        "started and with hapsim's tools on the PATH.</p>\n";
+        "batch was started and with hapsim's tools on the PATH.</p>\n";
     for (const OverviewFailure& f : o.failures) {
       out += fmt::format("<div class='long'><b>{}</b><br>{}", escape_html(f.name),
                          escape_html(f.message));

@@ -35,7 +35,7 @@ awk -F, 'NR > 1 && $3 == "done" { name = $1; gsub(/"/, "", name); rmse[name] = $
   END { tough = "it'"'"'s tough"
     exit !(rmse[tough " elastic"] > 3 * rmse[tough " auto"] && effects[tough " auto"] ~ /viscoelastic/ &&
       E["soft auto"] > 7600 && E["soft auto"] < 8400) }' out/summary.csv || { complain 'the models'; cut -d, -f1-11 out/summary.csv; }
-# One axis was measured: its error is the error, not a third of it squared.
+# One axis was measured: the zeros of the others do not make its error smaller.
 awk -F, 'NR > 1 && $1 ~ /auto/ && $3 == "done" { ratio = $7 / $9; n += ratio > 0.9 && ratio < 1.5 } END { exit n != 2 }' out/summary.csv ||
   complain "errors are as large as the noise: $(cut -d, -f1,7,9 out/summary.csv)"
 grep -q 'By the effects asked for' out/overview.html && grep -q "href='recordings/soft-elastic" out/overview.html ||

@@ -146,7 +146,7 @@ TEST_F(RulesTest, WhatIsDoneIsReadBack) {
   write("a.csv", "other\n");
   EXPECT_EQ(read_outcomes(batch_)[0].state, RecordingState::kNotRun);
   write_rules(batch_, "", "1");
-  write("out/recordings/x/model.csv", "nonsense\n");  // again there
+  write("out/recordings/x/model.csv", "nonsense\n");
   EXPECT_EQ(read_outcomes(batch_)[0].state, RecordingState::kFailed);
 }
 
