@@ -19,9 +19,10 @@
 #include <vector>
 
 #include "calculix_input.h"
-#include "fem/mesh_press.h"
-#include "geometry/body_mesh.h"
+#include "formats/tetmesh_io.h"
+#include "solid/mesh_press.h"
 #include "support/block_mesh.h"
+#include "tetmesh/body_mesh.h"
 #include "whole_run.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/tetmesh.h"
+#include "mesh/tetmesh.h"
 
 namespace hapsim::bench {
 

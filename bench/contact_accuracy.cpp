@@ -25,13 +25,14 @@
 #include <thread>
 #include <vector>
 
-#include "fem/contact_stiffness.h"
-#include "fem/elastic_body.h"
-#include "geometry/body_mesh.h"
+#include "contact/contact_stiffness.h"
+#include "formats/surface_io.h"
 #include "linalg/blas.h"
+#include "solid/elastic_body.h"
 #include "support/block_mesh.h"
 #include "support/finer_contact.h"
 #include "support/objects.h"
+#include "tetmesh/body_mesh.h"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // What a contact position costs: a mesh, and one solution of its stiffness on both of them.
 #include <benchmark/benchmark.h>
 
-#include "fem/contact_stiffness.h"
+#include "contact/contact_stiffness.h"
 #include "linalg/blas.h"
 #include "support/block_mesh.h"
 

@@ -13,12 +13,12 @@
 #include <fstream>
 
 #include "calculix_input.h"
-#include "fem/contact_stiffness.h"
-#include "fem/mesh_press.h"
-#include "geometry/body_mesh.h"
+#include "contact/contact_stiffness.h"
 #include "linalg/blas.h"
 #include "log_plot.h"
+#include "solid/mesh_press.h"
 #include "support/objects.h"
+#include "tetmesh/body_mesh.h"
 #include "whole_run.h"
 
 namespace {

@@ -2,11 +2,11 @@
 // first-order tetrahedra), and a graded second-order mesh of one contact.
 #include <benchmark/benchmark.h>
 
-#include "fem/contact_stiffness.h"
-#include "fem/elastic_body.h"
-#include "fem/hyperelastic_law.h"
-#include "fem/nonlinear_body.h"
+#include "contact/contact_stiffness.h"
 #include "linalg/blas.h"
+#include "material/hyperelastic_law.h"
+#include "nonlinear/nonlinear_body.h"
+#include "solid/elastic_body.h"
 #include "support/block_mesh.h"
 
 namespace {

@@ -12,13 +12,14 @@
 #include <thread>
 
 #include "effects/catalogue.h"
-#include "geometry/body_mesh.h"
+#include "formats/tetmesh_io.h"
 #include "linalg/blas.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"
 #include "realtime/real_time.h"
 #include "support/block_mesh.h"
 #include "support/objects.h"
+#include "tetmesh/body_mesh.h"
 
 namespace {
 

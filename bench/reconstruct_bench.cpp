@@ -21,9 +21,10 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "geometry/clean_points.h"
-#include "geometry/reconstruct.h"
-#include "geometry/surface_tree.h"
+#include "formats/surface_io.h"
+#include "mesh/surface_tree.h"
+#include "reconstruct/clean_points.h"
+#include "reconstruct/reconstruct.h"
 
 namespace hapsim {
 namespace {

@@ -20,11 +20,11 @@
 #include <vector>
 
 #include "bare_cholmod.h"
-#include "fem/elastic_assembly.h"
-#include "fem/mesh_press.h"
-#include "fem/surface_compliance.h"
 #include "linalg/blas.h"
 #include "log_plot.h"
+#include "solid/elastic_assembly.h"
+#include "solid/mesh_press.h"
+#include "solid/surface_compliance.h"
 #include "support/block_mesh.h"
 #include "whole_run.h"
 

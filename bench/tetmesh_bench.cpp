@@ -22,10 +22,11 @@
 #include <vector>
 
 #include "base/random.h"
-#include "geometry/signed_distance.h"
-#include "geometry/three_nodes.h"
-#include "geometry/tool_contact.h"
-#include "unit/geometry/shapes.h"
+#include "formats/surface_io.h"
+#include "mesh/signed_distance.h"
+#include "mesh/three_nodes.h"
+#include "mesh/tool_contact.h"
+#include "support/shapes.h"
 
 namespace hapsim {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "realtime/watch.h"
 #include "support/changing_world.h"
+#include "watch/watch.h"
 
 namespace {
 

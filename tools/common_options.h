@@ -6,11 +6,12 @@
 #include <fstream>
 
 #include "cli/tool.h"
-#include "geometry/tetmesh.h"
-#include "io/recording.h"
-#include "model/plausible.h"
+#include "experiment/plausible.h"
+#include "experiment/workspace.h"
+#include "formats/tetmesh_io.h"
+#include "mesh/tetmesh.h"
 #include "model/search_state.h"
-#include "model/workspace.h"
+#include "recording/recording.h"
 
 namespace hapsim {
 

@@ -1,11 +1,11 @@
 // The body and the model as a comparison shows them: layers of colour, parameters, a coloured PLY.
 #pragma once
 
+#include "compare/error_map.h"
 #include "compare_report.h"
-#include "diagnose/error_map.h"
-#include "io/ply.h"
-#include "model/forces.h"
-#include "model/nearest_region.h"
+#include "experiment/forces.h"
+#include "experiment/nearest_region.h"
+#include "formats/ply.h"
 #include "report/palette.h"
 
 namespace hapsim {

@@ -8,11 +8,12 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
-#include "geometry/tetmesh.h"
+#include "formats/tetmesh_io.h"
 #include "io/csv.h"
-#include "model/edit.h"
-#include "realtime/watch.h"
+#include "mesh/tetmesh.h"
+#include "model/model_edit.h"
 #include "stream_options.h"
+#include "watch/watch.h"
 
 namespace hapsim {
 

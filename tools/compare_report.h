@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "cli/tool.h"
-#include "diagnose/comparison.h"
-#include "diagnose/sentences.h"
-#include "diagnose/trend.h"
+#include "compare/comparison.h"
+#include "compare/gain_sentences.h"
+#include "compare/trend.h"
 #include "io/csv.h"
 #include "report/report.h"
 

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "io/csv.h"
-#include "model/golden.h"
+#include "model/golden_model.h"
 #include "report/junit.h"
 
 namespace hapsim {

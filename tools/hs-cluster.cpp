@@ -6,8 +6,9 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
+#include "formats/tetmesh_io.h"
 #include "io/csv.h"
-#include "model/region_map.h"
+#include "regions/region_map.h"
 #include "report/palette.h"
 #include "report/plot.h"
 

@@ -11,7 +11,9 @@
 #include "compare_follow.h"
 #include "compare_report.h"
 #include "compare_specification.h"
-#include "geometry/tetmesh.h"
+#include "formats/surface_io.h"
+#include "formats/tetmesh_io.h"
+#include "mesh/tetmesh.h"
 #include "report/figures.h"
 #include "report/junit.h"
 

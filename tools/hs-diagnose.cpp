@@ -7,10 +7,10 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "diagnose/diagnose.h"
-#include "diagnose/plan.h"
+#include "experiment/plausible.h"
 #include "io/csv.h"
-#include "model/edit.h"
-#include "model/plausible.h"
+#include "model/model_edit.h"
+#include "plan/press_plan.h"
 #include "report/junit.h"
 
 namespace hapsim {

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "common_options.h"
-#include "geometry/field_vtu.h"
-#include "geometry/mesh_file.h"
-#include "model/scene.h"
+#include "exchange/scene.h"
+#include "formats/field_vtu.h"
+#include "formats/mesh_file.h"
 
 namespace hapsim {
 namespace {

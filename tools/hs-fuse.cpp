@@ -5,14 +5,14 @@
 
 #include "base/error.h"
 #include "common_options.h"
+#include "fusion/fuse_recordings.h"
+#include "fusion/fused_loop.h"
 #include "io/csv.h"
-#include "model/edit.h"
-#include "model/full_simulation.h"
-#include "realtime/fuse_recordings.h"
-#include "realtime/fused_loop.h"
+#include "model/model_edit.h"
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
 #include "realtime/real_time.h"
+#include "simulate/full_simulation.h"
 #include "stream_options.h"
 
 namespace hapsim {

@@ -10,6 +10,10 @@
 #include "diagnose/improve.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
+#include "experiment/plausible.h"
+#include "fit/extend.h"
+#include "fit/location_fit.h"
+#include "fit/maxwell_terms.h"
 #include "identify_acfm.h"
 #include "identify_boundary.h"
 #include "identify_follow.h"
@@ -21,12 +25,8 @@
 #include "identify_search.h"
 #include "identify_specification.h"
 #include "identify_until.h"
-#include "model/edit.h"
-#include "model/extend.h"
-#include "model/history.h"
-#include "model/location_fit.h"
-#include "model/plausible.h"
-#include "model/terms.h"
+#include "model/model_edit.h"
+#include "model/model_history.h"
 
 namespace hapsim {
 namespace {

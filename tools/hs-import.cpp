@@ -6,6 +6,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
+#include "formats/surface_io.h"
 #include "import/block.h"
 #include "import/import.h"
 #include "io/csv.h"

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "io/csv.h"
-#include "model/edit.h"
+#include "model/model_edit.h"
 #include "model/model_library.h"
 
 namespace hapsim {

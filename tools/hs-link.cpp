@@ -9,14 +9,14 @@
 #include "effects/catalogue.h"
 #include "io/csv.h"
 #include "io/interrupt.h"
-#include "io/udp.h"
+#include "link/impaired_channel.h"
+#include "link/telepresence.h"
+#include "link/udp.h"
 #include "link_specification.h"
-#include "model/edit.h"
+#include "model/model_edit.h"
 #include "realtime/force_loop.h"
-#include "realtime/impaired_channel.h"
 #include "realtime/latency.h"
 #include "realtime/real_time.h"
-#include "realtime/telepresence.h"
 #include "stream_options.h"
 
 namespace hapsim {

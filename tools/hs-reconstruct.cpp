@@ -7,9 +7,10 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/tool.h"
-#include "geometry/reconstruct.h"
-#include "geometry/repair.h"
+#include "formats/surface_io.h"
 #include "io/number.h"
+#include "reconstruct/reconstruct.h"
+#include "repair/repair.h"
 
 namespace hapsim {
 namespace {

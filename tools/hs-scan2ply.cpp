@@ -10,17 +10,18 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/tool.h"
-#include "geometry/clean_points.h"
-#include "geometry/normals.h"
+#include "formats/surface_io.h"
 #include "io/number.h"
-#include "scan/isosurface.h"
+#include "reconstruct/clean_points.h"
+#include "reconstruct/normals.h"
 #include "scan/orient.h"
 #include "scan/plan_file.h"
 #include "scan/register.h"
 #include "scan/scan_file.h"
 #include "scan/touch.h"
-#include "scan/volume.h"
 #include "scan2ply_specification.h"
+#include "volume/isosurface.h"
+#include "volume/volume.h"
 
 namespace hapsim {
 namespace {

@@ -3,17 +3,17 @@
 
 #include <optional>
 
+#include "acfm/acfm_fit.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "common_options.h"
+#include "experiment/forces.h"
 #include "io/csv.h"
-#include "model/edit.h"
-#include "model/field_rows.h"
-#include "model/forces.h"
-#include "model/full_simulation.h"
-#include "model/own_mesh.h"
-#include "model/regional_relaxation.h"
-#include "realtime/acfm_fit.h"
+#include "model/model_edit.h"
+#include "simulate/field_rows.h"
+#include "simulate/full_simulation.h"
+#include "simulate/own_mesh.h"
+#include "simulate/regional_relaxation.h"
 #include "simulate_live.h"
 #include "simulate_specification.h"
 

@@ -7,11 +7,12 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/tool.h"
-#include "geometry/body_input.h"
-#include "geometry/body_mesh.h"
-#include "geometry/contact_mesh.h"
-#include "geometry/curve_edges.h"
-#include "io/recording.h"
+#include "formats/body_input.h"
+#include "formats/tetmesh_io.h"
+#include "recording/recording.h"
+#include "tetmesh/body_mesh.h"
+#include "tetmesh/contact_mesh.h"
+#include "tetmesh/curve_edges.h"
 #include "tetmesh_report.h"
 
 namespace hapsim {

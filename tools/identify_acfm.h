@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "acfm/acfm_fit.h"
 #include "base/error.h"
 #include "common_options.h"
-#include "geometry/signed_distance.h"
 #include "identify_plan.h"
 #include "identify_recordings.h"
-#include "realtime/acfm_fit.h"
+#include "io/stream.h"
+#include "mesh/signed_distance.h"
 
 namespace hapsim {
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
-#include "model/boundary_fit.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
+#include "fit/boundary_fit.h"
 
 namespace hapsim {
 

@@ -3,9 +3,9 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
-#include "model/image_file.h"
-#include "model/stiffness_image.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
+#include "imaging/image_file.h"
+#include "imaging/stiffness_image.h"
 
 namespace hapsim {
 

@@ -8,10 +8,10 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "effects/catalogue.h"
+#include "fit/extend.h"
+#include "fit/maxwell_terms.h"
 #include "io/csv.h"
-#include "model/edit.h"
-#include "model/extend.h"
-#include "model/terms.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 

@@ -11,10 +11,11 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "effects/catalogue.h"
+#include "experiment/plausible.h"
+#include "fit/extend.h"
+#include "formats/tetmesh_io.h"
 #include "identify_plan.h"
-#include "io/recording_join.h"
-#include "model/extend.h"
-#include "model/plausible.h"
+#include "recording/recording_join.h"
 
 namespace hapsim {
 

@@ -9,11 +9,11 @@
 #include "base/counted.h"
 #include "cli/tool.h"
 #include "estimate/identifiability.h"
+#include "experiment/plausible.h"
+#include "experiment/workspace.h"
+#include "fit/fit.h"
+#include "fit/maxwell_terms.h"
 #include "linalg/blas.h"
-#include "model/fit.h"
-#include "model/plausible.h"
-#include "model/terms.h"
-#include "model/workspace.h"
 
 namespace hapsim {
 

@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
+#include "fit/fit.h"
 #include "io/interrupt.h"
-#include "model/fit.h"
 #include "model/search_state.h"
 
 namespace hapsim {

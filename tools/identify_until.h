@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
+#include "experiment/workspace.h"
+#include "fit/rest_of_press.h"
 #include "identify_recordings.h"
-#include "model/later.h"
-#include "model/workspace.h"
 
 namespace hapsim {
 

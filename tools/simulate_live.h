@@ -6,10 +6,10 @@
 #include <memory>
 #include <optional>
 
+#include "acfm/acfm_loop.h"
 #include "base/error.h"
 #include "common_options.h"
-#include "model/edit.h"
-#include "realtime/acfm_loop.h"
+#include "model/model_edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"

@@ -7,10 +7,11 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "effects/catalogue.h"
-#include "geometry/tetmesh.h"
+#include "io/stream.h"
+#include "mesh/tetmesh.h"
 #include "model/model.h"
 #include "realtime/motion_lines.h"
-#include "realtime/online_identification.h"
+#include "watch/online_identification.h"
 
 namespace hapsim {
 

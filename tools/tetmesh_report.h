@@ -9,8 +9,8 @@
 #include <string>
 
 #include "cli/tool.h"
-#include "geometry/body_mesh.h"
-#include "geometry/quality.h"
+#include "mesh/quality.h"
+#include "tetmesh/body_mesh.h"
 
 namespace hapsim {
 

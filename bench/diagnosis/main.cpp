@@ -16,9 +16,10 @@
 #include "base/error.h"
 #include "diagnose/candidate.h"
 #include "diagnose/diagnose.h"
-#include "diagnose/unseen.h"
+#include "diagnose/held_out.h"
 #include "effects/catalogue.h"
-#include "geometry/tetmesh.h"
+#include "formats/tetmesh_io.h"
+#include "mesh/tetmesh.h"
 #include "summary.h"
 #include "truths.h"
 

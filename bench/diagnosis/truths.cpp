@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "effects/catalogue.h"
-#include "model/extend.h"
+#include "fit/extend.h"
 
 namespace hapsim::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
 
 namespace hapsim::bench {
 

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "cases.h"
-#include "fem/field_stiffness.h"
-#include "geometry/body_mesh.h"
-#include "model/extend.h"
-#include "model/stiffness_image.h"
+#include "contact/field_stiffness.h"
+#include "fit/extend.h"
+#include "imaging/stiffness_image.h"
 #include "support/block_mesh.h"
+#include "tetmesh/body_mesh.h"
 #include "truth.h"
 
 namespace hapsim::bench {

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "cases.h"
-#include "model/extend.h"
-#include "model/terms.h"
+#include "fit/extend.h"
+#include "fit/maxwell_terms.h"
 #include "support/finer_contact.h"
 #include "truth.h"
 

@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "cases.h"
-#include "model/boundary_fit.h"
-#include "model/extend.h"
-#include "model/location_fit.h"
-#include "model/region_map.h"
+#include "fit/boundary_fit.h"
+#include "fit/extend.h"
+#include "fit/location_fit.h"
+#include "regions/region_map.h"
 #include "support/finer_contact.h"
 #include "truth.h"
 

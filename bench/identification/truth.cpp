@@ -6,11 +6,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "geometry/body_mesh.h"
 #include "io/csv.h"
+#include "io/stream.h"
 #include "support/block_mesh.h"
 #include "support/finer_contact.h"
 #include "support/objects.h"
+#include "tetmesh/body_mesh.h"
 
 namespace hapsim::bench {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "fem/contact_stiffness.h"
-#include "io/recording.h"
-#include "model/workspace.h"
+#include "contact/contact_stiffness.h"
+#include "experiment/workspace.h"
+#include "recording/recording.h"
 
 namespace hapsim::bench {
 

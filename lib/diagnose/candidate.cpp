@@ -6,11 +6,11 @@
 #include <map>
 
 #include "base/error.h"
+#include "diagnose/held_out.h"
 #include "diagnose/offset_test.h"
-#include "diagnose/probability.h"
-#include "diagnose/unseen.h"
 #include "effects/catalogue.h"
-#include "model/press_offsets.h"
+#include "estimate/probability.h"
+#include "fit/press_offsets.h"
 
 namespace hapsim {
 namespace {

@@ -1,8 +1,8 @@
 // Whether residuals ask for another contact stiffness, over all positions and at the worst one.
 #pragma once
 
-#include "model/fit.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
+#include "fit/fit.h"
 
 namespace hapsim {
 

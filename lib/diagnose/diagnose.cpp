@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "diagnose/both_act.h"
 #include "diagnose/departures.h"
 #include "diagnose/few_presses.h"
-#include "diagnose/round.h"
+#include "diagnose/rivals_together.h"
 #include "diagnose/superfluous.h"
+#include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "model/extend.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
+#include "fit/extend.h"
 
 namespace hapsim {
 

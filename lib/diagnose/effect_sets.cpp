@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnose/departures.h"
-#include "diagnose/round.h"
+#include "diagnose/try_effects.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {

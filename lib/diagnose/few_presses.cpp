@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "diagnose/effect_sets.h"
-#include "diagnose/round.h"
+#include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 

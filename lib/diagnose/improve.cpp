@@ -3,9 +3,9 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "diagnose/unseen.h"
+#include "diagnose/held_out.h"
 #include "effects/catalogue.h"
-#include "model/edit.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/probability.h"
+#include "estimate/probability.h"
 
 namespace hapsim {
 namespace {

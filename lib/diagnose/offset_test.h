@@ -1,7 +1,7 @@
 // Whether the presses have offsets of their own.
 #pragma once
 
-#include "model/weights.h"
+#include "experiment/weights.h"
 
 namespace hapsim {
 

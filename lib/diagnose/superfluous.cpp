@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
-#include "model/edit.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 

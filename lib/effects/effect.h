@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/vec3.h"
-#include "fem/body_features.h"
+#include "material/body_features.h"
 
 namespace hapsim {
 

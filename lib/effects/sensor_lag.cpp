@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "effects/effects.h"
-#include "fem/memory.h"
+#include "material/maxwell_memory.h"
 
 namespace hapsim {
 namespace {

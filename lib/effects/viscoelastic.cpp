@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "effects/effects.h"
-#include "fem/memory.h"
+#include "material/maxwell_memory.h"
 
 namespace hapsim {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/vec3.h"
-#include "io/ply.h"
+#include "formats/ply.h"
 
 namespace hapsim {
 

@@ -7,7 +7,7 @@
 
 #include "import/raw_table.h"
 #include "import/samples.h"
-#include "io/recording.h"
+#include "recording/recording.h"
 
 namespace hapsim {
 

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "effects/catalogue.h"
-#include "model/edit.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "geometry/tetmesh.h"
 #include "io/database.h"
-#include "io/recording.h"
+#include "mesh/tetmesh.h"
 #include "model/model.h"
+#include "recording/recording.h"
 
 namespace hapsim {
 

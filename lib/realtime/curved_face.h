@@ -1,7 +1,7 @@
 // The smooth surface that a triangle stands for.
 #pragma once
 
-#include "geometry/signed_distance.h"
+#include "mesh/signed_distance.h"
 
 namespace hapsim {
 

@@ -1,6 +1,6 @@
 #include "realtime/force_loop.h"
 
-#include "fem/memory.h"
+#include "material/maxwell_memory.h"
 
 namespace hapsim {
 

@@ -1,7 +1,7 @@
 // Points of a triangle surface made vertices of it: private to lib/realtime.
 #pragma once
 
-#include "geometry/surface.h"
+#include "mesh/surface.h"
 
 namespace hapsim {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "base/error.h"
-#include "model/forces.h"
-#include "model/nearest_region.h"
-#include "model/regional_relaxation.h"
+#include "experiment/forces.h"
+#include "experiment/nearest_region.h"
+#include "simulate/regional_relaxation.h"
 
 namespace hapsim {
 namespace {

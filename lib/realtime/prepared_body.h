@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/signed_distance.h"
-#include "model/body_stiffness.h"
+#include "experiment/body_stiffness.h"
+#include "mesh/signed_distance.h"
 #include "model/model.h"
-#include "model/relaxation.h"
+#include "model/relaxation_steps.h"
 #include "realtime/stiffness_field.h"
 
 namespace hapsim {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "fem/surface_compliance.h"
+#include "solid/surface_compliance.h"
 
 namespace hapsim {
 

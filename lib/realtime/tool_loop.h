@@ -1,7 +1,7 @@
 // A tool in contact, sample by sample, whatever model answers it.
 #pragma once
 
-#include "geometry/tool_contact.h"
+#include "mesh/tool_contact.h"
 
 namespace hapsim {
 

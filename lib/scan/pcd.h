@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "geometry/surface.h"
+#include "mesh/surface.h"
 
 namespace hapsim {
 

@@ -1,9 +1,10 @@
 #include "scan/plan_file.h"
 
 #include "base/error.h"
-#include "geometry/clean_points.h"
-#include "geometry/normals.h"
+#include "formats/surface_io.h"
 #include "io/csv.h"
+#include "reconstruct/clean_points.h"
+#include "reconstruct/normals.h"
 #include "scan/scan_file.h"
 
 namespace hapsim {

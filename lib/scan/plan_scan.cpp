@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/clean_points.h"
+#include "reconstruct/clean_points.h"
 
 namespace hapsim {
 namespace {

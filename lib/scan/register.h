@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scan/pose.h"
+#include "robot/pose.h"
 #include "scan/scan.h"
 
 namespace hapsim {

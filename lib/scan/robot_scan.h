@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "io/csv.h"
-#include "scan/robot.h"
+#include "robot/robot.h"
 #include "scan/scan.h"
 
 namespace hapsim {

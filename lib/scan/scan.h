@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "mesh/surface.h"
 
 namespace hapsim {
 

@@ -7,12 +7,13 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "io/ply.h"
-#include "io/stl.h"
+#include "formats/ply.h"
+#include "formats/stl.h"
+#include "formats/surface_io.h"
 #include "scan/pcd.h"
 #include "scan/sections.h"
 #include "scan/table_columns.h"
-#include "scan/volume.h"
+#include "volume/volume.h"
 
 namespace hapsim {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "mesh/surface.h"
 #include "scan/scan.h"
 
 namespace hapsim {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/clean_points.h"
-#include "geometry/local_plane.h"
-#include "scan/pose.h"
+#include "mesh/local_plane.h"
+#include "reconstruct/clean_points.h"
+#include "robot/pose.h"
 
 namespace hapsim {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/point_index.h"
+#include "mesh/point_index.h"
 
 namespace hapsim {
 

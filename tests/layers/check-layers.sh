@@ -5,35 +5,26 @@ set -euo pipefail
 root=$1
 breaches=0
 
-# layer: the layers directly below it. A layer may include itself and all that lies below.
-table="
-base:
-io: base
-cli: io
-import: io
-batch: io
-linalg: base
-estimate: linalg
-geometry: io
-scan: geometry
-fem: geometry linalg
-effects: fem
-model: effects estimate
-diagnose: model
-realtime: model
-report: io
-"
+# layer: the layers directly below it, from the CMake lists, which name the lowest first. A layer may
+# include itself and all that lies below.
+table=$(for layer in $(sed -nE 's|^add_subdirectory\(lib/([a-z]+)\)|\1|p' "$root/CMakeLists.txt"); do
+  printf '%s: ' "$layer"
+  tr '\n' ' ' <"$root/lib/$layer/CMakeLists.txt" |
+    sed -nE 's/.*hapsim_layer\(([^)]*)\).*/\1 LINKS/; s/.* USES ([^A-Z]*)[A-Z].*/\1/p' | tr -s ' '
+  printf '\n'
+done)
 
-# foreign header (extended regular expression): the one folder that may name it
+# foreign header (extended regular expression): the folders that may name it
 foreign="
-CGAL/: geometry
-tetgen\.h: geometry
+CGAL/: repair reconstruct tetmesh
+tetgen\.h: tetmesh
 (suitesparse/)?cholmod\.h|Eigen/CholmodSupport: linalg
 (coin/|coin-or/)?Ip[A-Z][A-Za-z]*\.hpp: estimate
-kdl/|urdf_|console_bridge/|gdcm|nifti/|teem/: scan
+kdl/|urdf_|console_bridge/: robot
+gdcm|nifti/|teem/: volume
 CLI/: cli
 sqlite3\.h: io
-pugixml\.hpp: geometry
+pugixml\.hpp: formats
 "
 
 breach() { # FILE LINE TEXT
@@ -57,7 +48,8 @@ sources() { find "$@" -name '*.h' -o -name '*.cpp' | sort; }
 
 for folder in "$root"/lib/*/; do
   layer=$(basename "$folder")
-  [[ -n ${below[$layer]:-} ]] || { breach "$folder" 0 "layer '$layer' is not in the table"; continue; }
+  [[ -n ${below[$layer]:-} ]] || { breach "$folder" 0 "layer '$layer' is not in CMakeLists.txt"; continue; }
+  grep -q "^| \`$layer\` |" "$root/CONTRIBUTING.md" || breach "$folder" 0 "CONTRIBUTING.md does not say what lives there"
   for file in $(sources "$folder"); do
     while IFS=: read -r line used; do
       [[ -z $used || ${below[$layer]} == *" $used "* ]] ||
@@ -70,10 +62,11 @@ done
 while IFS= read -r rule; do
   [[ -n $rule ]] || continue
   pattern=${rule%: *}
-  home=${rule##*: }
+  homes=${rule##*: }
   while IFS=: read -r file line _; do
-    [[ -z $file || $file == "$root/lib/$home/"* ]] ||
-      breach "$file" "$line" "only lib/$home may include this foreign header"
+    folder=${file#"$root/lib/"}
+    [[ -z $file || " $homes " == *" ${folder%%/*} "* ]] ||
+      breach "$file" "$line" "only lib/${homes// /, lib/} may include this foreign header"
   done < <(grep -rnE "^[ \t]*#[ \t]*include[ \t]*[<\"]($pattern)" --include='*.h' --include='*.cpp' \
     "$root/lib" "$root/tools" || true)
 done <<<"$foreign"
@@ -81,4 +74,4 @@ done <<<"$foreign"
 cli11=$(grep -rlE '#include <CLI/' "$root/lib/cli" 2>/dev/null || true)
 [[ $(wc -w <<<"$cli11") -le 1 ]] || breach "$root/lib/cli" 0 "CLI11 is included in more than one file"
 
-((breaches == 0)) || { echo "$breaches breach(es) of the layers; the table stands in $0"; exit 1; }
+((breaches == 0)) || { echo "$breaches breach(es) of the layers; the CMake lists of lib say what may use what"; exit 1; }

@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "formats/ply.h"
+#include "formats/stl.h"
 #include "io/csv.h"
-#include "io/ply.h"
-#include "io/recording.h"
-#include "io/stl.h"
+#include "recording/recording.h"
 
 namespace hapsim {
 namespace {

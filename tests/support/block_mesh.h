@@ -5,7 +5,7 @@
 #include <map>
 
 #include "base/random.h"
-#include "geometry/tetmesh.h"
+#include "mesh/tetmesh.h"
 
 namespace hapsim::test {
 

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/random.h"
-#include "fem/contact_stiffness.h"
-#include "fem/featured_body.h"
-#include "geometry/body_mesh.h"
+#include "contact/contact_stiffness.h"
+#include "contact/featured_body.h"
+#include "tetmesh/body_mesh.h"
 
 namespace hapsim::test {
 

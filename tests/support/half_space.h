@@ -1,8 +1,8 @@
 // A block that stands for a half-space under a contact of radius 1.
 #pragma once
 
-#include "geometry/contact_mesh.h"
 #include "support/block_mesh.h"
+#include "tetmesh/contact_mesh.h"
 
 namespace hapsim::test {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/forces.h"
-#include "model/workspace.h"
+#include "experiment/forces.h"
+#include "experiment/workspace.h"
 
 namespace hapsim::test {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/surface.h"
+#include "mesh/surface.h"
 
 namespace hapsim::test {
 

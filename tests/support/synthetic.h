@@ -6,8 +6,8 @@
 
 #include "base/random.h"
 #include "effects/catalogue.h"
-#include "model/extend.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
+#include "fit/extend.h"
 #include "support/block_mesh.h"
 
 namespace hapsim::test {

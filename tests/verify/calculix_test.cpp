@@ -13,12 +13,12 @@
 #include <sstream>
 
 #include "effects/catalogue.h"
-#include "fem/elastic_body.h"
-#include "fem/hooke_law.h"
-#include "fem/hyperelastic_law.h"
-#include "fem/nonlinear_body.h"
-#include "fem/ogden_law.h"
-#include "model/full_simulation.h"
+#include "material/hooke_law.h"
+#include "material/hyperelastic_law.h"
+#include "material/ogden_law.h"
+#include "nonlinear/nonlinear_body.h"
+#include "simulate/full_simulation.h"
+#include "solid/elastic_body.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {

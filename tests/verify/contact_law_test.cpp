@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "effects/effects.h"
-#include "fem/elastic_body.h"
-#include "fem/hooke_law.h"
-#include "fem/hyperelastic_law.h"
-#include "fem/nonlinear_body.h"
-#include "fem/sphere_contact.h"
-#include "geometry/contact_mesh.h"
+#include "material/hooke_law.h"
+#include "material/hyperelastic_law.h"
+#include "nonlinear/nonlinear_body.h"
+#include "nonlinear/sphere_contact.h"
+#include "solid/elastic_body.h"
 #include "support/block_mesh.h"
+#include "tetmesh/contact_mesh.h"
 
 namespace hapsim {
 namespace {

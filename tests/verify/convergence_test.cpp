@@ -4,11 +4,11 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fem/elastic_body.h"
-#include "fem/hooke_law.h"
-#include "fem/nonlinear_body.h"
-#include "fem/sphere_contact.h"
-#include "fem/surface_load.h"
+#include "material/hooke_law.h"
+#include "nonlinear/nonlinear_body.h"
+#include "nonlinear/sphere_contact.h"
+#include "solid/elastic_body.h"
+#include "solid/surface_load.h"
 #include "support/half_space.h"
 
 namespace hapsim {

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "effects/catalogue.h"
-#include "model/full_simulation.h"
-#include "model/scene.h"
+#include "exchange/scene.h"
+#include "simulate/full_simulation.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {

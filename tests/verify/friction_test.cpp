@@ -4,14 +4,14 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fem/elastic_body.h"
-#include "fem/hooke_law.h"
-#include "fem/hyperelastic_law.h"
-#include "fem/nonlinear_body.h"
-#include "fem/sphere_contact.h"
-#include "geometry/contact_mesh.h"
+#include "material/hooke_law.h"
+#include "material/hyperelastic_law.h"
+#include "nonlinear/nonlinear_body.h"
+#include "nonlinear/sphere_contact.h"
+#include "solid/elastic_body.h"
 #include "support/graded_block.h"
 #include "support/half_space.h"
+#include "tetmesh/contact_mesh.h"
 
 namespace hapsim {
 namespace {

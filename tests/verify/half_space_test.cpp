@@ -4,10 +4,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fem/elastic_body.h"
-#include "fem/hooke_law.h"
-#include "fem/nonlinear_body.h"
-#include "fem/surface_load.h"
+#include "material/hooke_law.h"
+#include "nonlinear/nonlinear_body.h"
+#include "solid/elastic_body.h"
+#include "solid/surface_load.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {

@@ -5,7 +5,8 @@
 #include <filesystem>
 
 #include "diagnose/diagnose.h"
-#include "geometry/body_mesh.h"
+#include "formats/surface_io.h"
+#include "tetmesh/body_mesh.h"
 
 namespace hapsim {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fem/elastic_body.h"
+#include "solid/elastic_body.h"
 #include "support/half_space.h"
 
 namespace hapsim {

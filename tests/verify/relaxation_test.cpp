@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "fem/hooke_law.h"
-#include "fem/hyperelastic_law.h"
-#include "fem/tool_body.h"
+#include "material/hooke_law.h"
+#include "material/hyperelastic_law.h"
+#include "nonlinear/tool_body.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {

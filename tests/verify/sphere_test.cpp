@@ -4,8 +4,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fem/hooke_law.h"
-#include "fem/sphere_contact.h"
+#include "material/hooke_law.h"
+#include "nonlinear/sphere_contact.h"
 #include "support/graded_block.h"
 
 namespace hapsim {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "model/extend.h"
-#include "model/workspace.h"
+#include "experiment/workspace.h"
+#include "fit/extend.h"
 #include "support/block_mesh.h"
 #include "support/finer_contact.h"
 #include "support/objects.h"

@@ -4,9 +4,10 @@
 #include <cstdlib>
 
 #include "base/error.h"
-#include "geometry/tetmesh.h"
-#include "model/forces.h"
-#include "model/workspace.h"
+#include "experiment/forces.h"
+#include "experiment/workspace.h"
+#include "formats/tetmesh_io.h"
+#include "mesh/tetmesh.h"
 
 using namespace hapsim;
 

@@ -1,10 +1,10 @@
 // A body whose surface does not pass through the contact points is not taken for an effect.
-#include "model/shape_error.h"
+#include "experiment/shape_error.h"
 
 #include <gtest/gtest.h>
 
 #include "diagnose/diagnose.h"
-#include "model/fit.h"
+#include "fit/fit.h"
 #include "support/synthetic.h"
 
 namespace hapsim {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "model/fit.h"
+#include "fit/fit.h"
 #include "support/synthetic.h"
 
 namespace hapsim {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "io/recording.h"
+#include "recording/recording.h"
 
 namespace hapsim {
 

@@ -1,6 +1,7 @@
 // A testing machine on a block: ramps and holds, one or several recordings, in English and German.
 #include <gtest/gtest.h>
 
+#include "formats/surface_io.h"
 #include "synthetic.h"
 
 namespace hapsim::test {

@@ -7,7 +7,7 @@
 
 #include "effects/catalogue.h"
 #include "expect_error.h"
-#include "model/edit.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {

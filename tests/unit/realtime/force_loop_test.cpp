@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "model/forces.h"
+#include "experiment/forces.h"
 #include "support/synthetic.h"
 
 namespace hapsim {

@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 
 #include "base/random.h"
-#include "fem/contact_stiffness.h"
-#include "geometry/signed_distance.h"
+#include "contact/contact_stiffness.h"
+#include "mesh/signed_distance.h"
 #include "realtime/insert_vertex.h"
 #include "support/block_mesh.h"
 

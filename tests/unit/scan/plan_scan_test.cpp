@@ -6,11 +6,11 @@
 
 #include "base/random.h"
 #include "expect_error.h"
-#include "geometry/clean_points.h"
-#include "geometry/normals.h"
-#include "geometry/reconstruct.h"
+#include "reconstruct/clean_points.h"
+#include "reconstruct/normals.h"
+#include "reconstruct/reconstruct.h"
 #include "scan/orient.h"
-#include "unit/scan/robots.h"
+#include "unit/robot/robots.h"
 
 namespace hapsim {
 namespace {

@@ -1,0 +1,31 @@
+// A whole comparison of a measured recording with simulated forces, ready to be shown.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/structure.h"
+
+namespace hapsim {
+
+struct Comparison {
+  ErrorSize size;
+  NoiseLevel noise;
+  RowFacts facts;
+  std::vector<Breakdown> breakdowns;  // the first is by position
+  std::vector<Observation> observations;
+
+  const Breakdown& by_position() const { return breakdowns.front(); }
+  std::vector<int> worst_positions() const;  // bins of by_position(), largest rmse first
+};
+
+// Checks that the two match (check_match) and compares them.
+Comparison compare(const Recording& measured, const Recording& simulated);
+
+// The comparison as JSON text (two spaces of indent, a newline at the end): rows, presses, rmse,
+// rmse_axes, force_rms, force_peak, noise, noise_source, observations, breakdowns. NaN becomes
+// null.
+std::string comparison_json(const Comparison& comparison, const std::string& measured_name,
+                            const std::string& simulated_name);
+
+}  // namespace hapsim

@@ -1,0 +1,43 @@
+// Prepared stiffnesses on disk, by content: safe for many processes at once and safe to delete.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "contact/contact_stiffness.h"
+
+namespace hapsim {
+
+// A 128-bit content hash (two FNV-1a streams), enough to name cache entries.
+class ContentHash {
+ public:
+  void add(const void* bytes, std::size_t count);
+  void add(double value) { add(&value, sizeof value); }
+  void add(const std::string& text) { add(text.data(), text.size()); }
+  std::string hex() const;
+
+ private:
+  std::uint64_t a_ = 14695981039346656037ull;
+  std::uint64_t b_ = 0x9ae16a3b2f90404full;
+};
+
+class ContactCache {
+ public:
+  // `directory` empty: no cache. Created on first use; when it cannot be written, caching is
+  // silently off, for no result depends on it. Entries beyond `limit_bytes` are removed, oldest
+  // first.
+  explicit ContactCache(const std::string& directory, double limit_bytes = 1e9);
+  // Nothing for an entry that is absent, damaged or of another layout.
+  std::optional<StiffnessSolution> load(const std::string& key) const;
+  void store(const std::string& key, const StiffnessSolution& solution) const;
+
+ private:
+  void trim(double limit_bytes) const;
+  std::string directory_;
+};
+
+// $XDG_CACHE_HOME/hapsim, else $HOME/.cache/hapsim, else none.
+std::string default_cache_directory();
+
+}  // namespace hapsim

@@ -1,0 +1,198 @@
+#include "contact/contact_library.h"
+
+#include <cmath>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "linalg/blas.h"
+
+namespace hapsim {
+namespace {
+
+// x = (1 - 2 nu)^(1/3) and its derivative by nu.
+double coordinate(double nu) {
+  return std::cbrt(1 - 2 * nu);
+}
+double coordinate_slope(double nu) {
+  return -2.0 / 3 / std::pow(coordinate(nu), 2);
+}
+
+// What features do hardly depends on it; estimates are made for soft tissue.
+constexpr double kTypicalPoisson = 0.42;
+
+constexpr std::size_t kMostSystems = 24;  // matrices kept from one material to the next
+
+}  // namespace
+
+void UnitStiffness::add(double nu, const Eigen::Matrix3d& K, const Eigen::Matrix3d& dK_dnu) {
+  nodes_.push_back({nu, K, dK_dnu});
+}
+
+void UnitStiffness::evaluate(double nu, Eigen::Matrix3d& K, Eigen::Matrix3d& dK_dnu) const {
+  // Newton's divided differences with every node doubled; g = K / mu = 2 (1 + nu) K for E = 1.
+  const std::size_t n = 2 * nodes_.size();
+  std::vector<double> x(n);
+  std::vector<Eigen::Matrix3d> c(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Node& node = nodes_[i / 2];
+    x[i] = coordinate(node.nu);
+    c[i] = 2 * (1 + node.nu) * node.K;
+  }
+  for (std::size_t order = 1; order < n; ++order)
+    for (std::size_t i = n - 1; i >= order; --i) {
+      if (x[i] == x[i - order]) {
+        const Node& node = nodes_[i / 2];
+        c[i] = (2 * node.K + 2 * (1 + node.nu) * node.dK_dnu) / coordinate_slope(node.nu);
+      } else {
+        c[i] = (c[i] - c[i - 1]) / (x[i] - x[i - order]);
+      }
+    }
+  const double at = coordinate(nu);
+  Eigen::Matrix3d g = c[n - 1], dg = Eigen::Matrix3d::Zero();
+  for (std::size_t i = n - 1; i-- > 0;) {
+    dg = dg * (at - x[i]) + g;
+    g = g * (at - x[i]) + c[i];
+  }
+  K = g / (2 * (1 + nu));
+  dK_dnu = (coordinate_slope(nu) * dg - 2 * K) / (2 * (1 + nu));
+}
+
+ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
+                               const ContactLibraryOptions& options)
+    : base_(make_contact_base(body)),
+      grid_(plan_grid(base_.surface)),
+      radius_(tool_radius),
+      options_(options),
+      cache_(options.cache) {
+  // Meshing forks; OpenBLAS must have its one thread before that.
+  prepare_blas_for_many_threads();
+  for (const Vec3& p : base_.surface.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
+  for (const Triangle& f : base_.surface.faces) base_hash_.add(f.data(), sizeof f);
+  base_hash_.add(base_.fixed_face.data(), base_.fixed_face.size());
+  for (const Vec3& p : base_.fine.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
+  for (const Triangle& f : base_.fine.faces) base_hash_.add(f.data(), sizeof f);
+  base_hash_.add(radius_);
+  base_hash_.add(options.rim_edge);
+  base_hash_.add(kGrowth);
+  base_hash_.add(kCoarser);
+  free_surface_ = free_surface(base_);
+}
+
+std::shared_ptr<ContactBodies> ContactLibrary::bodies_at(const Vec3& p, bool keep) const {
+  constexpr std::size_t kMost = 256;  // of about a megabyte each
+  const auto fresh = [&] {
+    return std::make_shared<ContactBodies>(base_, p, radius_, options_.rim_edge, free_surface_);
+  };
+  if (!keep) return fresh();
+  const std::lock_guard lock(kept_mutex_);
+  std::shared_ptr<ContactBodies>& bodies = kept_[{p.x(), p.y(), p.z()}];
+  if (!bodies) bodies = fresh();
+  auto result = bodies;
+  if (kept_.size() > kMost) kept_.erase(kept_.begin());
+  return result;
+}
+
+ContentHash ContactLibrary::key_of(const Material& material, const std::string& description) const {
+  ContentHash hash = base_hash_;
+  hash.add(material.nu);
+  for (const double modulus : material.modulus) hash.add(modulus);
+  for (const BodyFeature& feature : material.features) {
+    hash.add(static_cast<double>(feature.kind));
+    for (const double value : feature.value) hash.add(value);
+  }
+  hash.add(description);
+  return hash;
+}
+
+std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>& positions,
+                                                         const std::vector<Task>& tasks,
+                                                         bool keep) const {
+  const std::size_t m = tasks.size();
+  std::vector<StiffnessSolution> results(positions.size() * m);
+  in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
+    std::shared_ptr<ContactBodies> bodies;
+    for (std::size_t k = 0; k < m; ++k) {
+      ContentHash hash = tasks[k].key;
+      hash.add(positions[p].data(), sizeof(double) * 3);
+      if (auto found = cache_.load(hash.hex())) {
+        results[p * m + k] = *found;
+        continue;
+      }
+      if (!bodies) bodies = bodies_at(positions[p], keep);
+      results[p * m + k] = tasks[k].solve(*bodies, p);
+      cache_.store(hash.hex(), results[p * m + k]);
+    }
+    if (options_.step) options_.step();
+  });
+  return results;
+}
+
+std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
+    const std::vector<Vec3>& positions) const {
+  std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());
+  in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
+    // The estimate reads the mesh of these bodies and keeps them.
+    const std::shared_ptr<ContactBodies> bodies = bodies_at(positions[p], true);
+    const std::shared_ptr<const FeatureEstimate> estimate = bodies->estimate(kTypicalPoisson);
+    estimates[p] = {estimate.get(), [bodies, estimate](const FeatureEstimate*) {}};
+  });
+  return estimates;
+}
+
+std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& positions,
+                                                     double nu_low, double nu_high) const {
+  std::vector<double> nus{nu_low};
+  if (nu_high > nu_low) {
+    // Chebyshev points of the coordinate over the range: three doubled nodes, a quintic.
+    const double a = coordinate(nu_high), b = coordinate(nu_low);
+    nus.clear();
+    for (const double x : {-0.8660254037844387, 0.0, 0.8660254037844387})
+      nus.push_back((1 - std::pow(0.5 * (a + b) + 0.5 * (b - a) * x, 3)) / 2);
+  }
+  std::vector<Task> tasks;
+  for (const double nu : nus) {
+    const Material material{nu, {1.0}, nullptr};
+    tasks.push_back(
+        {key_of(material, "homogeneous"), [this, material](ContactBodies& bodies, std::size_t) {
+           return bodies.solve(material, grid_);
+         }});
+  }
+  const auto solutions = solve_all(positions, tasks, false);
+  std::vector<PreparedContact> prepared(positions.size());
+  for (std::size_t p = 0; p < positions.size(); ++p) {
+    for (std::size_t k = 0; k < nus.size(); ++k) {
+      const StiffnessSolution& s = solutions[p * nus.size() + k];
+      prepared[p].stiffness.add(nus[k], s.K, s.dK_dnu);
+      prepared[p].coarse.add(nus[k], s.K + s.coarse_change, s.coarse_dK_dnu);
+      prepared[p].mesh_uncertainty = std::max(prepared[p].mesh_uncertainty, mesh_uncertainty(s));
+    }
+    const StiffnessSolution& middle = solutions[p * nus.size() + nus.size() / 2];
+    prepared[p].point = middle.point;
+    prepared[p].normal = middle.normal;
+    prepared[p].plan_share = middle.plan_share;
+  }
+  return prepared;
+}
+
+std::vector<StiffnessSolution> ContactLibrary::solve(const std::vector<Vec3>& positions,
+                                                     const std::vector<PreparedContact>& contacts,
+                                                     const Material& material,
+                                                     const std::string& description) const {
+  const auto solver = [&](ContactBodies& bodies, std::size_t p) {
+    StiffnessSolution solution;
+    if (options_.draft) {
+      UnitPair fine, coarse;
+      contacts[p].stiffness.evaluate(material.nu, fine.K, fine.by_nu);
+      contacts[p].coarse.evaluate(material.nu, coarse.K, coarse.by_nu);
+      solution = bodies.solve_corrected(material, fine, coarse);
+    } else {
+      solution = bodies.solve_featured(material);
+    }
+    if (positions.size() > kMostSystems) bodies.forget_systems();
+    return solution;
+  };
+  const std::string kind = options_.draft ? "corrected " : "featured ";
+  return solve_all(positions, {{key_of(material, kind + description), solver}}, true);
+}
+
+}  // namespace hapsim

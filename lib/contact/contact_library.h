@@ -1,0 +1,100 @@
+// The stiffness of a body at all its contact positions, prepared in parallel and cached.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "contact/contact_cache.h"
+#include "contact/contact_stiffness.h"
+#include "contact/feature_estimate.h"
+
+namespace hapsim {
+
+// Stiffness per unit Young's modulus of a homogeneous body at one position, as a smooth function of
+// Poisson's ratio: Hermite interpolation of K/mu through solved values and derivatives, in
+// (1 - 2 nu)^(1/3), the power of it in which three nodes from 0 to 0.499 err least (about 1e-4).
+class UnitStiffness {
+ public:
+  void add(double nu, const Eigen::Matrix3d& K, const Eigen::Matrix3d& dK_dnu);
+  // K and its derivative by nu [m]. Exact at the solved values.
+  void evaluate(double nu, Eigen::Matrix3d& K, Eigen::Matrix3d& dK_dnu) const;
+
+ private:
+  struct Node {
+    double nu;
+    Eigen::Matrix3d K, dK_dnu;
+  };
+  std::vector<Node> nodes_;
+};
+
+struct PreparedContact {
+  Vec3 point, normal;  // on the surface; outward unit normal
+  UnitStiffness stiffness;
+  UnitStiffness coarse;           // of the coarser mesh
+  double mesh_uncertainty = 0;    // relative, of the normal stiffness
+  std::vector<float> plan_share;  // share of the strain energy by plan-view cell
+};
+
+struct ContactLibraryOptions {
+  int threads = 0;             // 0: as many as the machine has
+  std::string cache;           // directory, "" for none
+  double rim_edge = kRimEdge;  // edge length at the tool's rim over its radius
+  bool draft = false;          // materials that are not homogeneous on the coarser mesh
+  std::function<void()> step;  // called once a position is ready (from any thread)
+};
+
+class ContactLibrary {
+ public:
+  ContactLibrary(const TetMesh& body, double tool_radius, const ContactLibraryOptions& options);
+
+  // Prepares positions for Poisson's ratios in [nu_low, nu_high] (equal: that one only).
+  // Error(kBadInput) names the position that is off the surface or cannot be meshed.
+  std::vector<PreparedContact> prepare(const std::vector<Vec3>& positions, double nu_low,
+                                       double nu_high) const;
+  // One solution a position for an inhomogeneous material or one with features; a draft is
+  // corrected to the homogeneous stiffnesses of `contacts` (of the same positions). `description`
+  // must determine `material.group_of` (it names the cache entry).
+  std::vector<StiffnessSolution> solve(const std::vector<Vec3>& positions,
+                                       const std::vector<PreparedContact>& contacts,
+                                       const Material& material,
+                                       const std::string& description) const;
+
+  // What features do at each position, to first order.
+  std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
+      const std::vector<Vec3>& positions) const;
+
+  int threads() const { return options_.threads; }  // 0: as many as the machine has
+  const PlanGrid& grid() const { return grid_; }
+  const Surface& surface() const { return base_.fine; }  // the body's, as it was given
+
+ private:
+  using Solver = std::function<StiffnessSolution(ContactBodies&, std::size_t position)>;
+  struct Task {
+    ContentHash key;  // beyond the position's
+    Solver solve;
+  };
+  // All tasks at all positions, in parallel; [position * tasks + task]. `keep`: the meshes stay for
+  // later materials.
+  std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
+                                           const std::vector<Task>& tasks, bool keep) const;
+  ContentHash key_of(const Material& material, const std::string& description) const;
+  std::shared_ptr<ContactBodies> bodies_at(const Vec3& position, bool keep) const;
+
+  ContactBase base_;
+  PlanGrid grid_;
+  double radius_;
+  ContactLibraryOptions options_;
+  ContactCache cache_;
+  ContentHash base_hash_;
+  std::shared_ptr<const SurfaceTree> free_surface_;
+  // Meshes of positions are kept for the next material, up to a number.
+  mutable std::mutex kept_mutex_;
+  mutable std::map<std::array<double, 3>, std::shared_ptr<ContactBodies>> kept_;
+};
+
+}  // namespace hapsim

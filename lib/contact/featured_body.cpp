@@ -1,0 +1,178 @@
+#include "contact/featured_body.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "contact/feature_zone.h"
+#include "contact/support_springs.h"
+#include "material/unit_law.h"
+#include "solid/elasticity.h"
+#include "solid/element_moments.h"
+#include "solid/inhomogeneity.h"
+
+namespace hapsim {
+
+std::size_t feature_size(Feature kind) {
+  switch (kind) {
+    case Feature::kLayer:
+      return 2;
+    case Feature::kInclusion:
+      return 5;
+    case Feature::kTransverse:
+      return 4;
+    default:
+      return 3;
+  }
+}
+
+namespace {
+
+const BodyFeature* find_feature(const Material& material, Feature kind) {
+  for (const BodyFeature& f : material.features)
+    if (f.kind == kind) return &f;
+  return nullptr;
+}
+
+Eigen::Matrix<double, 30, 3> local_fields(const TetMesh& mesh, std::size_t t,
+                                          const Eigen::MatrixXd& phi) {
+  Eigen::Matrix<double, 30, 3> local;
+  for (int a = 0; a < 10; ++a)
+    local.middleRows<3>(3 * a) = phi.middleRows<3>(3 * static_cast<Eigen::Index>(mesh.tets[t][a]));
+  return local;
+}
+
+}  // namespace
+
+struct FeaturedBody::Moduli {
+  std::vector<int> group;
+  std::vector<double> modulus;  // one a tetrahedron [Pa]
+  // By the values of each feature (tetrahedra x values); no rows where it is no zone.
+  std::vector<Eigen::MatrixXd> by_feature;
+};
+
+FeaturedBody::FeaturedBody(const ContactMesh& contact,
+                           std::shared_ptr<const SurfaceTree> free_surface)
+    : contact_(contact), free_surface_(std::move(free_surface)) {}
+
+FeaturedBody::~FeaturedBody() = default;
+
+FeaturedBody::Moduli FeaturedBody::moduli(const Material& material) const {
+  const TetMesh& mesh = contact_.mesh;
+  const auto count = static_cast<Eigen::Index>(mesh.tets.size());
+  Moduli m;
+  for (const auto& n : mesh.tets) {
+    const Vec3 centre =
+        (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+    m.group.push_back(material.group_of ? material.group_of(centre) : 0);
+    m.modulus.push_back(material.modulus[m.group.back()]);
+  }
+  std::vector<std::vector<double>> factors;
+  for (const BodyFeature& f : material.features) {
+    m.by_feature.emplace_back();
+    factors.emplace_back();
+    if (!is_zone(f.kind)) continue;
+    const double ratio = f.value.back();
+    const InsideShares inside = inside_shares(mesh, zone_level(f, free_surface_));
+    factors.back() = stiffness_factors(inside.share, ratio);
+    Eigen::MatrixXd& by = m.by_feature.back();
+    by.resize(count, static_cast<Eigen::Index>(f.value.size()));
+    by.leftCols(by.cols() - 1) = (ratio - 1) * inside.by_parameters;
+    by.rightCols<1>() = Eigen::Map<const Eigen::VectorXd>(inside.share.data(), count);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) m.modulus[t] *= factors.back()[t];
+  }
+  for (std::size_t k = 0; k < m.by_feature.size(); ++k)
+    for (Eigen::Index t = 0; t < m.by_feature[k].rows(); ++t)
+      m.by_feature[k].row(t) *=
+          m.modulus[static_cast<std::size_t>(t)] / factors[k][static_cast<std::size_t>(t)];
+  return m;
+}
+
+FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
+  const TetMesh& mesh = contact_.mesh;
+  const std::size_t tets = mesh.tets.size();
+  const Moduli m = moduli(material);
+  const BodyFeature* transverse = find_feature(material, Feature::kTransverse);
+  const UnitLaw law =
+      unit_law(material.nu, transverse != nullptr ? transverse->value : std::vector<double>{});
+  std::optional<SupportSprings> support;
+  if (const BodyFeature* f = find_feature(material, Feature::kSupport))
+    support.emplace(mesh, f->value);
+  const double base_modulus = material.modulus[0];
+
+  std::vector<char> moved(mesh.nodes.size(), 0);
+  for (const int n : contact_.patch_nodes) moved[n] = 1;
+  if (!system_ || supported_ != support.has_value()) {
+    std::vector<char> free(mesh.nodes.size());
+    for (std::size_t n = 0; n < free.size(); ++n)
+      free[n] = !moved[n] && (support || !mesh.fixed[n]);
+    Cliques cliques;
+    for (const auto& n : mesh.tets) cliques.add({n.begin(), n.end()});
+    if (support)
+      for (const SupportSprings::Face& f : support->faces) cliques.add(f.nodes);
+    system_ = std::make_unique<NodeSystem>(std::move(free), std::move(cliques));
+    supported_ = support.has_value();
+  }
+  NodeSystem& system = *system_;
+  system.clear();
+
+  Eigen::MatrixXd phi = Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(mesh.nodes.size()), 3);
+  for (const int n : contact_.patch_nodes) phi.middleRows<3>(3 * n).setIdentity();
+  Eigen::MatrixXd load = Eigen::MatrixXd::Zero(phi.rows(), 3);
+  const BlockMaker block(law.D);
+  Eigen::Matrix<double, 30, 30> K;
+  for (std::size_t t = 0; t < tets; ++t) {
+    const auto& n = mesh.tets[t];
+    element_matrix(element_gradients(mesh, t), block, law.kappa, m.modulus[t], K);
+    system.add(t, K);
+    if (std::none_of(n.begin(), n.end(), [&](int a) { return moved[a]; })) continue;
+    const Eigen::Matrix<double, 30, 3> force = K * local_fields(mesh, t, phi);
+    for (int a = 0; a < 10; ++a) load.middleRows<3>(3 * n[a]) -= force.middleRows<3>(3 * a);
+  }
+  if (support)
+    for (std::size_t f = 0; f < support->faces.size(); ++f)
+      system.add(tets + f, base_modulus * support->faces[f].spring * support->faces[f].matrix);
+  if (!system.factorise())
+    fail_numerics("", "the stiffness matrix is not positive definite",
+                  "check that the body has fixed nodes, nu < 0.5 and all moduli are positive");
+  phi += system.solve(load);
+
+  Solution s{Eigen::Matrix3d::Zero(), {}, {}, {}};
+  s.by_modulus.assign(material.modulus.size(), Eigen::Matrix3d::Zero());
+  for (const BodyFeature& f : material.features)
+    s.by_feature.emplace_back(f.value.size(), Eigen::Matrix3d::Zero());
+  FieldMoments all;
+  for (std::size_t t = 0; t < tets; ++t) {
+    const FieldMoments moments(element_gradients(mesh, t), local_fields(mesh, t, phi));
+    const Eigen::Matrix3d k = moments.energy(law.D, law.kappa);
+    all.add(m.modulus[t], moments);
+    s.by_modulus[m.group[t]] += m.modulus[t] / material.modulus[m.group[t]] * k;
+    s.K += m.modulus[t] * k;
+    for (std::size_t f = 0; f < m.by_feature.size(); ++f)
+      for (Eigen::Index v = 0; v < m.by_feature[f].cols(); ++v)
+        s.by_feature[f][v] += m.by_feature[f](static_cast<Eigen::Index>(t), v) * k;
+  }
+  s.by_nu = all.energy(law.D_by[0], law.kappa_by[0]);
+  for (std::size_t f = 0; f < material.features.size(); ++f) {
+    if (material.features[f].kind == Feature::kTransverse)
+      for (std::size_t v = 0; v < 4; ++v)
+        s.by_feature[f][v] = all.energy(law.D_by[1 + v], law.kappa_by[1 + v]);
+    if (material.features[f].kind != Feature::kSupport) continue;
+    for (const SupportSprings::Face& face : support->faces) {
+      Eigen::MatrixXd fields(3 * static_cast<Eigen::Index>(face.nodes.size()), 3);
+      for (std::size_t a = 0; a < face.nodes.size(); ++a)
+        fields.middleRows<3>(3 * static_cast<Eigen::Index>(a)) =
+            phi.middleRows<3>(3 * face.nodes[a]);
+      const Eigen::Matrix3d k = base_modulus * fields.transpose() * face.matrix * fields;
+      s.K += face.spring * k;
+      s.by_modulus[0] += face.spring / base_modulus * k;
+      for (std::size_t v = 0; v < 3; ++v) s.by_feature[f][v] += face.by_value[v] * k;
+    }
+  }
+  return s;
+}
+
+}  // namespace hapsim

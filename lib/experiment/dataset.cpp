@@ -1,0 +1,168 @@
+#include "experiment/dataset.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace hapsim {
+namespace {
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The number of the setup in `setups`, where it is put if it is not there.
+int number_of(const Setup& setup, std::vector<Setup>& setups) {
+  const auto found = std::find(setups.begin(), setups.end(), setup);
+  if (found != setups.end()) return static_cast<int>(found - setups.begin());
+  setups.push_back(setup);
+  return static_cast<int>(setups.size()) - 1;
+}
+
+template <class Value>
+std::size_t distinct(const std::vector<Setup>& setups, const Value& value) {
+  std::vector<double> values;
+  for (const Setup& s : setups) values.push_back(value(s));
+  std::sort(values.begin(), values.end());
+  return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+}
+
+}  // namespace
+
+std::size_t Dataset::bodies() const {
+  return distinct(setups, [](const Setup& s) { return static_cast<double>(s.body); });
+}
+std::size_t Dataset::tools() const {
+  return distinct(setups, [](const Setup& s) { return s.tool_radius; });
+}
+
+Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row) {
+  Dataset dataset;
+  const Setup only{0, setup_of_row.empty() ? recording.tool_radius() : 0};
+  const bool relaxed = recording.metadata.find("recovery").value_or("") != "none";
+  double session_start = 0;
+  if (!recording.t.empty())
+    session_start = *std::min_element(recording.t.begin(), recording.t.end());
+  for (const Press& press : recording.presses()) {
+    const Vec3& point = recording.position[press.rows.front()];
+    for (const int row : press.rows)
+      if ((recording.position[row] - point).norm() > kSamePlace)
+        fail_input(fmt::format("{}:{}", recording.name, recording.line[row]),
+                   fmt::format("the contact point moves within press {}", press.id),
+                   "give each contact point its own press number");
+    const int setup =
+        number_of(setup_of_row.empty() ? only : setup_of_row[press.rows.front()], dataset.setups);
+    int position = -1;
+    for (std::size_t p = 0; p < dataset.positions.size() && position < 0; ++p)
+      if (dataset.setup_of[p] == setup && (dataset.positions[p] - point).norm() <= kSamePlace)
+        position = static_cast<int>(p);
+    if (position < 0) {
+      position = static_cast<int>(dataset.positions.size());
+      dataset.positions.push_back(point);
+      dataset.setup_of.push_back(setup);
+    }
+    const bool goes_on =
+        !relaxed && !dataset.episodes.empty() && dataset.episodes.back().position == position &&
+        !recording.t.empty() &&
+        recording.t[press.rows.front()] >= recording.t[dataset.episodes.back().rows.back()];
+    if (!goes_on) {
+      dataset.episodes.emplace_back();
+      dataset.episodes.back().position = position;
+      dataset.episodes.back().view.radius = dataset.setups[setup].tool_radius;
+      dataset.episodes.back().view.number = static_cast<int>(dataset.episodes.size());
+    }
+    Episode& episode = dataset.episodes.back();
+    const double start =
+        recording.t.empty() ? 0 : recording.t[goes_on ? episode.rows.front() : press.rows.front()];
+    for (const int row : press.rows) {
+      episode.rows.push_back(row);
+      episode.view.u.push_back(recording.u[row]);
+      episode.view.in_air.push_back(recording.in_air(row) ? 1 : 0);
+      if (!recording.temp.empty()) episode.view.temperature.push_back(recording.temp[row]);
+      if (recording.t.empty()) continue;
+      episode.view.t.push_back(recording.t[row] - start);
+      episode.view.session.push_back(recording.t[row] - session_start);
+    }
+  }
+  dataset.recording = std::move(recording);
+  return dataset;
+}
+
+void set_normals(Dataset& dataset, const std::vector<Vec3>& normals) {
+  const bool heals = dataset.recording.metadata.find("recovery").value_or("") == "full";
+  std::vector<double> deepest(dataset.positions.size(), 0.0);
+  for (Episode& e : dataset.episodes) {
+    e.view.normal = normals[e.position];
+    e.view.direction = -e.view.normal;
+    if (!heals) e.view.past_depth = deepest[e.position];
+    double depth = 0;
+    for (std::size_t i = 0; i < e.view.size(); ++i) {
+      const Vec3& u = e.view.u[i];
+      if (u.norm() <= depth || u.dot(e.view.normal) > 0 || e.view.in_air[i]) continue;
+      depth = u.norm();
+      e.view.direction = u / depth;
+    }
+    deepest[e.position] = std::max(deepest[e.position], depth);
+  }
+}
+
+Noise force_noise(const Recording& recording) {
+  if (const auto declared = recording.force_noise()) return {*declared, false};
+  std::vector<double> second;
+  for (const Press& press : recording.presses())
+    for (std::size_t i = 1; i + 1 < press.rows.size(); ++i) {
+      const Vec3 d = recording.f[press.rows[i - 1]] - 2 * recording.f[press.rows[i]] +
+                     recording.f[press.rows[i + 1]];
+      for (int k = 0; k < 3; ++k) second.push_back(std::abs(d[k]));
+    }
+  double noise = median(second) / (0.6745 * std::sqrt(6.0));
+  double peak = 0;
+  for (const Vec3& f : recording.f) peak = std::max(peak, f.norm());
+  // Forces on one axis only leave zeros on the others; quantised forces do as well.
+  if (noise < 1e-6 * peak) {
+    second.erase(std::remove_if(second.begin(), second.end(), [](double d) { return d == 0; }),
+                 second.end());
+    noise = std::max(median(second) / (0.6745 * std::sqrt(6.0)), 1e-4 * peak);
+  }
+  return {noise, true};
+}
+
+DataSummary summarise(const Dataset& dataset, double modulus) {
+  DataSummary summary;
+  summary.has_time = !dataset.recording.t.empty();
+  summary.modulus = modulus;
+  summary.tool_radius = dataset.setups.front().tool_radius;
+  summary.peak_force = 1e-12;
+  const std::vector<double>& temp = dataset.recording.temp;
+  if (!temp.empty())
+    summary.temperature = dataset.recording.metadata.number("temp_ref", dataset.recording.name)
+                              .value_or(std::accumulate(temp.begin(), temp.end(), 0.0) /
+                                        static_cast<double>(temp.size()));
+  std::vector<double> steps, durations;
+  double deepest = 0;
+  for (const Episode& e : dataset.episodes) {
+    for (std::size_t i = 0; i < e.rows.size(); ++i) {
+      if (!dataset.recording.f.empty())
+        summary.peak_force = std::max(summary.peak_force, dataset.recording.f[e.rows[i]].norm());
+      deepest = std::max(deepest, e.view.u[i].norm());
+      if (summary.has_time && i > 0) steps.push_back(e.view.t[i] - e.view.t[i - 1]);
+    }
+    if (!summary.has_time) continue;
+    durations.push_back(e.view.t.back());
+    summary.session = std::max(summary.session, e.view.session.back());
+  }
+  summary.sample_step = median(steps);
+  summary.press_duration = median(durations);
+  if (deepest > 0) summary.depth = deepest;
+  if (deepest > 0) summary.peak_stiffness = summary.peak_force / deepest;
+  return summary;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,62 @@
+// A recording as the model sees it: presses at contact positions.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "effects/effect.h"
+#include "recording/recording.h"
+
+namespace hapsim {
+
+// Consecutive rows that share a memory: one press, or several at one position when the recording
+// says `recovery: none`.
+struct Episode {
+  int position = 0;
+  std::vector<int> rows;  // of the recording
+  PressView view;         // normal, direction, past_depth are filled in by set_normals()
+};
+
+constexpr double kSamePlace = 1e-4;  // contact points nearer than this are one [m]
+
+// Which body was pressed (from 0, in the caller's list) with which tool.
+struct Setup {
+  int body = 0;
+  double tool_radius = 0;  // [m]
+  bool operator==(const Setup&) const = default;
+};
+
+struct Dataset {
+  Recording recording;
+  std::vector<Vec3> positions;  // distinct contact points [m], each in the frame of its body
+  std::vector<Episode> episodes;
+  std::vector<Setup> setups;  // distinct, in the order of the recording
+  std::vector<int> setup_of;  // by position
+  std::size_t rows() const { return recording.rows(); }
+  std::size_t bodies() const;  // distinct ones
+  std::size_t tools() const;   // distinct radii
+};
+
+// Contact points of one setup within kSamePlace are one position. `setup_of_row`: by row of the
+// recording; empty: all rows of one body, with the recording's tool. Error(kBadInput) when a press
+// moves its contact point by more than that.
+Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row = {});
+// Normals by position, and what follows from them: each press's direction and the deepest press
+// before it at its place (none with `recovery: full`).
+void set_normals(Dataset& dataset, const std::vector<Vec3>& normals);
+
+// Standard deviation of the force noise per component [N]: metadata `force_noise`, or second
+// differences in time, median(|d2|) / (0.6745 sqrt 6), pooled over the components that were
+// measured and the presses: a smooth force has small second differences, white noise of standard
+// deviation s has sqrt(6) s. Coloured noise makes the estimate too small. At least 1e-4 of the
+// peak.
+struct Noise {
+  double value = 0;
+  bool measured = false;  // from the data, not declared
+};
+Noise force_noise(const Recording& recording);
+
+// The temperature to count from is the metadata `temp_ref`, else the mean.
+DataSummary summarise(const Dataset& dataset, double modulus);
+
+}  // namespace hapsim

@@ -1,0 +1,53 @@
+// The forces of a model along the motion of a recording, with their derivatives.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "experiment/body_stiffness.h"
+#include "experiment/dataset.h"
+#include "model/model.h"
+
+namespace hapsim {
+
+// What the model's body effects say of the material; columns number the free parameters.
+MaterialSpec material_of(const Model& model);
+
+// Why the fitted values of an effect are not what it is meant for; "" when they are.
+std::string implausible(const Model& model, const Effect& effect, const Dataset& dataset);
+
+// The model's effects in the order of the catalogue; with `derivatives`, the columns of their free
+// parameters.
+struct EffectInstance {
+  const Effect* effect;
+  Values values;
+};
+std::vector<EffectInstance> effect_instances(const Model& model, bool derivatives);
+
+// Episodes to evaluate, in this order; their rows follow one another in all stacked vectors.
+using Selection = std::vector<int>;
+Selection all_episodes(const Dataset& dataset);
+// Rows of the recording in the stacked order.
+std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection);
+
+// Stacked forces (3 x rows) and, when asked, their derivatives by the free parameters.
+Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
+                    const BodyStiffness& body, bool derivatives);
+
+// The same with stiffnesses by position from elsewhere, on so many threads (0: as many as there
+// are); the threads change nothing in the result. Derivatives by `more` parameters of the
+// stiffness alone come after those of the model.
+using StiffnessAt = std::function<PositionStiffness(std::size_t position)>;
+Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
+                    const StiffnessAt& stiffness_at, bool derivatives, int threads = 1,
+                    Eigen::Index more = 0);
+
+// The measured forces in the same order.
+Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);
+
+// What makes of a root mean square over all three components (FitResult, HeldOut) one over those
+// that were measured, which is what people are told: sqrt(3 / measured_axes).
+double per_measured_component(const Dataset& dataset);
+
+}  // namespace hapsim

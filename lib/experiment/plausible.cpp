@@ -1,0 +1,92 @@
+#include "experiment/plausible.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hapsim {
+
+void require_enough_data(const Model& model, const Dataset& dataset, const Selection& selection) {
+  std::size_t rows = 0;
+  for (const int e : selection) rows += dataset.episodes[e].rows.size();
+  const std::size_t free = model.free_parameters().size();
+  if (3 * rows < free)
+    fail_input(dataset.recording.name,
+               fmt::format("{} force components cannot tell {} free parameters", 3 * rows, free),
+               "record more samples, or fix parameters (--fix)");
+}
+
+void require_presses(const Dataset& dataset) {
+  const std::string& name = dataset.recording.name;
+  // What each axis measured over what it was moved: root mean squares, so that neither sign nor
+  // scatter matters; axes that are hardly moved say nothing.
+  std::array<double, 3> moved{}, power{};
+  double along = 0, along_centred = 0;  // force times displacement
+  for (const Episode& e : dataset.episodes) {
+    Vec3 mean_u = Vec3::Zero(), mean_f = Vec3::Zero();
+    double n = 0, here = 0;
+    for (std::size_t i = 0; i < e.view.size(); ++i) {
+      if (e.view.in_air[i]) continue;
+      const Vec3 &u = e.view.u[i], &f = dataset.recording.f[e.rows[i]];
+      mean_u += u;
+      mean_f += f;
+      n += 1;
+      here += f.dot(u);
+      for (int k = 0; k < 3; ++k) {
+        moved[k] += u[k] * u[k];
+        power[k] += f[k] * f[k];
+      }
+    }
+    along += here;
+    if (n > 0) along_centred += here - mean_f.dot(mean_u) / n;
+  }
+  const double strongest = *std::max_element(moved.begin(), moved.end());
+  if (strongest <= 0)
+    fail_input(name, "no row presses the body", "check ux,uy,uz: all displacements are zero");
+  if (*std::max_element(power.begin(), power.end()) <= 0)
+    fail_input(name, "no row has a force", "check fx,fy,fz: all forces are zero");
+  if (along > 0 && along_centred >= 0)
+    fail_input(name, "the forces point the wrong way",
+               "forces are of the body on the tool: pressing down (uz < 0) gives fz > 0");
+  constexpr double kMoved = 0.03, kLeast = 100;
+  std::array<double, 3> ratio{};
+  for (int k = 0; k < 3; ++k)
+    if (moved[k] > kMoved * kMoved * strongest && power[k] > 0)
+      ratio[k] = std::sqrt(power[k] / moved[k]);
+  for (int k = 0; k < 3; ++k)
+    for (int other = 0; other < 3; ++other) {
+      if (ratio[k] == 0 || ratio[other] == 0 || ratio[k] < kLeast * ratio[other]) continue;
+      constexpr const char* kColumns[] = {"fx", "fy", "fz"};
+      fail_input(name,
+                 fmt::format("column {} is some {:.0f} times larger than {} calls for", kColumns[k],
+                             ratio[k] / ratio[other], kColumns[other]),
+                 "is one of them in mN? All forces are in N (hs-import converts)");
+    }
+}
+
+std::string strange_modulus(const Model& model) {
+  constexpr double kSoftest = 50, kHardest = 5e6;  // from brain and fat to cartilage and rubber
+  const Parameter* e = model.find("elastic", 0, "E");
+  if (e == nullptr || (e->value >= kSoftest && e->value <= kHardest)) return "";
+  return fmt::format(
+      "E = {:.3g} Pa is {} than soft bodies are: are forces in N and displacements in m?", e->value,
+      e->value > kHardest ? "harder" : "softer");
+}
+
+std::vector<int> idle_regions(const Model& model) {
+  std::vector<int> idle;
+  for (const Parameter& p : model.parameters) {
+    if (p.effect != "elastic" || p.name != "E" || p.region == 0) continue;
+    const bool placed = std::any_of(
+        model.parameters.begin(), model.parameters.end(),
+        [&](const Parameter& q) { return q.effect == "regions" && q.region == p.region; });
+    if (!placed) idle.push_back(p.region);
+  }
+  return idle;
+}
+
+}  // namespace hapsim

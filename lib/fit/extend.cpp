@@ -1,0 +1,179 @@
+#include "fit/extend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "effects/catalogue.h"
+#include "fit/extend_regions.h"
+
+namespace hapsim {
+namespace {
+
+// Within what the effect can be in such data.
+void set_limits(std::vector<Parameter>& rows, const Effect& effect, const DataSummary& summary) {
+  const auto limits = effect.limits(summary);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const auto& [lower, upper] = limits[k % limits.size()];
+    rows[k].lower = lower;
+    rows[k].upper = upper;
+    rows[k].value = std::clamp(rows[k].value, lower, upper);
+  }
+}
+
+constexpr double kLeastWarming = 0.5;  // [K]
+constexpr double kSideways = 0.2;      // of the depth
+constexpr double kReturn = 0.8;        // of the deepest displacement
+
+// Between the coldest and the warmest press, so that a thermometer's noise does not count.
+double temperature_range(const Dataset& dataset) {
+  double low = 1e300, high = -1e300;
+  for (const Episode& e : dataset.episodes) {
+    const std::vector<double>& t = e.view.temperature;
+    const double mean = std::accumulate(t.begin(), t.end(), 0.0) /
+                        static_cast<double>(std::max<std::size_t>(1, t.size()));
+    low = std::min(low, mean);
+    high = std::max(high, mean);
+  }
+  return high - low;
+}
+
+bool moves_sideways(const PressView& view) {
+  double along = 0, across = 0;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (view.in_air[i]) continue;
+    along = std::max(along, -view.u[i].dot(view.normal));
+    across = std::max(across, (view.u[i] - view.u[i].dot(view.normal) * view.normal).norm());
+  }
+  return across > kSideways * along;
+}
+
+bool comes_back(const PressView& view) {
+  double deepest = 0;
+  for (const Vec3& u : view.u) {
+    const double depth = u.dot(view.direction);
+    if (depth < kReturn * deepest) return true;
+    deepest = std::max(deepest, depth);
+  }
+  return false;
+}
+
+}  // namespace
+
+Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body) {
+  const Effect& elastic = require_effect("elastic");
+  Model model;
+  model.parameters = effect_rows(elastic, 1, elastic.starts(summarise(dataset, 1), 1).front());
+  const Eigen::VectorXd f = model_forces(model, dataset, selection, body, false).f;
+  const double power = f.squaredNorm();
+  if (power <= 0)
+    fail_input(dataset.recording.name, "no row presses the body",
+               "check ux,uy,uz: all displacements are zero");
+  const double gain = f.dot(measured_forces(dataset, selection)) / power;
+  if (gain <= 0)
+    fail_input(dataset.recording.name, "the forces point the wrong way",
+               "forces are of the body on the tool: pressing down (uz < 0) gives fz > 0");
+  Parameter& modulus = *model.find("elastic", 0, "E");
+  modulus.value = std::clamp(gain * modulus.value, modulus.lower, modulus.upper);
+  return model;
+}
+
+std::vector<Model> with_effect(const Model& fitted, const std::string& name, const Dataset& dataset,
+                               const Selection& selection, const BodyStiffness& body,
+                               const ExtendOptions& options) {
+  const Effect& effect = require_effect(name);
+  const EffectCard& card = effect.card();
+  if (const std::string lack = lacking_for(card, dataset); !lack.empty())
+    fail_input(dataset.recording.name, "the data cannot show " + name, lack);
+  if (fitted.has(name) && !(card.terms && !card.from_locations))
+    fail_usage("the model has " + name + " already", "remove it first (--remove " + name + ")");
+  if (card.from_locations) return {with_regions(fitted, dataset, selection, body, options)};
+
+  Model base = fitted;
+  // What the new effect contains gives way to it.
+  std::erase_if(base.parameters, [&](const Parameter& p) {
+    return std::find(card.contains.begin(), card.contains.end(), p.effect) != card.contains.end();
+  });
+  int terms = card.terms      ? options.terms
+              : card.by_press ? static_cast<int>(dataset.episodes.size())
+                              : 1;
+  if (fitted.has(name)) {
+    int present = 0;
+    for (const Parameter& p : fitted.parameters) present += p.effect == name;
+    terms = present / static_cast<int>(card.parameters.size()) + 1;
+    std::erase_if(base.parameters, [&](const Parameter& p) { return p.effect == name; });
+  }
+  DataSummary summary = summarise(dataset, fitted.find("elastic", 0, "E")->value);
+  if (card.solved && card.needs_positions)
+    for (const LocationSample& s :
+         location_samples(fitted, dataset, selection, body, options.noise, options.floor))
+      summary.places.push_back(
+          {s.point, body.contact(static_cast<std::size_t>(s.position)).normal, s.gain});
+  const Surface& surface = body.setup(0).surface();
+  summary.low = summary.high = surface.vertices.front();
+  for (const Vec3& p : surface.vertices) {
+    summary.low = summary.low.cwiseMin(p);
+    summary.high = summary.high.cwiseMax(p);
+  }
+  if (card.stage == Stage::kSupport)
+    if (const RigidMove move = body.move(); move.significant()) {
+      summary.shift = move.shift;
+      summary.rotation = move.rotation;
+    }
+  std::vector<Model> starts;
+  for (const std::vector<double>& values : effect.starts(summary, terms)) {
+    Model model = base;
+    std::vector<Parameter> rows = effect_rows(effect, terms, values);
+    set_limits(rows, effect, summary);
+    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+    starts.push_back(model);
+  }
+  return starts;
+}
+
+std::string not_shared(const EffectCard& effect, const Dataset& dataset) {
+  if (effect.one_body && dataset.bodies() > 1)
+    return "its parameters belong to one body, and there are several: fit each body by itself";
+  if (effect.one_tool && dataset.tools() > 1)
+    return "its parameters belong to one tool, and there are several: fit each tool by itself";
+  return "";
+}
+
+std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
+  if (std::string why = not_shared(effect, dataset); !why.empty()) return why;
+  if (effect.needs_time && dataset.recording.t.empty())
+    return "the recording has no column t: record the time of every sample";
+  if (effect.needs_time) {
+    double longest = 0;
+    for (const Episode& e : dataset.episodes) longest = std::max(longest, e.view.t.back());
+    if (longest <= 0) return "all samples have the same time: record the time of every sample";
+  }
+  if (effect.needs_positions && dataset.positions.size() < 4)
+    return "too few contact positions: press at four places or more";
+  if (effect.needs_temperature) {
+    if (dataset.recording.temp.empty())
+      return "the recording has no column temp: record the body's temperature";
+    if (temperature_range(dataset) < kLeastWarming)
+      return fmt::format("the temperature changes by {:.2g} K only: press the body warm and cold",
+                         temperature_range(dataset));
+  }
+  const auto some = [&](auto&& condition) {
+    return std::any_of(dataset.episodes.begin(), dataset.episodes.end(),
+                       [&](const Episode& e) { return condition(e.view); });
+  };
+  if (effect.needs_sideways && !some(moves_sideways))
+    return "no press moves sideways: move the tool along the surface while it presses";
+  if (effect.needs_return && !some(comes_back))
+    return "no press is recorded on its way out: record until the tool has left";
+  if (effect.needs_repeats && !some([](const PressView& v) {
+        return v.past_depth > 0 || (!v.session.empty() && v.session.front() > 0);
+      }))
+    return "each place is pressed only once, or healed in between, and no press comes later than "
+           "another by its time: press one place three times";
+  return "";
+}
+
+}  // namespace hapsim

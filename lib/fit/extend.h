@@ -1,0 +1,36 @@
+// Building models: a first elastic one, and one more effect on top of a fitted model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+#include "regions/locations.h"
+
+namespace hapsim {
+
+struct ExtendOptions {
+  int terms = 1;                    // of effects with terms
+  int regions = kAutomaticRegions;  // or a number, or kEverySite
+  double noise = 1;                 // [N]
+  double floor = 0;
+};
+
+// Elastic with E from the overall gain of the forces and nu at its start.
+Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body);
+
+// Starts of `fitted` with `effect` added (an effect already there gets one more term where it has
+// terms). Uses only the chosen episodes. Error(kUsage) when it is there and cannot be repeated,
+// Error(kBadInput) when the data cannot bear it (lacking_for()).
+std::vector<Model> with_effect(const Model& fitted, const std::string& effect,
+                               const Dataset& dataset, const Selection& selection,
+                               const BodyStiffness& body, const ExtendOptions& options);
+
+// Empty when what the effect's parameters belong to (one body, one tool) is but one in these data,
+// else what to do, in words.
+std::string not_shared(const EffectCard& effect, const Dataset& dataset);
+
+// Empty when these data can test the effect, else what they lack, in words.
+std::string lacking_for(const EffectCard& effect, const Dataset& dataset);
+
+}  // namespace hapsim

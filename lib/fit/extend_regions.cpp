@@ -1,0 +1,100 @@
+#include "fit/extend_regions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/catalogue.h"
+#include "regions/region_boundary.h"
+#include "regions/region_map.h"
+
+namespace hapsim {
+namespace {
+
+constexpr int kKeyPoints = 8, kScanPoints = 20000;  // of a boundary
+
+// One E a region, given by its logarithm over the fitted one.
+Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
+  Model model = fitted;
+  const Parameter modulus = *fitted.find("elastic", 0, "E");
+  std::erase_if(model.parameters, [](const Parameter& p) {
+    return p.effect == "elastic" && p.name == "E" && p.region > 0;
+  });
+  for (std::size_t r = 0; r < log_gain.size(); ++r) {
+    const int region = static_cast<int>(r);
+    const double value = modulus.value * std::exp(log_gain[r]);
+    if (Parameter* row = model.find("elastic", region, "E")) {
+      row->value = value;
+      continue;
+    }
+    Parameter added = modulus;
+    added.region = region;
+    added.value = value;
+    const auto last =
+        std::find_if(model.parameters.rbegin(), model.parameters.rend(),
+                     [](const Parameter& p) { return p.effect == "elastic" && p.name == "E"; });
+    model.parameters.insert(last.base(), added);
+  }
+  return model;
+}
+
+Model with_labels(const Model& fitted, const std::vector<LocationSample>& samples,
+                  const std::vector<int>& label) {
+  const int regions = 1 + *std::max_element(label.begin(), label.end());
+  std::vector<double> weight(regions, 0), log_gain(regions, 0);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double w = std::pow(samples[i].gain / samples[i].error, 2);
+    weight[label[i]] += w;
+    log_gain[label[i]] += w * std::log(samples[i].gain);
+  }
+  for (int r = 0; r < regions; ++r) log_gain[r] /= weight[r];
+  Model model = with_moduli(fitted, log_gain);
+  KeyPoints points(model);
+  for (int r = 0; r < regions; ++r)
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (label[i] == r) points.add(samples[i].point.head<2>(), r);
+  return model;
+}
+
+// Nothing where no boundary lies on the body.
+std::optional<Model> with_boundary(const Model& fitted, const RegionBoundary& boundary,
+                                   const PlanGrid& grid) {
+  Model model = with_moduli(fitted, {boundary.log_gain[0], boundary.log_gain[1]});
+  const Eigen::Vector2d low(grid.x0, grid.y0);
+  const Eigen::Vector2d high =
+      low + Eigen::Vector2d(grid.columns * grid.step_x, grid.rows * grid.step_y);
+  const auto lines = class_boundaries(boundary.side, low, high, kScanPoints);
+  if (lines.empty()) return std::nullopt;
+  place_key_points(model, boundary.side, lines, kKeyPoints);
+  if (material_of(model).key_point.size() < 2) return std::nullopt;
+  return model;
+}
+
+}  // namespace
+
+Model with_regions(const Model& fitted, const Dataset& dataset, const Selection& selection,
+                   const BodyStiffness& body, const ExtendOptions& options) {
+  constexpr int kMost = 8;
+  const auto samples = merged_places(
+      location_samples(fitted, dataset, selection, body, options.noise, options.floor));
+  const RegionLabels labels = region_labels(samples, options.regions, kMost);
+  if (options.regions == kAutomaticRegions && !samples.empty()) {
+    std::vector<std::vector<float>> share;
+    for (const LocationSample& s : samples)
+      share.push_back(body.contact(static_cast<std::size_t>(s.position)).plan_share);
+    const PlanGrid& grid = body.setup(0).grid();
+    const auto boundary = find_boundary(samples, share, grid);
+    if (boundary && boundary->criterion < labels.criterion)
+      if (auto model = with_boundary(fitted, *boundary, grid)) return *model;
+  }
+  Model model = with_labels(fitted, samples, labels.label);
+  if (options.regions == kEverySite) {
+    // So many neighbouring moduli cannot be told apart through the body; each stands for its site.
+    Parameter local = effect_rows(require_effect("regions"), 1, {0, 0, 1}).back();
+    local.name = "local";
+    local.state = ParameterState::kFixed;
+    model.parameters.push_back(local);
+  }
+  return model;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,102 @@
+// Fitting a model's free parameters to a recording, and the error on presses it has not seen.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "estimate/robust.h"
+#include "experiment/weights.h"
+
+namespace hapsim {
+
+constexpr int kFullRounds = 12;
+
+// Where a fit stands.
+struct FitProgress {
+  int start = 0, starts = 1;  // of several starts, from 0
+  // Least so far [N], after the weights of a robust loss.
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct FitOptions {
+  double noise = 1;           // standard deviation of the force noise [N]
+  double floor = 0;           // relative gain error by position (mesh and geometry)
+  bool exact_regions = true;  // solve inhomogeneous bodies anew; false: first-order stiffness
+  int starts = 1;             // more: a Latin hypercube besides the given start (spread in fit.cpp)
+  int skip = 0;               // so many of them are done: an earlier search gave the start
+  std::uint64_t seed = 1;     // of the starts
+  RobustLoss robust = RobustLoss::kNone;
+  // Bodies with features are solved anew in up to so many rounds, until one changes the sum of
+  // squares by less than the share `settled`; 0: not at all (about the solution there is, or
+  // estimated where there is none).
+  int rounds = kFullRounds;
+  double settled = 1e-6;
+  bool keep_apart = true;  // relaxation times that coincide are moved apart (keep_terms_apart())
+  bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
+  // Asked again and again; false ends the fit with what there is. May be empty.
+  std::function<bool(const FitProgress&)> watch;
+};
+
+struct FitResult {
+  Model model;  // values, standard errors
+  bool converged = false;
+  bool stopped = false;  // by the watch; never converged then
+  int starts_done = 0;   // of FitOptions::starts, the skipped ones among them
+  std::string message;
+  double rmse = 0;  // per force component [N], all three pooled; see per_measured_component()
+  Eigen::Index residuals = 0;
+  std::vector<std::string> at_bound;      // "elastic nu"
+  std::vector<std::string> undetermined;  // parameters that the data cannot tell
+  std::vector<std::string> blind;         // "E and E1 enter only as their sum"
+  std::vector<std::string> intervals;     // profile likelihood, 95 %, in words
+  int discounted = 0;                     // force components that the robust loss halves or drops
+};
+
+// Fits on the chosen episodes by least squares of the forces. Standard errors come from the noise
+// (or the misfit, where that is larger) and from the gain error `floor` of each position. `body` is
+// solved again for inhomogeneous materials.
+FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
+              BodyStiffness& body, const FitOptions& options);
+
+// From an estimate made from the `starts`, finite elements solved. Estimates are of first order and
+// may have led away from where they began: where much is left, from the nearest start as well.
+FitResult fit_solved(const Model& estimate, const std::vector<Model>& starts,
+                     const Dataset& dataset, const Selection& selection, BodyStiffness& body,
+                     const FitOptions& options);
+
+// The best of several starts, from which the search of FitOptions::starts begins.
+FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
+                   const Selection& selection, BodyStiffness& body, const FitOptions& options);
+
+// Root mean square of measured minus simulated force, per component [N].
+double rmse(const Model& model, const Dataset& dataset, const Selection& selection,
+            const BodyStiffness& body);
+
+// Whole positions (or, with a single position, whole presses) left out in turn.
+struct Folds {
+  std::vector<Selection> held_out;
+  std::string
+      by;  // "positions", "presses" or "" when nothing can be held out (one press, one part)
+};
+Folds make_folds(const Dataset& dataset, int count);
+// Presses at positions that were pressed otherwise too: of each position's at most one is left out
+// at a time. Says nothing of other positions.
+Folds make_press_folds(const Dataset& dataset, int count);
+
+// Builds the starts of a model from the episodes it may see.
+using ModelBuilder = std::function<std::vector<Model>(const Selection& training)>;
+
+struct HeldOut {
+  // [N] per component, over all held-out rows; NaN when nothing could be held out.
+  double rmse = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> squares;     // sum of squares by fold [N^2]
+  std::vector<double> components;  // 3 x rows by fold
+};
+// Truly refitted for every fold; a body with features stays linear about its last solution.
+HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
+                       BodyStiffness& body, const FitOptions& options);
+
+}  // namespace hapsim

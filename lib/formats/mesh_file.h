@@ -1,0 +1,61 @@
+// Meshes of tetrahedra in the formats of other programs, read by content and written.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh/tetmesh.h"
+
+namespace hapsim {
+
+// What was mended while reading.
+struct MeshRepairs {
+  std::size_t unused_nodes = 0;  // of no tetrahedron: dropped
+  std::size_t turned = 0;        // inverted tetrahedra: two corners exchanged
+  std::size_t doubled = 0;       // the same tetrahedron again: dropped
+  std::size_t other_cells = 0;   // cells of other shape inside the volume: left out
+};
+
+struct MeshFile {
+  TetMesh mesh;
+  std::string format;      // "PLY", "VTU", "Gmsh 4.1", "TetGen", ...
+  bool has_fixed = false;  // the file says which nodes are fixed
+  MeshRepairs repairs;
+};
+
+// Whether the bytes begin as a mesh of tetrahedra does: PLY with the element tetrahedron, VTU,
+// Gmsh, TetGen's .node or .ele, a deck of Abaqus, a model of FEBio, a scene of SOFA.
+bool is_mesh_file(const std::string& bytes);
+
+// By content:
+//   PLY      as hs-tetmesh writes it
+//   VTU      ASCII, binary, appended raw or base64, uncompressed or zlib; cell types 10 and 24;
+//   cell
+//            data `region`, point data `fixed`
+//   Gmsh     2.2 and 4.1, ASCII; types 4 and 11; region: the physical volume's number, or N when it
+//            is named region_N; fixed: node data `fixed`, or the physical surface named fixed
+//   TetGen   .node or .ele, the other one is read from beside it; region: the first attribute
+//   Abaqus   and CalculiX: nodes, C3D4 or C3D10, before the first step; region: element sets
+//            REGION_k; fixed: the node set FIXED, and what *BOUNDARY holds in all three directions
+//   FEBio    febio_spec 2.0 to 4.0; tet4 or tet10; region: K of a block of elements named region_K,
+//            otherwise the number of the block; fixed: the node set fixed, and what conditions
+//            outside the steps hold in all three directions
+//   SOFA     XML scenes with the mesh in themselves: the first topology that lists tetrahedra;
+//            region: K of a child node region_K that lists them again; fixed: the indices, or the
+//            BoxROI, of FixedProjectiveConstraint or FixedConstraint beside the topology
+// `mend`: repair what MeshRepairs lists instead of refusing the inverted and leaving the doubled.
+// Error(kBadInput) with file and line (text) or place: truncated, index out of range, flat
+// tetrahedron, faces of more than two tetrahedra, middles that are not on their edges.
+MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool mend);
+
+// Appended raw, or text; point data `fixed`, cell data `region`.
+void write_mesh_vtu(std::ostream& out, const TetMesh& mesh, bool ascii = false);
+// ASCII; `version` 22 or 41. Physical volumes region_N, surfaces `free` and `fixed`; node data
+// `fixed`.
+void write_mesh_gmsh(std::ostream& out, const TetMesh& mesh, int version = 22);
+// Abaqus, CalculiX: C3D4 or C3D10, element sets REGION_N, node sets NALL and FIXED, surface
+// BOUNDARY of the element faces.
+void write_mesh_abaqus(std::ostream& out, const TetMesh& mesh);
+void write_mesh_tetgen(std::ostream& node, std::ostream& ele, const TetMesh& mesh);
+
+}  // namespace hapsim

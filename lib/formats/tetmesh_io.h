@@ -1,0 +1,18 @@
+// Bodies of tetrahedra as hapsim writes and reads them.
+#pragma once
+
+#include <ostream>
+
+#include "io/stream.h"
+#include "mesh/tetmesh.h"
+
+namespace hapsim {
+
+// Body PLY: vertex (x y z, uchar fixed), face, tetrahedron (list of 4 or 10, int region).
+// Error(kBadInput): index out of range, inverted or degenerate tetrahedron (its number and place),
+// no tetrahedra, a part of the body that fixed nodes do not hold.
+TetMesh read_body(Input& input);
+void write_body_ply(std::ostream& out, const TetMesh& mesh, bool ascii = false);
+void write_body_vtu(std::ostream& out, const TetMesh& mesh);
+
+}  // namespace hapsim

@@ -1,0 +1,275 @@
+#include "fusion/fuse_recordings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "estimate/simplex_search.h"
+#include "io/csv.h"
+
+namespace hapsim {
+namespace {
+
+struct SlowRow {
+  double t = 0, arrives = 0;
+  Vec3 force = Vec3::Zero();
+};
+
+// Slow forces of another motion, or of times counted otherwise, are off by its size; those of a
+// sampling or a clock of their own by far less.
+void require_same_motion(const Recording& fast, const Recording& slow) {
+  double off = 0, size = 0;
+  std::map<int, Press> presses;
+  for (const Press& p : fast.presses()) presses[p.id] = p;
+  for (std::size_t i = 0; i < slow.rows(); ++i) {
+    const std::vector<int>& rows = presses[slow.press[i]].rows;
+    const auto after = std::lower_bound(
+        rows.begin(), rows.end(), slow.t[i],
+        [&](int row, double t) { return fast.t[static_cast<std::size_t>(row)] < t; });
+    if (after == rows.begin() || after == rows.end()) continue;
+    const auto b = static_cast<std::size_t>(*after), a = static_cast<std::size_t>(*(after - 1));
+    const double step = fast.t[b] - fast.t[a];
+    const double share = step > 0 ? (slow.t[i] - fast.t[a]) / step : 1;
+    off += ((1 - share) * fast.u[a] + share * fast.u[b] - slow.u[i]).squaredNorm();
+    size += slow.u[i].squaredNorm();
+  }
+  if (off > 0.25 * size)
+    fail_input(slow.name,
+               fmt::format("its displacements are {:.0f} % off those of {} at the same times",
+                           100 * std::sqrt(off / size), fast.name),
+               "give the slow forces of the same motion, their t counted alike");
+}
+
+// By press, in the order of arrival.
+std::map<int, std::vector<SlowRow>> slow_rows(const Recording& fast, const SlowSource& slow) {
+  const Recording& r = *slow.recording;
+  for (const Recording* needed : {&fast, &r})
+    if (needed->t.empty())
+      fail_input(needed->name, "there is no column t", "forces are fused by their times");
+  std::map<int, std::vector<SlowRow>> rows;
+  for (const Press& p : fast.presses()) rows[p.id];
+  const auto column = std::find(r.extra_header.begin(), r.extra_header.end(), "arrives");
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    const std::string where = fmt::format("{}:{}", r.name, r.line[i]);
+    const auto found = rows.find(r.press[i]);
+    if (found == rows.end())
+      fail_input(where, fmt::format("press {} is not in {}", r.press[i], fast.name),
+                 "give both recordings the same presses");
+    if (r.in_air(i)) continue;
+    SlowRow row{r.t[i], r.t[i] + slow.delay, r.f[i]};
+    if (column != r.extra_header.end()) {
+      const auto c = static_cast<std::size_t>(column - r.extra_header.begin());
+      if (!parse_number(r.extra[c][i], row.arrives) || row.arrives < row.t)
+        fail_input(where, "arrives is " + shown(r.extra[c][i]),
+                   "give the time at which the row is there, not before its own [s]");
+    }
+    found->second.push_back(row);
+  }
+  require_same_motion(fast, r);
+  for (auto& [press, list] : rows)
+    std::stable_sort(list.begin(), list.end(),
+                     [](const SlowRow& a, const SlowRow& b) { return a.arrives < b.arrives; });
+  return rows;
+}
+
+// Where the data say nothing, parameters stay within a factor of about e^3 of the start.
+constexpr double kPrior = 3;
+
+class Run {
+ public:
+  Run(const Recording& fast, const FusionParameters& parameters)
+      : fast_(fast), fusion_(parameters, std::max<std::size_t>(longest(fast) + 2, 16)) {}
+
+  FusedForces operator()(std::map<int, std::vector<SlowRow>> slow) {
+    FusedForces out;
+    for (auto* list : {&out.force, &out.deviation, &out.held, &out.extrapolated})
+      list->assign(fast_.rows(), Vec3::Zero());
+    for (const Press& press : fast_.presses()) {
+      const std::vector<SlowRow>& rows = slow[press.id];
+      std::size_t next = 0;
+      const SlowRow *last = nullptr, *before = nullptr;  // by their own times
+      fusion_.begin(fast_.t[static_cast<std::size_t>(press.rows.front())]);
+      for (const int row : press.rows) {
+        const auto i = static_cast<std::size_t>(row);
+        const double t = fast_.t[i];
+        // What arrives between two samples counts from the second.
+        const Vec3 force = fusion_.step(t, fast_.u[i], fast_.f[i]);
+        for (; next < rows.size() && rows[next].arrives <= t; ++next) {
+          fusion_.observe(rows[next].t, rows[next].force);
+          if (last != nullptr && rows[next].t <= last->t) continue;
+          before = last;
+          last = &rows[next];
+        }
+        if (fast_.in_air(i)) continue;
+        out.force[i] = force;
+        out.deviation[i] = fusion_.deviation();
+        if (last != nullptr) out.held[i] = out.extrapolated[i] = last->force;
+        if (before != nullptr)
+          out.extrapolated[i] +=
+              (t - last->t) / (last->t - before->t) * (last->force - before->force);
+      }
+    }
+    out.report = fusion_.report();
+    return out;
+  }
+
+ private:
+  static std::size_t longest(const Recording& r) {
+    std::size_t most = 0;
+    for (const Press& p : r.presses()) most = std::max(most, p.rows.size());
+    return most;
+  }
+  const Recording& fast_;
+  Fusion fusion_;
+};
+
+// What is learned and written of each component, in one table.
+struct Entry {
+  const char* name;
+  const char* unit;
+  double AxisFusion::*value;
+  double lower, upper;
+};
+constexpr std::size_t kLearned = 8;  // the first ones
+const std::array<Entry, 9>& entries() {
+  static const std::array<Entry, 9> table{{
+      {"offset_walk", "N/s^0.5", &AxisFusion::offset_walk, 1e-9, 1e3},
+      {"walk_rate", "m/s", &AxisFusion::walk_rate, 1e-3, 1e6},
+      {"drift_walk", "N/s^1.5", &AxisFusion::drift_walk, 1e-9, 1e3},
+      {"drift_time", "s", &AxisFusion::drift_time, 1e-3, 1e3},
+      {"gain_walk", "1", &AxisFusion::gain_walk, 1e-9, 1e3},
+      {"gain_spread", "1", &AxisFusion::gain_spread, 1e-6, 1e3},
+      {"noise", "N", &AxisFusion::noise, 1e-9, 1e3},
+      {"noise_rise", "N s/m", &AxisFusion::noise_rise, 1e-9, 1e3},
+      {"force_scale", "N", &AxisFusion::force_scale, 1e-6, 1e6},
+  }};
+  return table;
+}
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+}  // namespace
+
+FusedForces fuse(const Recording& fast, const SlowSource& slow,
+                 const FusionParameters& parameters) {
+  return Run(fast, parameters)(slow_rows(fast, slow));
+}
+
+LearnedFusion learn_fusion(const Recording& fast, const SlowSource& slow,
+                           const FusionParameters& start) {
+  std::map<int, std::vector<SlowRow>> rows = slow_rows(fast, slow);
+  std::size_t count = 0;
+  for (const auto& [press, list] : rows) count += list.size();
+  if (count < 20)
+    fail_input(slow.recording->name, fmt::format("{} slow forces are too few to learn from", count),
+               "give 20 or more, or parameters");
+  LearnedFusion result;
+  result.converged = true;
+  result.parameters = start;
+  for (int a = 0; a < 3; ++a) {  // the components do not know of each other
+    AxisFusion& axis = result.parameters.axis[static_cast<std::size_t>(a)];
+    axis.force_scale = 1e-6;
+    for (const Vec3& f : fast.f) axis.force_scale = std::max(axis.force_scale, std::abs(f[a]));
+    // Starts are of the size of the forces.
+    axis.offset_walk *= axis.force_scale;
+    axis.drift_walk *= axis.force_scale;
+    axis.noise *= axis.force_scale;
+    axis.noise_rise *= axis.force_scale;
+    const AxisFusion from = axis;
+    const auto at = [&](const Eigen::VectorXd& x) {
+      FusionParameters p = result.parameters;
+      AxisFusion& here = p.axis[static_cast<std::size_t>(a)];
+      for (std::size_t i = 0; i < kLearned; ++i)
+        here.*(entries()[i].value) = std::clamp(std::exp(x[static_cast<Eigen::Index>(i)]),
+                                                entries()[i].lower, entries()[i].upper);
+      here.noise = std::max(here.noise, 1e-5 * here.force_scale);  // numbers as they are written
+      return p;
+    };
+    Eigen::VectorXd x(static_cast<Eigen::Index>(kLearned));
+    for (std::size_t i = 0; i < kLearned; ++i)
+      x[static_cast<Eigen::Index>(i)] = std::log(from.*(entries()[i].value));
+    SimplexSearchOptions options;
+    options.tolerance = 0.02;
+    options.value_tolerance = 0.1;  // of twice a log likelihood
+    options.most_evaluations = 2000;
+    const SimplexSearchResult found = simplex_search(
+        x,
+        [&](const Eigen::VectorXd& y) {
+          FusionParameters p = at(y);  // the filter's own: what is let in of it comes after
+          p.weighs = false;
+          return Run(fast, p)(rows).report.deviance[a] + (y - x).squaredNorm() / (kPrior * kPrior);
+        },
+        options);
+    result.parameters = at(found.x);
+    result.converged = result.converged && found.converged;
+    result.runs += found.evaluations;
+  }
+  return result;
+}
+
+ForceQuality force_quality(const Recording& motion, const std::vector<Vec3>& force,
+                           const std::vector<Vec3>& exact) {
+  ForceQuality quality;
+  double squares = 0, rows = 0;
+  for (const Press& press : motion.presses())
+    for (std::size_t k = 0; k < press.rows.size(); ++k) {
+      const auto i = static_cast<std::size_t>(press.rows[k]);
+      if (motion.in_air(i)) continue;
+      squares += (force[i] - exact[i]).squaredNorm();
+      rows += 3;
+      if (k == 0) continue;
+      const auto before = static_cast<std::size_t>(press.rows[k - 1]);
+      const double dt = motion.t[i] - motion.t[before];
+      if (dt > 0)
+        quality.largest_step =
+            std::max(quality.largest_step, (force[i] - force[before]).norm() * 1e-3 / dt);
+    }
+  if (rows > 0) quality.rms = std::sqrt(squares / rows);
+  return quality;
+}
+
+FusionParameters read_fusion(Input& input) {
+  const CsvTable csv = read_csv(input);
+  FusionParameters parameters;
+  const std::vector<double> value = csv.numbers("value");
+  const int column = csv.find("parameter"), axes = csv.find("axis");
+  for (const auto& [found, name] : {std::pair{column, "parameter"}, std::pair{axes, "axis"}})
+    if (found < 0) fail_missing_column(csv.name, name, csv.header);
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    const std::string& name = csv.columns[static_cast<std::size_t>(column)][row];
+    const std::string& axis = csv.columns[static_cast<std::size_t>(axes)][row];
+    const std::string where = csv.name + ":" + std::to_string(csv.line[row]);
+    const auto bounded = [&](double lower, double upper) {
+      if (value[row] < lower || value[row] > upper)
+        fail_input(where, name + " = " + format_number(value[row]) + " is out of its bounds",
+                   fmt::format("give {:g} to {:g}", lower, upper));
+      return value[row];
+    };
+    if (name == "blend") {
+      parameters.blend = bounded(0, 10);
+      continue;
+    }
+    const auto found = std::find_if(entries().begin(), entries().end(),
+                                    [&](const Entry& e) { return name == e.name; });
+    const auto a =
+        static_cast<std::size_t>(std::find(kAxes.begin(), kAxes.end(), axis) - kAxes.begin());
+    if (found == entries().end() || a == kAxes.size())
+      fail_input(where, "parameter " + shown(name) + " of axis " + shown(axis) + " is not known",
+                 "see hs-fuse(1)");
+    parameters.axis[a].*(found->value) = bounded(found->lower, found->upper);
+  }
+  return parameters;
+}
+
+void write_fusion(std::ostream& out, const FusionParameters& parameters) {
+  CsvWriter csv(out, {}, {"parameter", "axis", "value", "unit"});
+  for (std::size_t a = 0; a < 3; ++a)
+    for (const Entry& e : entries())
+      csv.row({e.name, kAxes[a], format_number(parameters.axis[a].*(e.value)), e.unit});
+  csv.row({"blend", "", format_number(parameters.blend), "s"});
+}
+
+}  // namespace hapsim

@@ -1,0 +1,214 @@
+#include "imaging/ball_search.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mesh/signed_distance.h"
+
+namespace hapsim {
+namespace {
+
+constexpr double kLinear = 0.25;   // share of a strong ball's signal that the linear one may miss
+constexpr double kLeastDrop = 30;  // of chi^2 for a ball, among the many places it could be
+
+// What a ball of ratio q adds to the stiffness, over what its volume would at small contrast.
+double effective(double ratio) {
+  return (ratio - 1) / (1 + 0.4 * (ratio - 1));
+}
+double ratio_of(double effect) {
+  constexpr double kMost = 2.4;  // a rigid ball has 2.5
+  const double e = std::min(effect, kMost);
+  return std::max(0.02, 1 + e / (1 - 0.4 * e));
+}
+
+// What a ball of unit effect does to the log gains: the share of the energy inside it.
+Eigen::VectorXd ball_signal(const Eigen::MatrixXd& J, const FieldGrid& grid, const Vec3& centre,
+                            double radius) {
+  // Nodes stand for their cells; cells that the boundary cuts count by how far they reach in. The
+  // whole has the ball's volume.
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(J.rows());
+  double volume = 0;
+  std::array<int, 3> from{}, to{};
+  for (int c = 0; c < 3; ++c) {
+    const double at = (centre[c] - grid.low[c]) / grid.step, reach = radius / grid.step + 0.5;
+    from[c] = std::max(0, static_cast<int>(std::ceil(at - reach)));
+    to[c] = std::min(grid.count[c] - 1, static_cast<int>(std::floor(at + reach)));
+  }
+  for (int k = from[2]; k <= to[2]; ++k)
+    for (int j = from[1]; j <= to[1]; ++j)
+      for (int i = from[0]; i <= to[0]; ++i) {
+        const std::size_t n = grid.index(i, j, k);
+        const double inside = (radius - (grid.node(n) - centre).norm()) / grid.step + 0.5;
+        const double share = std::clamp(inside, 0.0, 1.0);
+        if (share == 0) continue;
+        sum += share * J.col(static_cast<Eigen::Index>(n));
+        volume += share * std::pow(grid.step, 3);
+      }
+  const double wanted = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
+  return volume > 0 ? Eigen::VectorXd(wanted / volume * sum) : sum;
+}
+
+struct Candidate {
+  Vec3 centre;
+  double depth = 0, radius = 0;
+  Eigen::VectorXd signal;
+};
+
+std::vector<Candidate> candidates(const Eigen::MatrixXd& J, const FieldGrid& grid,
+                                  const BallScene& w) {
+  const SignedDistance surface(w.surface);
+  const double tool = w.tool_radius;
+  std::vector<Candidate> result;
+  for (std::size_t n = 0; n < grid.size(); ++n) {
+    const Vec3 p = grid.node(n);
+    const double depth = -surface.at(p).distance;
+    if (depth <= 0 || depth > w.largest_depth) continue;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t q = 0; q < w.contacts.size(); ++q) {
+      const Vec3 d = p - w.contacts[q].point;
+      const Vec3& normal = w.contacts[q].normal;
+      nearest = std::min(nearest, (d - d.dot(normal) * normal).norm());
+    }
+    if (nearest > 3 * tool) continue;  // not under the presses
+    for (const double radius : {0.75 * tool, tool, 1.5 * tool, 2 * tool, 3 * tool})
+      if (depth >= radius) result.push_back({p, depth, radius, ball_signal(J, grid, p, radius)});
+  }
+  return result;
+}
+
+// Least squares of the gains on a common gain, the balls so far and one more of unknown effect.
+class Scan {
+ public:
+  Scan(const Eigen::VectorXd& data, const Eigen::VectorXd& error)
+      : weight_(error.cwiseInverse()), data_(data.cwiseProduct(weight_)) {
+    explain(Eigen::VectorXd::Ones(data.size()));
+  }
+  // Takes a signal out of everything that follows.
+  void explain(const Eigen::VectorXd& signal) {
+    Eigen::VectorXd q = out(signal.cwiseProduct(weight_));
+    if (q.norm() <= 0) return;
+    q.normalize();
+    data_ -= q * q.dot(data_);
+    basis_.push_back(q);
+  }
+  double chi2() const { return data_.squaredNorm(); }
+  Eigen::Index freedom() const {
+    return std::max<Eigen::Index>(1, data_.size() - static_cast<Eigen::Index>(basis_.size()));
+  }
+  // Effect of a signal and what it takes from chi^2.
+  std::pair<double, double> fit(const Eigen::VectorXd& signal) const {
+    const Eigen::VectorXd s = out(signal.cwiseProduct(weight_));
+    const double power = s.squaredNorm(), product = s.dot(data_);
+    return power > 0 ? std::pair(product / power, product * product / power) : std::pair(0.0, 0.0);
+  }
+  double size(const Eigen::VectorXd& signal) const {
+    return out(signal.cwiseProduct(weight_)).norm();
+  }
+
+ private:
+  Eigen::VectorXd out(Eigen::VectorXd s) const {
+    for (const Eigen::VectorXd& q : basis_) s -= q * q.dot(s);
+    return s;
+  }
+  Eigen::VectorXd weight_, data_;
+  std::vector<Eigen::VectorXd> basis_;
+};
+
+// The best ball; its numbers are means over all candidates by their likelihood.
+FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all, double variance) {
+  double most = 0;
+  std::vector<std::pair<double, double>> fits;
+  for (const Candidate& c : all) {
+    fits.push_back(scan.fit(c.signal));
+    const bool possible = fits.back().first > effective(0.02) && fits.back().first < 2.4;
+    if (!possible) fits.back().second = 0;
+    most = std::max(most, fits.back().second);
+  }
+  FoundBall ball;
+  ball.drop = most / variance;
+  double sum = 0, log_radius = 0, log_ratio = 0, squares = 0;
+  Vec3 square = Vec3::Zero();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double likelihood = std::exp(0.5 * (fits[i].second - most) / variance);
+    if (fits[i].second == 0 || likelihood < 1e-6) continue;
+    sum += likelihood;
+    ball.centre += likelihood * all[i].centre;
+    square += likelihood * all[i].centre.cwiseAbs2();
+    ball.depth += likelihood * all[i].depth;
+    squares += likelihood * all[i].depth * all[i].depth;
+    log_radius += likelihood * std::log(all[i].radius);
+    log_ratio += likelihood * std::log(ratio_of(fits[i].first));
+  }
+  if (sum == 0) return {};
+  ball.centre /= sum;
+  ball.depth /= sum;
+  ball.error = (square / sum - ball.centre.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  ball.depth_error = std::sqrt(std::max(0.0, squares / sum - ball.depth * ball.depth));
+  ball.radius = std::exp(log_radius / sum);
+  ball.ratio = std::exp(log_ratio / sum);
+  return ball;
+}
+
+}  // namespace
+
+BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
+                        const Eigen::VectorXd& data, const Eigen::VectorXd& noise,
+                        const BallScene& w) {
+  const Eigen::Index n = data.size();
+  const double tool = w.tool_radius, depth = w.largest_depth;
+  BallSearch image;
+  const std::vector<Candidate> all = candidates(J, grid, w);
+
+  // Errors that grow, alike everywhere, until the best ball leaves no more than they allow.
+  double extra = 0;
+  Eigen::VectorXd error = noise;
+  for (int round = 0; round < 4; ++round) {
+    error = (noise.array().square() + extra * extra).sqrt();
+    Scan scan(data, error);
+    const FoundBall ball = best_ball(scan, all, 1);
+    const double left = (scan.chi2() - ball.drop) / std::max<double>(1, double(n) - 6);
+    if (left <= 1.05) break;
+    const double mean = error.cwiseAbs2().mean();
+    extra = std::sqrt(extra * extra + (left - 1) * mean);
+  }
+  image.error = std::sqrt(error.cwiseAbs2().mean());
+  Scan scan(data, error);
+  image.misfit_before = std::sqrt(scan.chi2() / double(n)) * image.error;
+  image.held_out_before = image.misfit_before * double(n) / double(n - 1);
+  constexpr std::size_t kMost = 3;
+  while (image.balls.size() < kMost) {
+    FoundBall ball = best_ball(scan, all, 1);
+    const double first = image.balls.empty() ? 0 : image.balls.front().drop;
+    if (ball.drop < std::max(kLeastDrop, kLinear * kLinear * first)) break;
+    // The candidates are a step apart, and the linear signal errs as well.
+    ball.error = (ball.error.cwiseAbs2() + Vec3::Constant(grid.step * grid.step / 4)).cwiseSqrt();
+    ball.depth_error = std::hypot(ball.depth_error, grid.step / 2);
+    image.balls.push_back(ball);
+    scan.explain(ball_signal(J, grid, ball.centre, ball.radius));
+  }
+
+  // How deep: under the position nearest to the middle of all.
+  Vec3 middle = Vec3::Zero();
+  for (const PreparedContact& c : w.contacts) middle += c.point / double(w.contacts.size());
+  std::size_t at = 0;
+  for (std::size_t p = 0; p < w.contacts.size(); ++p)
+    if ((w.contacts[p].point - middle).norm() < (w.contacts[at].point - middle).norm()) at = p;
+  const Scan plain(data, error);
+  for (const double radius : {tool, 1.5 * tool, 3 * tool})
+    for (const double ratio : {2.0, 5.0}) {
+      Sight sight{radius, ratio, 0};
+      for (double d = radius; d <= depth; d += 0.25 * tool) {
+        const Vec3 centre = w.contacts[at].point - d * w.contacts[at].normal;
+        if (effective(ratio) * plain.size(ball_signal(J, grid, centre, radius)) < kSeen) break;
+        sight.depth = d;
+      }
+      image.sight.push_back(sight);
+    }
+  image.errors = error;
+  return image;
+}
+
+}  // namespace hapsim

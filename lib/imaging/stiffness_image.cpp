@@ -1,0 +1,169 @@
+#include "imaging/stiffness_image.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "effects/catalogue.h"
+#include "imaging/field_contacts.h"
+
+namespace hapsim {
+namespace {
+
+// Over what the presses may see of the body: down to `depth` below them, four tool radii about.
+FieldGrid grid_about(const std::vector<PreparedContact>& contacts, const TetMesh& body,
+                     double tool_radius, double step, double depth) {
+  Vec3 low = contacts.front().point, high = low;
+  for (const PreparedContact& c : contacts) {
+    const Vec3 deep = c.point - depth * c.normal;
+    low = low.cwiseMin(c.point).cwiseMin(deep);
+    high = high.cwiseMax(c.point).cwiseMax(deep);
+  }
+  Eigen::AlignedBox3d box;
+  for (const Vec3& v : body.nodes) box.extend(v);
+  const double margin = 4 * tool_radius;
+  low = (low - Vec3::Constant(margin)).cwiseMax(box.min());
+  high = (high + Vec3::Constant(margin)).cwiseMin(box.max());
+  FieldGrid grid;
+  grid.low = low;
+  grid.step = step;
+  for (int c = 0; c < 3; ++c)
+    grid.count[c] = 1 + static_cast<int>(std::ceil((high[c] - low[c]) / step - 1e-9));
+  return grid;
+}
+
+// Derivatives of the log gains by log E at the nodes: views x nodes.
+Eigen::MatrixXd sensitivities(const FieldContacts& contacts, std::size_t positions,
+                              const std::vector<ImageView>& views, const ImageOptions& options) {
+  const auto nodes = static_cast<Eigen::Index>(contacts.grid().size());
+  Eigen::MatrixXd J(static_cast<Eigen::Index>(views.size()), nodes);
+  const Eigen::VectorXd homogeneous = Eigen::VectorXd::Zero(nodes);
+  in_parallel(positions, options.threads, [&](std::size_t p) {
+    const FieldContacts::Contact contact = contacts.at(p, homogeneous);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      if (views[v].position != static_cast<int>(p)) continue;
+      const Eigen::Matrix3d C = contact.S.transpose() * views[v].B * contact.S;
+      Eigen::Matrix<double, 1, 6> row;
+      row << C(0, 0), C(1, 1), C(2, 2), C(0, 1) + C(1, 0), C(1, 2) + C(2, 1), C(0, 2) + C(2, 0);
+      J.row(static_cast<Eigen::Index>(v)) = row * contact.by_node / (C * contact.K_coarse).trace();
+    }
+    if (options.progress) options.progress();
+  });
+  return J;
+}
+
+}  // namespace
+
+std::vector<ImageView> image_views(const Model& model, const Dataset& dataset,
+                                   const BodyStiffness& body, double noise) {
+  Model without_sensor = model;
+  std::erase_if(without_sensor.parameters, [](const Parameter& p) {
+    return require_effect(p.effect).card().stage == Stage::kSensor;
+  });
+  const Selection all = all_episodes(dataset);
+  const Eigen::VectorXd full = model_forces(model, dataset, all, body, false).f;
+  const Eigen::VectorXd f = model_forces(without_sensor, dataset, all, body, false).f;
+  const Eigen::VectorXd target = measured_forces(dataset, all) - (full - f);
+  const MaterialSpec material = material_of(model);
+  struct Sums {
+    Vec3 direction;
+    Eigen::Matrix3d ff = Eigen::Matrix3d::Zero();
+    double ft = 0;
+    int position = 0;
+  };
+  std::vector<Sums> sums;
+  constexpr double kAlike = 0.966;  // 15 degrees
+  Eigen::Index at = 0;
+  for (const int e : all) {
+    const Episode& episode = dataset.episodes[e];
+    auto same = std::find_if(sums.begin(), sums.end(), [&](const Sums& s) {
+      return s.position == episode.position && s.direction.dot(episode.view.direction) > kAlike;
+    });
+    if (same == sums.end()) {
+      sums.push_back({episode.view.direction, Eigen::Matrix3d::Zero(), 0, episode.position});
+      same = sums.end() - 1;
+    }
+    for (std::size_t i = 0; i < episode.rows.size(); ++i, at += 3) {
+      same->ff += f.segment<3>(at) * f.segment<3>(at).transpose();
+      same->ft += f.segment<3>(at).dot(target.segment<3>(at));
+    }
+  }
+  std::vector<ImageView> views;
+  for (const Sums& s : sums) {
+    const double power = s.ff.trace();
+    if (power <= 0 || s.ft <= 0) continue;
+    const Eigen::Matrix3d K = body.at(static_cast<std::size_t>(s.position), material).K;
+    views.push_back(
+        {s.position, K.inverse() * s.ff / power, s.ft / power, noise / std::sqrt(power)});
+  }
+  return views;
+}
+
+StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
+                               const BodyStiffness& stiffness, const TetMesh& body, double noise_N,
+                               const ImageOptions& options) {
+  const double tool = dataset.recording.tool_radius();
+  const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
+  const std::vector<ImageView> views = image_views(model, dataset, stiffness, noise_N);
+  const auto n = static_cast<Eigen::Index>(views.size());
+  const std::vector<PreparedContact>& pressed = stiffness.setup(0).contacts();
+  const FieldGrid grid =
+      grid_about(pressed, body, tool, options.step > 0 ? options.step : 0.7 * tool, depth);
+  const FieldContacts contacts(body, stiffness, tool, material_of(model).nu, grid, 0);
+  const Eigen::MatrixXd J = sensitivities(contacts, pressed.size(), views, options);
+  Eigen::VectorXd data(n), noise(n);
+  std::vector<int> position;
+  for (Eigen::Index v = 0; v < n; ++v) {
+    data[v] = std::log(views[v].gain);
+    noise[v] = views[v].error / views[v].gain;
+    position.push_back(views[v].position);
+  }
+  StiffnessImage image;
+  image.views = views.size();
+  image.found = search_balls(J, grid, data, noise, {pressed, contacts.base().fine, tool, depth});
+  image.field = image_field(J, grid, position, data, image.found.errors, options.penalty);
+  return image;
+}
+
+std::vector<std::string> words_of(const StiffnessImage& image) {
+  std::vector<std::string> words;
+  for (const FoundBall& b : image.found.balls)
+    words.push_back(fmt::format(
+        "something {} at ({:.1f}, {:.1f}, {:.1f}) ± ({:.1f}, {:.1f}, {:.1f}) mm, its centre {:.1f} "
+        "± "
+        "{:.1f} mm deep: as a ball of {:.0f} mm diameter and {:.2g} times the modulus (size and "
+        "modulus trade for each other)",
+        b.ratio > 1 ? "stiffer" : "softer", 1e3 * b.centre.x(), 1e3 * b.centre.y(),
+        1e3 * b.centre.z(), 1e3 * b.error.x(), 1e3 * b.error.y(), 1e3 * b.error.z(), 1e3 * b.depth,
+        1e3 * b.depth_error, 2e3 * b.radius, b.ratio));
+  if (image.found.balls.empty())
+    words.push_back("nothing compact is seen: no ball explains the presses better than none");
+  for (const Sight& s : image.found.sight) {
+    const std::string ball =
+        fmt::format("a ball of {:.0f} mm diameter, {:g} times as stiff, ", 2e3 * s.radius, s.ratio);
+    words.push_back(s.depth > 0 ? ball + fmt::format("is seen with its centre down to {:.0f} mm; "
+                                                     "deeper it cannot be seen by these presses",
+                                                     1e3 * s.depth)
+                                : ball + "cannot be seen by these presses at any depth");
+  }
+  words.push_back(
+      fmt::format("gains differ by {:.2g} % from place to place, {:.2g} % on positions left out; "
+                  "with the field "
+                  "{:.2g} % and {:.2g} %; their errors are {:.2g} %",
+                  100 * image.found.misfit_before, 100 * image.found.held_out_before,
+                  100 * image.field.misfit, 100 * image.field.held_out, 100 * image.found.error));
+  return words;
+}
+
+double modulus_ratio(const StiffnessImage& image, const Vec3& p) {
+  if (image.found.balls.empty()) return std::exp(image.field.grid.value(image.field.log_ratio, p));
+  double ratio = 1;
+  for (const FoundBall& b : image.found.balls)
+    if ((p - b.centre).norm() < b.radius) ratio *= b.ratio;
+  return ratio;
+}
+
+}  // namespace hapsim

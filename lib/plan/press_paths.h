@@ -1,0 +1,34 @@
+// Presses that a tool can be told to do: paths in the frame of the contact, and their rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recording/recording.h"
+
+namespace hapsim {
+
+constexpr double kPauseBetweenPresses = 5;  // [s]
+
+// A path of the tool: displacements in the frame of the contact (two tangents, depth), reached one
+// after the other.
+struct Leg {
+  Vec3 to;  // tangent 1, tangent 2, depth [m]
+  double seconds;
+};
+struct PressPath {
+  std::string name;  // "fast 3 mm deep, held"
+  std::vector<Leg> legs;
+};
+
+// Shallow, as deep as `deepest` [m], and half as deep again; slowly, fast, and fast with a hold;
+// pushed sideways along two directions and their diagonal, to and fro.
+std::vector<PressPath> press_paths(double deepest);
+
+// Appends one press along a path in steps of `step` [s], without forces, with a piece of air before
+// and after it. `start`: time of its first row [s]. The first tangent is the x axis laid into the
+// surface (the y axis where that stands upright on it).
+void append_press(Recording& recording, int press, double start, double step, const Vec3& position,
+                  const Vec3& normal, const PressPath& path);
+
+}  // namespace hapsim

@@ -1,0 +1,275 @@
+#include "plan/press_plan.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include "base/error.h"
+#include "effects/catalogue.h"
+#include "experiment/weights.h"
+#include "io/number.h"
+#include "plan/press_paths.h"
+#include "plan/unpressed_places.h"
+
+namespace hapsim {
+namespace {
+
+constexpr std::size_t kMorePlaces = 6;
+
+struct Candidates {
+  Dataset dataset;
+  std::vector<std::string> names;             // one an episode
+  std::unique_ptr<SetupStiffness> elsewhere;  // when it has more positions than the recording
+  const SetupStiffness& body(const Workspace& w) const {
+    return elsewhere ? *elsewhere : w.body->setup(0);
+  }
+};
+
+// Whether the model says something of places that were not pressed that no other model says.
+bool depends_on_place(const Model& model) {
+  for (const std::string& name : model.effects()) {
+    const EffectCard& card = require_effect(name).card();
+    if (card.needs_positions || card.solved) return true;
+  }
+  return false;
+}
+
+// The recording's positions and some between and around them, solved for every model. None that
+// cannot be pressed.
+std::unique_ptr<SetupStiffness> more_positions(const std::vector<Model>& models,
+                                               const Workspace& w) {
+  if (std::none_of(models.begin(), models.end(), depends_on_place)) return nullptr;
+  const SetupStiffness& pressed = w.body->setup(0);
+  std::vector<Vec3> places = pressed.positions();
+  for (const Vec3& p : unpressed_places(pressed.surface(), pressed.contacts(),
+                                        w.dataset.recording.tool_radius(), kMorePlaces)) {
+    try {
+      pressed.with_positions({p});
+      places.push_back(p);
+    } catch (const Error&) {  // an edge, a gap: nothing to press on
+    }
+  }
+  std::unique_ptr<SetupStiffness> body = pressed.with_positions(places);
+  for (const Model& m : models) body->solve(material_of(m));
+  return body;
+}
+
+std::vector<Vec3> normals_of(const SetupStiffness& body) {
+  std::vector<Vec3> normals;
+  for (const PreparedContact& c : body.contacts()) normals.push_back(c.normal);
+  return normals;
+}
+
+// Every path at every position, each as if it came right after the recording.
+Candidates make_candidates(const std::vector<Model>& models, const Workspace& w) {
+  const Dataset& known = w.dataset;
+  const DataSummary summary = summarise(known, 1);
+  const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
+  Candidates candidates;
+  candidates.elsewhere = more_positions(models, w);
+  const SetupStiffness& body = candidates.body(w);
+  const std::vector<Vec3>& positions = body.positions();
+  const std::vector<Vec3> normals = normals_of(body);
+  Recording r;
+  r.name = "plan";
+  r.metadata = known.recording.metadata;
+  int press = 0;
+  for (std::size_t p = 0; p < positions.size(); ++p)
+    for (const PressPath& path : press_paths(summary.depth)) {
+      append_press(r, press++, 0, step, positions[p], normals[p], path);
+      candidates.names.push_back(path.name);
+    }
+  if (!known.recording.temp.empty())
+    r.temp.assign(r.rows(),
+                  std::accumulate(known.recording.temp.begin(), known.recording.temp.end(), 0.0) /
+                      static_cast<double>(known.recording.temp.size()));
+  candidates.dataset = make_dataset(std::move(r));
+  set_normals(candidates.dataset, normals);
+  std::vector<double> past(positions.size(), 0);
+  for (const Episode& e : known.episodes)
+    for (std::size_t i = 0; i < e.view.size(); ++i)
+      if (!e.view.in_air[i]) past[e.position] = std::max(past[e.position], e.view.u[i].norm());
+  for (Episode& e : candidates.dataset.episodes) {
+    e.view.past_depth = past[e.position];
+    for (std::size_t i = 0; i < e.view.session.size(); ++i)
+      e.view.session[i] = summary.session + kPauseBetweenPresses + e.view.t[i];
+  }
+  return candidates;
+}
+
+// What a set of presses says, added up over them: of the difference to another model, of this one's
+// parameters, and of both.
+struct Evidence {
+  double difference = 0;
+  Eigen::VectorXd both;
+  Eigen::MatrixXd information;
+  void add(const Evidence& e) {
+    difference += e.difference;
+    both += e.both;
+    information += e.information;
+  }
+};
+
+// Offsets of single presses say nothing of the next ones.
+Model without_press_offsets(Model model) {
+  std::erase_if(model.parameters,
+                [](const Parameter& p) { return require_effect(p.effect).card().by_press; });
+  return model;
+}
+
+// Information on the model's parameters in the recording, with a trace of what their bounds say.
+Eigen::MatrixXd known_information(const Model& model, const Workspace& w) {
+  constexpr double kVague = 100;
+  const Selection all = all_episodes(w.dataset);
+  Signal signal = model_forces(model, w.dataset, all, *w.body, true);
+  Weights(w.dataset, all, signal.f, w.noise.value, w.floor).whiten(signal.df);
+  Eigen::MatrixXd H = signal.df.transpose() * signal.df;
+  const std::vector<int> free = model.free_parameters();
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    const Parameter& p = model.parameters[free[c]];
+    const double scale =
+        std::max(std::abs(p.value), parameter_card(require_effect(p.effect), p.name)->scale);
+    const auto k = static_cast<Eigen::Index>(c);
+    H(k, k) += 1 / (kVague * kVague * scale * scale);
+  }
+  return H;
+}
+
+// Chi-square by which the other model stays away, this one's parameters refitted.
+double separation(const Evidence& e, const Eigen::MatrixXd& known) {
+  return e.difference - e.both.dot((known + e.information).ldlt().solve(e.both));
+}
+
+// Greedy choice: `gain` of a set of candidates together, larger is better.
+template <typename Gain>
+std::vector<std::size_t> choose(std::size_t candidates, std::size_t count, const Gain& gain) {
+  std::vector<std::size_t> chosen;
+  while (chosen.size() < std::min(count, candidates)) {
+    std::size_t best = candidates;
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < candidates; ++k) {
+      if (std::find(chosen.begin(), chosen.end(), k) != chosen.end()) continue;
+      std::vector<std::size_t> with = chosen;
+      with.push_back(k);
+      const double value = gain(with);
+      if (value > most) {
+        most = value;
+        best = k;
+      }
+    }
+    if (best == candidates) break;
+    chosen.push_back(best);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& w,
+                             std::size_t count) {
+  std::vector<Model> plain;
+  std::vector<Eigen::MatrixXd> known;
+  for (const Model& m : models) {
+    plain.push_back(without_press_offsets(m));
+    known.push_back(known_information(plain.back(), w));
+  }
+  const Candidates candidates = make_candidates(plain, w);
+  const SetupStiffness& body = candidates.body(w);
+  const std::size_t presses = candidates.dataset.episodes.size();
+  // By press and ordered pair of models (a model with itself when it is alone).
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t a = 0; a < plain.size(); ++a)
+    for (std::size_t b = 0; b < plain.size(); ++b)
+      if (a != b || plain.size() == 1) pairs.emplace_back(a, b);
+  std::vector<std::vector<Evidence>> evidence(presses);
+  for (std::size_t k = 0; k < presses; ++k) {
+    const Selection one{static_cast<int>(k)};
+    std::vector<Signal> signals;
+    for (const Model& m : plain) {
+      const MaterialSpec material = material_of(m);
+      signals.push_back(model_forces(
+          m, candidates.dataset, one, [&](std::size_t p) { return body.at(p, material); }, true,
+          body.threads()));
+    }
+    for (const auto& [a, b] : pairs) {
+      const Weights weights(candidates.dataset, one, signals[b].f, w.noise.value, w.floor);
+      Eigen::MatrixXd r = signals[a].f - signals[b].f, J = signals[b].df;
+      weights.whiten(r);
+      weights.whiten(J);
+      evidence[k].push_back({r.squaredNorm(), J.transpose() * r.col(0), J.transpose() * J});
+    }
+  }
+  const auto together = [&](const std::vector<std::size_t>& set, std::size_t pair) {
+    Evidence sum = evidence[set.front()][pair];
+    for (std::size_t i = 1; i < set.size(); ++i) sum.add(evidence[set[i]][pair]);
+    return sum;
+  };
+
+  MeasurementPlan plan;
+  std::vector<std::size_t> chosen;
+  if (plain.size() > 1) {
+    const auto least = [&](const std::vector<std::size_t>& set) {
+      double value = std::numeric_limits<double>::infinity();
+      for (std::size_t q = 0; q < pairs.size(); ++q)
+        value = std::min(value, separation(together(set, q), known[pairs[q].second]));
+      return value;
+    };
+    chosen = choose(presses, count, least);
+    plan.separation = chosen.empty() ? 0 : std::sqrt(std::max(0.0, least(chosen)));
+  } else {
+    const std::vector<int> free = plain[0].free_parameters();
+    if (free.empty()) return plan;
+    const auto spread = [&](const Eigen::MatrixXd& H) {
+      Eigen::VectorXd sd = H.ldlt()
+                               .solve(Eigen::MatrixXd::Identity(H.rows(), H.cols()))
+                               .diagonal()
+                               .cwiseMax(0)
+                               .cwiseSqrt();
+      for (std::size_t c = 0; c < free.size(); ++c) {
+        const Parameter& p = plain[0].parameters[free[c]];
+        sd[static_cast<Eigen::Index>(c)] /=
+            std::max(std::abs(p.value), parameter_card(require_effect(p.effect), p.name)->scale);
+      }
+      return sd;
+    };
+    Eigen::Index worst = 0;
+    const double before = spread(known[0]).maxCoeff(&worst);
+    const Parameter& p = plain[0].parameters[free[static_cast<std::size_t>(worst)]];
+    plan.parameter = p.effect + " " + p.name;
+    const auto gain = [&](const std::vector<std::size_t>& set) {
+      return -spread(known[0] + together(set, 0).information)[worst];
+    };
+    chosen = choose(presses, count, gain);
+    plan.separation = chosen.empty() ? 1 : -gain(chosen) / before;
+  }
+
+  Recording& motion = plan.motion;
+  motion.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
+  const DataSummary summary = summarise(w.dataset, 1);
+  const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
+  const std::vector<Vec3> normals = normals_of(body);
+  const std::vector<PressPath> all_paths = press_paths(summary.depth);
+  double start = 0;
+  for (const std::size_t k : chosen) {
+    const Episode& e = candidates.dataset.episodes[k];
+    const auto position = static_cast<std::size_t>(e.position);
+    const int number = static_cast<int>(plan.presses.size()) + 1;
+    append_press(motion, number, start, step, body.positions()[position], normals[position],
+                 all_paths[k % all_paths.size()]);
+    start = motion.t.back() + kPauseBetweenPresses;
+    double alone = std::numeric_limits<double>::infinity();
+    if (plain.size() > 1)
+      for (std::size_t q = 0; q < pairs.size(); ++q)
+        alone = std::min(alone, separation(evidence[k][q], known[pairs[q].second]));
+    plan.presses.push_back({candidates.names[k], body.positions()[position],
+                            plain.size() > 1 ? std::sqrt(std::max(0.0, alone)) : 0});
+  }
+  return plan;
+}
+
+}  // namespace hapsim

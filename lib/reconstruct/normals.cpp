@@ -1,0 +1,150 @@
+#include "reconstruct/normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "mesh/local_plane.h"
+#include "mesh/point_index.h"
+
+namespace hapsim {
+namespace {
+
+constexpr double kFlat = 0.125;
+constexpr int kFewest = 12;
+constexpr int kMost = 192;
+constexpr int kGraph = 10;
+
+double median(std::vector<double> v) {
+  if (v.empty()) return 0;
+  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
+  std::nth_element(v.begin(), middle, v.end());
+  return *middle;
+}
+
+LocalPlane plane_about(const PointCloud& cloud, const PointIndex& index, std::size_t i, int k) {
+  std::vector<Vec3> near;
+  for (const Neighbour& n : index.nearest(cloud.points[i], k)) {
+    near.push_back(cloud.points[n.index]);
+  }
+  return fit_plane(near);
+}
+
+// Smallest number of neighbours that makes the scan look flat, or the flattest tried.
+int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
+  const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / 500);
+  int best = kFewest;
+  double best_ratio = 1e300;
+  for (int k = kFewest; k <= kMost && k < static_cast<int>(cloud.points.size()) / 4; k *= 2) {
+    std::vector<double> ratio;
+    for (std::size_t i = 0; i < cloud.points.size(); i += step) {
+      const LocalPlane plane = plane_about(cloud, index, i, k);
+      ratio.push_back(plane.thickness / std::max(plane.spread[1], 1e-300));
+    }
+    const double middle = median(ratio);
+    if (middle < kFlat) return k;
+    if (middle < best_ratio) {
+      best_ratio = middle;
+      best = k;
+    }
+  }
+  return best;
+}
+
+// Turns the piece that holds `seed` alike (Prim); returns its points.
+std::vector<int> spread_orientation(PointCloud& cloud, const std::vector<std::vector<int>>& graph,
+                                    int seed, std::vector<char>& done) {
+  std::vector<int> piece;
+  // Weight, point, point it comes from: ties fall to the lowest number, so the result is definite.
+  using Step = std::tuple<double, int, int>;
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
+  open.emplace(0, seed, seed);
+  while (!open.empty()) {
+    const auto [weight, i, from] = open.top();
+    open.pop();
+    if (done[i]) continue;
+    done[i] = 1;
+    piece.push_back(i);
+    if (cloud.normals[i].dot(cloud.normals[from]) < 0) cloud.normals[i] = -cloud.normals[i];
+    for (const int j : graph[i]) {
+      if (done[j]) continue;
+      open.emplace(1 - std::abs(cloud.normals[i].dot(cloud.normals[j])), j, i);
+    }
+  }
+  return piece;
+}
+
+}  // namespace
+
+void orient_normals(PointCloud& cloud, const Vec3& up, int neighbours, NormalsReport& report) {
+  const int n = static_cast<int>(cloud.points.size());
+  const PointIndex index(cloud.points);
+  std::vector<std::vector<int>> graph(n);
+  for (int i = 0; i < n; ++i) {
+    for (const Neighbour& m : index.nearest(cloud.points[i], std::max(kGraph, neighbours / 2))) {
+      if (m.index == i) continue;
+      graph[i].push_back(m.index);
+      graph[m.index].push_back(i);
+    }
+  }
+  Vec3 centre = Vec3::Zero();
+  for (const Vec3& p : cloud.points) centre += p;
+  centre /= n;
+  double size = 0;
+  for (const Vec3& p : cloud.points) size += (p - centre).norm();
+  size /= n;
+
+  std::vector<char> done(n, 0);
+  report.pieces = 0;
+  for (int seed = 0; seed < n; ++seed) {
+    if (done[seed]) continue;
+    ++report.pieces;
+    const std::vector<int> piece = spread_orientation(cloud, graph, seed, done);
+    // Seen all round, the normals' part along `up` cancels; of a patch, it decides.
+    double outward = 0;
+    for (const int i : piece) {
+      outward += cloud.normals[i].dot(cloud.points[i] - centre + 0.4 * size * up);
+    }
+    if (outward >= 0) continue;
+    for (const int i : piece) cloud.normals[i] = -cloud.normals[i];
+  }
+}
+
+void estimate_normals(PointCloud& cloud, const Vec3& up, NormalsReport& report) {
+  const PointIndex index(cloud.points);
+  report.neighbours = choose_neighbours(cloud, index);
+  cloud.normals.resize(cloud.points.size());
+  std::vector<double> thickness;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const LocalPlane plane = plane_about(cloud, index, i, report.neighbours);
+    cloud.normals[i] = plane.normal;
+    thickness.push_back(plane.thickness);
+  }
+  report.noise = median(thickness);
+  orient_normals(cloud, up, report.neighbours, report);
+}
+
+void sharpen_normals(PointCloud& cloud, double radius, double angle_deg, int rounds) {
+  const PointIndex index(cloud.points);
+  const std::size_t n = cloud.points.size();
+  std::vector<std::vector<Neighbour>> near(n);
+  for (std::size_t i = 0; i < n; ++i) near[i] = index.within(cloud.points[i], radius);
+  const double scale = 1 - std::cos(angle_deg * M_PI / 180);
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<Vec3> next(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Vec3 sum = Vec3::Zero();
+      for (const Neighbour& m : near[i]) {
+        const double turn = (1 - cloud.normals[i].dot(cloud.normals[m.index])) / scale;
+        const double away = m.distance / radius;
+        sum += std::exp(-turn * turn - 2 * away * away) * cloud.normals[m.index];
+      }
+      next[i] = sum.norm() > 1e-12 ? sum.normalized() : cloud.normals[i];
+    }
+    cloud.normals = std::move(next);
+  }
+}
+
+}  // namespace hapsim

@@ -1,0 +1,79 @@
+#include "recording/recording.h"
+
+#include <map>
+
+#include "base/error.h"
+#include "io/csv.h"
+
+namespace hapsim {
+
+double Recording::tool_radius() const {
+  const auto radius = metadata.number("tool_radius", name);
+  if (!radius)
+    fail_input(name, "the tool's radius is not given",
+               "add a line '# tool_radius: 0.004' (metres) at the top");
+  if (!(*radius >= 1e-6 && *radius < 1))
+    fail_input(name, "tool_radius " + format_number(*radius) + " is not between 1e-6 and 1 m",
+               "give it in metres (4 mm is 0.004)");
+  return *radius;
+}
+
+std::optional<double> Recording::force_noise() const {
+  constexpr double kLeast = 1e-12, kMost = 1e6;  // [N]; beyond them weights lose all digits
+  const auto noise = metadata.number("force_noise", name);
+  if (!noise || *noise == 0) return std::nullopt;  // 0: not known
+  if (!(*noise >= kLeast && *noise <= kMost))
+    fail_input(name, "force_noise " + format_number(*noise) + " is not between 1e-12 and 1e6 N",
+               "give the standard deviation of a component in newtons, or remove the line");
+  return noise;
+}
+
+std::vector<Press> Recording::presses() const {
+  std::vector<Press> result;
+  std::map<int, std::size_t> index;
+  for (std::size_t row = 0; row < rows(); ++row) {
+    const auto [found, is_new] = index.try_emplace(press[row], result.size());
+    if (is_new) result.push_back({press[row], {}});
+    result[found->second].rows.push_back(static_cast<int>(row));
+  }
+  return result;
+}
+
+int measured_axes(const std::vector<Vec3>& forces) {
+  Vec3 largest = Vec3::Zero();
+  for (const Vec3& f : forces) largest = largest.cwiseMax(f.cwiseAbs());
+  return std::max(1, static_cast<int>((largest.array() > 0).count()));
+}
+
+void write_recording(std::ostream& out, const Recording& r) {
+  std::vector<std::string> header{"press"};
+  const auto add = [&](bool present, std::initializer_list<const char*> names) {
+    if (present) header.insert(header.end(), names.begin(), names.end());
+  };
+  add(!r.t.empty(), {"t"});
+  add(true, {"x", "y", "z", "ux", "uy", "uz"});
+  add(!r.f.empty(), {"fx", "fy", "fz"});
+  add(!r.temp.empty(), {"temp"});
+  add(!r.contact.empty(), {"contact"});
+  header.insert(header.end(), r.extra_header.begin(), r.extra_header.end());
+
+  CsvWriter writer(out, r.metadata, header);
+  std::vector<std::string> fields(header.size());
+  for (std::size_t row = 0; row < r.rows(); ++row) {
+    std::size_t c = 0;
+    const auto put = [&](const Vec3& v) {
+      for (int k = 0; k < 3; ++k) fields[c++] = format_number(v[k]);
+    };
+    fields[c++] = std::to_string(r.press[row]);
+    if (!r.t.empty()) fields[c++] = format_number(r.t[row]);
+    put(r.position[row]);
+    put(r.u[row]);
+    if (!r.f.empty()) put(r.f[row]);
+    if (!r.temp.empty()) fields[c++] = format_number(r.temp[row]);
+    if (!r.contact.empty()) fields[c++] = r.contact[row] != 0 ? "1" : "0";
+    for (const auto& column : r.extra) fields[c++] = column[row];
+    writer.row(fields);
+  }
+}
+
+}  // namespace hapsim

@@ -1,0 +1,333 @@
+#include "simulate/full_simulation.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/error.h"
+#include "contact/feature_zone.h"
+#include "contact/support_springs.h"
+#include "effects/effect.h"
+#include "experiment/forces.h"
+#include "experiment/nearest_region.h"
+#include "io/number.h"
+#include "material/hooke_law.h"
+#include "material/hyperelastic_law.h"
+#include "material/unit_law.h"
+#include "model/relaxation_steps.h"
+#include "nonlinear/tool_body.h"
+#include "simulate/full_contact.h"
+#include "simulate/tool_steps.h"
+#include "solid/inhomogeneity.h"
+
+namespace hapsim {
+namespace {
+
+// One press: its mesh and its body.
+struct Session {
+  ContactMesh own;  // unless the body's mesh serves
+  const TetMesh* mesh = nullptr;
+  std::vector<FullContact> contacts;
+  std::unique_ptr<ToolBody> body;
+  double last_time = 0;
+};
+
+class Simulation {
+ public:
+  Simulation(const TetMesh& body, const Model& model, const Recording& recording,
+             const FullOptions& options)
+      : body_(body),
+        recording_(recording),
+        options_(options),
+        material_(material_of(model)),
+        regions_(regional_relaxation_of(model, material_)),
+        radius_(recording.tool_radius()) {
+    for (EffectInstance& i : effect_instances(model, false)) {
+      if (i.effect->full(i.values, material_.modulus[0], spec_)) continue;
+      const Stage stage = i.effect->card().stage;
+      if (stage != Stage::kSensor && stage != Stage::kMotion)
+        fail_input(model.name,
+                   "the full simulation has no form of the effect " + i.effect->card().name,
+                   "take it out of the model, or simulate without --full");
+      if (options.force_control)
+        fail_input(model.name,
+                   "forces are given to the body itself, without " + i.effect->card().name,
+                   "take it out of the model, or simulate displacements");
+      around_.push_back(std::move(i));
+    }
+    if (material_.shift != Vec3::Zero() || material_.rotation != Vec3::Zero())
+      fail_input(model.name, "the full simulation does not move the body",
+                 "move the contact points instead");
+    if (material_.local)
+      fail_input(model.name, "the full simulation has no contacts that feel their own region alone",
+                 "set local of regions to 0");
+    for (const FeatureSpec& f : material_.features)
+      if (f.feature.kind == Feature::kTransverse && spec_.finite)
+        fail_input(model.name, "finite strain of a transversely isotropic body is not in the model",
+                   "take hyperelastic or anisotropic out");
+    base_ = make_contact_base(body);
+    surface_ = free_surface(base_);
+  }
+
+  FullResult run() {
+    result_.force.assign(recording_.rows(), Vec3::Zero());
+    result_.motion = recording_.u;
+    const bool goes_on = recording_.metadata.find("recovery").value_or("") == "none";
+    std::vector<Vec3> before;
+    int number = 0;
+    for (const Press& press : recording_.presses()) {
+      const ToolSteps steps = tool_steps(recording_, press);
+      std::vector<Vec3> points;
+      for (const std::size_t row : steps.rows.front()) points.push_back(recording_.position[row]);
+      const bool continues = goes_on && session_ && points == before && !recording_.t.empty() &&
+                             recording_.t[steps.rows.front().front()] >= session_->last_time;
+      before = points;
+      if (!continues) prepare(steps);
+      solve(steps, continues, ++number);
+    }
+    return std::move(result_);
+  }
+
+  // The first row's press alone, in steps from outside.
+  void begin() {
+    if (!around_.empty())
+      fail_input("",
+                 "steps from outside are of the body itself, without " +
+                     around_.front().effect->card().name,
+                 "take it out of the model");
+    ToolSteps steps;
+    steps.rows = {{0}};
+    prepare(steps);
+  }
+  Vec3 advance(const Vec3& u, double dt) {
+    const SolveReport report = session_->body->step({{u, false}}, dt);
+    if (!report.ok()) {
+      const std::size_t split = report.message.find("; ");
+      fail_numerics(recording_.name, report.message.substr(0, split),
+                    report.message.substr(split + 2));
+    }
+    return session_->body->force(0);
+  }
+
+ private:
+  void prepare(const ToolSteps& steps) {
+    session_ = std::make_unique<Session>();
+    Session& s = *session_;
+    const std::vector<std::size_t>& rows = steps.rows.front();
+    if (rows.size() == 1 && !options_.own_mesh) {
+      s.own =
+          make_contact_mesh(base_, recording_.position[rows[0]], radius_,
+                            radius_ * options_.rim_edge, kGrowth * options_.rim_edge / kRimEdge);
+      s.mesh = &s.own.mesh;
+      s.contacts = {{s.own.point, s.own.normal, s.own.patch_nodes}};
+    } else {
+      s.mesh = &body_;
+      for (const std::size_t row : rows) {
+        s.contacts.push_back(full_contact(body_, recording_.position[row], radius_));
+        if (s.contacts.back().normal.norm() > 0 && !s.contacts.back().nodes.empty()) continue;
+        fail_input(recording_line(recording_, row), "no free node of the body lies under the tool",
+                   "mesh it with hs-tetmesh --contacts, or check the contact point");
+      }
+    }
+    std::vector<BodyTool> tools;
+    for (const FullContact& c : s.contacts) {
+      const bool bonded = spec_.curvature == 0 && !std::isfinite(spec_.friction);
+      BodyTool tool;
+      if (bonded)
+        tool.nodes = c.nodes;
+      else if (spec_.curvature == 0)
+        tool.tip = SphericalTip{c.point, c.normal, kSticks, radius_ * (1 + 1e-6), spec_.friction};
+      else
+        tool.tip =
+            SphericalTip{c.point, c.normal, 1 / spec_.curvature, 1.6 * radius_, spec_.friction};
+      tools.push_back(std::move(tool));
+    }
+    bool free_base = false;
+    const BodyModel model = body_model(*s.mesh, free_base);
+    s.body = std::make_unique<ToolBody>(model, tools, relaxation_by_law(), free_base);
+    result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
+  }
+
+  // One list a region, as the laws are.
+  std::vector<std::vector<Relaxation>> relaxation_by_law() const {
+    std::vector<std::vector<Relaxation>> result;
+    if (recording_.t.empty()) return result;
+    for (const RegionRelaxation& region : regions_) {
+      result.emplace_back();
+      for (const MaxwellModulus& t : region.terms)
+        result.back().push_back({t.modulus / region.modulus, t.tau});
+    }
+    if (!regions_.empty() || spec_.terms.empty()) return result;
+    result.resize(material_.modulus.size());
+    for (std::vector<Relaxation>& law : result)
+      for (const MaxwellTerm& t : spec_.terms) law.push_back({t.share, t.tau});
+    return result;
+  }
+
+  BodyModel body_model(const TetMesh& mesh, bool& free_base) const {
+    BodyModel model;
+    model.mesh = &mesh;
+    const BodyFeature* transverse = nullptr;
+    for (const FeatureSpec& f : material_.features)
+      if (f.feature.kind == Feature::kTransverse) transverse = &f.feature;
+    for (const double E : material_.modulus) {
+      const Moduli m = moduli(E, material_.nu);
+      model.laws.push_back(spec_.finite ? exponential_law(m.mu, spec_.stiffening, m.bulk)
+                           : transverse != nullptr
+                               ? transverse_body_law(E, material_.nu, transverse->value)
+                               : isotropic_law(E, material_.nu));
+    }
+    for (const auto& n : mesh.tets)
+      model.law_of_tet.push_back(region_at(
+          material_,
+          (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4));
+    if (options_.averaged)
+      model.dilatation = mesh.order == 2 ? Dilatation::kElement : Dilatation::kPatch;
+    for (const FeatureSpec& f : material_.features) {
+      if (is_zone(f.feature.kind)) {
+        const std::vector<double> factors = stiffness_factors(
+            inside_shares(mesh, zone_level(f.feature, surface_)).share, f.feature.value.back());
+        if (model.scale.empty()) model.scale.assign(factors.size(), 1.0);
+        for (std::size_t t = 0; t < factors.size(); ++t) model.scale[t] *= factors[t];
+      }
+      if (f.feature.kind != Feature::kSupport) continue;
+      free_base = true;
+      for (const SupportSprings::Face& face : SupportSprings(mesh, f.feature.value).faces)
+        model.face_springs.push_back(
+            {face.nodes, material_.modulus[0] * face.spring * face.matrix});
+    }
+    return model;
+  }
+
+  // The press of one tool as effects see it.
+  PressView view_of(const ToolSteps& steps, std::size_t tool, int number) const {
+    PressView view;
+    const Recording& r = recording_;
+    for (const std::vector<std::size_t>& rows : steps.rows) {
+      const std::size_t row = rows[tool];
+      view.u.push_back(r.u[row]);
+      view.in_air.push_back(r.in_air(row) ? 1 : 0);
+      if (!r.temp.empty()) view.temperature.push_back(r.temp[row]);
+      if (r.t.empty()) continue;
+      view.t.push_back(r.t[row] - r.t[steps.rows.front()[tool]]);
+      view.session.push_back(r.t[row] - *std::min_element(r.t.begin(), r.t.end()));
+    }
+    view.normal = session_->contacts[tool].normal;
+    view.direction = -view.normal;
+    view.number = number;
+    view.radius = radius_;
+    view.modulus = material_.modulus[0];
+    return view;
+  }
+
+  void solve(const ToolSteps& steps, bool continues, int number) {
+    Session& s = *session_;
+    const std::size_t tools = steps.tools();
+    std::vector<PressView> views;
+    for (std::size_t k = 0; k < tools; ++k) {
+      views.push_back(view_of(steps, k, number));
+      Motion motion{views[k].u, {}, 0};
+      for (const EffectInstance& i : around_) i.effect->move(views[k], i.values, motion);
+      views[k].u = std::move(motion.u);
+    }
+    for (std::size_t i = 0; i < steps.rows.size(); ++i) {
+      const std::size_t row = steps.rows[i].front();
+      const double time = recording_.t.empty() ? 0 : recording_.t[row];
+      const double dt = i > 0 || continues ? time - s.last_time : 0;
+      std::vector<ToolTarget> targets;
+      for (std::size_t k = 0; k < tools; ++k) {
+        const bool tip = spec_.curvature > 0 || std::isfinite(spec_.friction);
+        if (views[k].in_air[i])  // a bonded tool lets go: it exerts nothing; a tip is away
+          targets.push_back(tip ? ToolTarget{radius_ * s.contacts[k].normal, false}
+                                : ToolTarget{Vec3::Zero(), true});
+        else if (options_.force_control)
+          targets.push_back({recording_.f[steps.rows[i][k]], true});
+        else
+          targets.push_back({views[k].u[i], false});
+      }
+      const SolveReport report = s.body->step(targets, dt);
+      result_.newton_steps += report.newton_steps;
+      if (!report.ok()) {
+        const std::size_t split = report.message.find("; ");
+        fail_numerics(recording_line(recording_, row), report.message.substr(0, split),
+                      report.message.substr(split + 2));
+      }
+      s.last_time = time;
+      for (std::size_t k = 0; k < tools; ++k) {
+        const int tool = static_cast<int>(k);
+        result_.force[steps.rows[i][k]] = s.body->force(tool);
+        if (options_.force_control) result_.motion[steps.rows[i][k]] = s.body->motion(tool);
+      }
+      if (options_.observe)
+        options_.observe({row, s.mesh, &s.body->body().field(), s.body->body().element_fields()});
+      if (options_.step) options_.step(tools);
+    }
+    for (std::size_t k = 0; k < tools; ++k) {
+      Signal signal{Eigen::VectorXd(3 * static_cast<Eigen::Index>(steps.rows.size())), {}};
+      signal.df.resize(signal.f.size(), 0);
+      for (std::size_t i = 0; i < steps.rows.size(); ++i)
+        signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = result_.force[steps.rows[i][k]];
+      for (const EffectInstance& i : around_)
+        if (i.effect->card().stage == Stage::kSensor) i.effect->apply(views[k], i.values, signal);
+      for (std::size_t i = 0; i < steps.rows.size(); ++i)
+        result_.force[steps.rows[i][k]] = signal.f.segment<3>(3 * static_cast<Eigen::Index>(i));
+    }
+  }
+
+  const TetMesh& body_;
+  const Recording& recording_;
+  const FullOptions& options_;
+  MaterialSpec material_;
+  std::vector<RegionRelaxation> regions_;  // where they relax each in its own way
+  double radius_;
+  FullSpec spec_;
+  std::vector<EffectInstance> around_;  // effects on the motion and of the sensor
+  ContactBase base_;
+  std::shared_ptr<const SurfaceTree> surface_;
+  std::unique_ptr<Session> session_;
+  FullResult result_;
+};
+
+}  // namespace
+
+FullResult simulate_full(const TetMesh& body, const Model& model, const Recording& recording,
+                         const FullOptions& options) {
+  return Simulation(body, model, recording, options).run();
+}
+
+struct FullPress::Impl {
+  Impl(const TetMesh& body, const Model& model, const Vec3& contact, double tool_radius,
+       const FullOptions& full)
+      : options(full),
+        recording(one_row(contact, tool_radius)),
+        simulation(body, model, recording, options) {
+    simulation.begin();
+  }
+  static Recording one_row(const Vec3& contact, double tool_radius) {
+    Recording r;
+    r.name = "press";
+    r.metadata.set("tool_radius", format_number(tool_radius));
+    r.line = {1};
+    r.press = {1};
+    r.t = {0};
+    r.position = {contact};
+    r.u = {Vec3::Zero()};
+    return r;
+  }
+  FullOptions options;
+  Recording recording;
+  Simulation simulation;
+};
+
+FullPress::FullPress(const TetMesh& body, const Model& model, const Vec3& contact,
+                     double tool_radius, const FullOptions& options)
+    : impl_(std::make_unique<Impl>(body, model, contact, tool_radius, options)) {}
+FullPress::~FullPress() = default;
+Vec3 FullPress::step(const Vec3& u, double dt) {
+  return impl_->simulation.advance(u, dt);
+}
+
+}  // namespace hapsim

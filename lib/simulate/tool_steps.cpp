@@ -1,0 +1,45 @@
+#include "simulate/tool_steps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+
+namespace hapsim {
+
+std::string recording_line(const Recording& r, std::size_t row) {
+  return fmt::format("{}:{}", r.name, r.line[row]);
+}
+
+ToolSteps tool_steps(const Recording& r, const Press& press) {
+  const auto found = std::find(r.extra_header.begin(), r.extra_header.end(), "tool_id");
+  const std::vector<std::string>* tool =
+      found == r.extra_header.end()
+          ? nullptr
+          : &r.extra[static_cast<std::size_t>(found - r.extra_header.begin())];
+  ToolSteps steps;
+  for (const int i : press.rows) {
+    const auto row = static_cast<std::size_t>(i);
+    bool joins = tool != nullptr && !steps.rows.empty();
+    if (joins) {
+      for (const std::size_t other : steps.rows.back())
+        joins = joins && (*tool)[other] != (*tool)[row] && (r.t.empty() || r.t[other] == r.t[row]);
+    }
+    if (!joins) steps.rows.emplace_back();
+    steps.rows.back().push_back(row);
+    const std::vector<std::size_t>& first = steps.rows.front();
+    const std::size_t place = steps.rows.back().size() - 1;
+    const bool known = steps.rows.size() == 1 || place < first.size();
+    if (!known || (tool != nullptr && (*tool)[first[place]] != (*tool)[row]) ||
+        (r.position[first[place]] - r.position[row]).norm() > 1e-4)
+      fail_input(recording_line(r, row), "the tools or their contact points change within a press",
+                 "give every step the same tools in the same order, and each contact its press");
+  }
+  if (steps.rows.back().size() != steps.tools())
+    fail_input(recording_line(r, steps.rows.back().front()),
+               "a tool is missing in the last step of a press", "give every step the same tools");
+  return steps;
+}
+
+}  // namespace hapsim

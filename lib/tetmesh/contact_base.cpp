@@ -1,0 +1,47 @@
+// The surface from which all contact meshes of a body start.
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/surface_check.h"
+#include "repair/coarsen.h"
+#include "tetmesh/contact_patch.h"
+
+namespace hapsim {
+namespace {
+
+// A surface that a scanner's noise has roughened is evened out by a tenth of the edge length; what
+// lies about the tool is laid on the fine surface again. Each step may cost half the 0.5 % of the
+// volume that the whole is allowed.
+constexpr CoarsenOptions kBase{.tolerance = 0.1, .volume_tolerance = 0.0025};
+constexpr CoarsenOptions kFar{.outline_tolerance = 0.02, .volume_tolerance = 0.0025};
+
+// Meshes of one position that are coarser than usual share the usual surface, so that their
+// difference tells of the rim.
+constexpr double kFarGrowth = 0.4;
+constexpr double kShortest = 1e-9;  // [m]; the contact itself may be a vertex
+
+}  // namespace
+
+ContactBase make_contact_base(const TetMesh& body, double edge) {
+  std::vector<int> node;
+  ClassedSurface fine;
+  fine.surface = boundary_surface(body, &node);
+  check_surface(fine.surface, "the body's boundary");
+  if (!(edge > 0)) edge = std::cbrt(3 * signed_volume(fine.surface)) / 9;
+  for (const Triangle& f : fine.surface.faces)
+    fine.face_class.push_back(body.fixed[node[f[0]]] && body.fixed[node[f[1]]] &&
+                              body.fixed[node[f[2]]]);
+  ClassedSurface coarse = coarsen_surface(
+      fine, [edge](const Vec3&) { return edge; }, kBase);
+  coarse = split_long_edges(coarse, [edge](const Vec3&) { return 1.6 * edge; });
+  return {std::move(coarse.surface), std::move(coarse.face_class), std::move(fine.surface)};
+}
+
+ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double growth) {
+  const double slope = std::min(growth, kFarGrowth);
+  return coarsen_surface(
+      {base.surface, base.fixed_face},
+      [&](const Vec3& p) { return std::max(slope * (p - contact).norm(), kShortest); }, kFar);
+}
+
+}  // namespace hapsim

@@ -1,0 +1,151 @@
+// The graded triangles that fill the hole cut for a contact (CGAL: slow to compile).
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <cmath>
+
+#include "tetmesh/contact_patch.h"
+
+namespace hapsim {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<
+    Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+
+constexpr int kOutside = -1, kUnseen = 0, kInside = 1;
+
+// A point of the patch in plan; the loop's own points come first, then the disc's, then the rest.
+struct PlanPoints {
+  std::vector<Eigen::Vector2d> points;
+  std::size_t loop = 0, rim_begin = 0, rim_end = 0, disc_end = 0;
+};
+
+void add_ring(PlanPoints& plan, double radius, double size, bool staggered, int least,
+              const ContactRegion* region) {
+  const int n = std::max(least, static_cast<int>(std::lround(2 * kPi * radius / size)));
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * kPi * (i + (staggered ? 0.5 : 0.0)) / n;
+    const double u = radius * std::cos(angle), v = radius * std::sin(angle);
+    // Clear of the loop, whose edges are long already.
+    if (region == nullptr || region->contains(u, v, 0.6 * size)) plan.points.emplace_back(u, v);
+  }
+}
+
+PlanPoints plan_points(const ContactRegion& region, double radius, const Grading& grading) {
+  PlanPoints plan;
+  double farthest = 0;
+  for (const Vec3& p : region.outline) {
+    plan.points.emplace_back(p.head<2>());
+    farthest = std::max(farthest, p.head<2>().norm());
+  }
+  plan.loop = plan.rim_begin = plan.points.size();
+  // A regular polygon with the area of the disc: inscribed, it would be too soft by the share of
+  // the radius that it lacks, 0.5 % at radius/4.
+  const double n = std::max(8.0, std::round(2 * kPi * radius / grading.size[0]));
+  const double rim = radius * std::sqrt(2 * kPi / (n * std::sin(2 * kPi / n)));
+  add_ring(plan, rim, 2 * kPi * rim / n, false, 8, nullptr);
+  plan.rim_end = plan.points.size();
+  for (std::size_t k = 1; k < grading.size.size(); ++k) {
+    const double inner = radius - grading.distance[k];
+    if (inner < 0.45 * grading.size[k]) break;
+    add_ring(plan, inner, grading.size[k], k % 2 != 0, 4, nullptr);
+  }
+  plan.points.emplace_back(0, 0);
+  plan.disc_end = plan.points.size();
+  for (std::size_t k = 1; k < grading.size.size(); ++k) {
+    const double outer = radius + grading.distance[k];
+    if (outer > farthest) break;
+    add_ring(plan, outer, grading.size[k], k % 2 != 0, 6, &region);
+  }
+  return plan;
+}
+
+std::vector<Triangle> triangulate(const PlanPoints& plan) {
+  Triangulation t;
+  std::vector<Triangulation::Vertex_handle> handle;
+  for (const auto& p : plan.points) {
+    handle.push_back(t.insert(Kernel::Point_2(p.x(), p.y())));
+    handle.back()->info() = static_cast<int>(handle.size()) - 1;
+  }
+  for (std::size_t i = 0; i < plan.loop; ++i)
+    t.insert_constraint(handle[i], handle[(i + 1) % plan.loop]);
+  for (std::size_t i = plan.rim_begin; i < plan.rim_end; ++i)
+    t.insert_constraint(handle[i], handle[i + 1 < plan.rim_end ? i + 1 : plan.rim_begin]);
+
+  // The loop parts inside from outside; the rim lies inside and does not count.
+  for (const auto f : t.all_face_handles()) f->info() = kUnseen;
+  const auto on_loop = [&](const Triangulation::Face_handle& f, int k) {
+    return f->is_constrained(k) && f->vertex(t.cw(k))->info() < static_cast<int>(plan.loop) &&
+           f->vertex(t.ccw(k))->info() < static_cast<int>(plan.loop);
+  };
+  std::vector<Triangulation::Face_handle> stack{t.infinite_face()};
+  t.infinite_face()->info() = kOutside;
+  while (!stack.empty()) {
+    const auto f = stack.back();
+    stack.pop_back();
+    for (int k = 0; k < 3; ++k) {
+      const auto g = f->neighbor(k);
+      if (g->info() != kUnseen || on_loop(f, k)) continue;
+      g->info() = kOutside;
+      stack.push_back(g);
+    }
+  }
+  std::vector<Triangle> faces;
+  for (const auto f : t.finite_face_handles())
+    if (f->info() != kOutside)
+      faces.push_back({f->vertex(0)->info(), f->vertex(1)->info(), f->vertex(2)->info()});
+  return faces;
+}
+
+}  // namespace
+
+Imprint imprint_disc(const ClassedSurface& coarse, const ContactFrame& frame,
+                     const ContactRegion& region, const HeightMap& heights, double radius,
+                     const Grading& grading) {
+  Imprint result;
+  const PlanPoints plan = plan_points(region, radius, grading);
+  std::vector<int> number(coarse.surface.vertices.size(), -1);
+  const auto vertex = [&](int old) {
+    if (number[old] < 0) {
+      number[old] = static_cast<int>(result.surface.vertices.size());
+      result.surface.vertices.push_back(coarse.surface.vertices[old]);
+    }
+    return number[old];
+  };
+  for (std::size_t f = 0; f < coarse.surface.faces.size(); ++f) {
+    if (region.inside[f]) continue;
+    const Triangle& t = coarse.surface.faces[f];
+    result.surface.faces.push_back({vertex(t[0]), vertex(t[1]), vertex(t[2])});
+    result.marker.push_back(coarse.face_class[f] ? kBonded : kOther);
+  }
+  std::vector<int> patch_vertex;
+  for (std::size_t i = 0; i < plan.points.size(); ++i) {
+    if (i < plan.loop) {
+      patch_vertex.push_back(vertex(region.loop[i]));
+      continue;
+    }
+    const auto& p = plan.points[i];
+    patch_vertex.push_back(static_cast<int>(result.surface.vertices.size()));
+    result.surface.vertices.push_back(frame.to_global({p.x(), p.y(), heights.at(p.x(), p.y())}));
+  }
+  const auto on_disc = [&](int i) {
+    return static_cast<std::size_t>(i) >= plan.rim_begin &&
+           static_cast<std::size_t>(i) < plan.disc_end;
+  };
+  for (const Triangle& t : triangulate(plan)) {
+    result.surface.faces.push_back({patch_vertex[t[0]], patch_vertex[t[1]], patch_vertex[t[2]]});
+    // The rim is convex, so three nodes of the closed disc span a triangle of the disc.
+    result.marker.push_back(on_disc(t[0]) && on_disc(t[1]) && on_disc(t[2]) ? kPatch : kOther);
+  }
+  return result;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,287 @@
+#include "tetmesh/tetgen_child.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <mutex>
+#include <new>
+
+#ifndef TETLIBRARY
+#define TETLIBRARY
+#endif
+#include <tetgen.h>
+
+#include "base/error.h"
+
+namespace hapsim {
+namespace {
+
+// What the child sends first; the arrays follow.
+struct Head {
+  std::int64_t nodes = 0, tets = 0, faces = 0;
+};
+
+// Exit status of a child that TetGen left by throwing its number n: kThrew + n.
+constexpr int kThrew = 10;
+constexpr auto kBeat = std::chrono::milliseconds(200);
+
+std::string switches(const TetgenInput& input, const TetgenOptions& options) {
+  std::string text = "pQz";
+  if (options.preserve_surface) text += "Y";
+  if (options.radius_edge > 0)
+    text += fmt::format("q{:.6f}/{:.6f}", std::max(options.radius_edge, 1.1),
+                        std::clamp(options.min_dihedral, 0.0, 18.0));
+  if (options.max_volume > 0) text += fmt::format("a{:.18f}", options.max_volume);
+  if (!input.node_size.empty()) text += "m";
+  return text;
+}
+
+// TetGen's arrays are new[]ed and owned by it. Sizes belong to the outer surface's vertices.
+void fill_points(tetgenio& io, const TetgenInput& input) {
+  std::size_t count = input.surface.vertices.size() + input.seeds.size();
+  for (const Surface& inner : input.inner) count += inner.vertices.size();
+  io.numberofpoints = static_cast<int>(count);
+  io.pointlist = new REAL[3 * count];
+  REAL* to = io.pointlist;
+  const auto add = [&to](const std::vector<Vec3>& points) {
+    for (const Vec3& p : points) to = std::copy_n(p.data(), 3, to);
+  };
+  add(input.surface.vertices);
+  for (const Surface& inner : input.inner) add(inner.vertices);
+  // Seeds as points without a facet: TetGen's own way, switch i, crashes below flat surfaces.
+  add(input.seeds);
+  if (input.node_size.empty()) return;
+  io.numberofpointmtrs = 1;
+  io.pointmtrlist = new REAL[count];
+  std::fill_n(io.pointmtrlist, count, 0.0);
+  std::copy(input.node_size.begin(), input.node_size.end(), io.pointmtrlist);
+}
+
+void fill_facets(tetgenio& io, const TetgenInput& input) {
+  std::size_t count = input.surface.faces.size();
+  for (const Surface& inner : input.inner) count += inner.faces.size();
+  io.numberoffacets = static_cast<int>(count);
+  io.facetlist = new tetgenio::facet[count];
+  io.facetmarkerlist = new int[count];
+  std::size_t at = 0;
+  const auto add = [&](const Triangle& face, int first, int marker) {
+    tetgenio::facet& facet = io.facetlist[at];
+    tetgenio::init(&facet);
+    facet.numberofpolygons = 1;
+    facet.polygonlist = new tetgenio::polygon[1];
+    tetgenio::init(facet.polygonlist);
+    facet.polygonlist->numberofvertices = 3;
+    facet.polygonlist->vertexlist = new int[3];
+    for (int k = 0; k < 3; ++k) facet.polygonlist->vertexlist[k] = first + face[k];
+    io.facetmarkerlist[at++] = marker;
+  };
+  for (std::size_t f = 0; f < input.surface.faces.size(); ++f)
+    add(input.surface.faces[f], 0, input.face_marker.empty() ? 1 : input.face_marker[f]);
+  auto first = static_cast<int>(input.surface.vertices.size());
+  for (const Surface& inner : input.inner) {
+    for (const Triangle& face : inner.faces) add(face, first, -1);
+    first += static_cast<int>(inner.vertices.size());
+  }
+}
+
+bool write_all(int file, const void* data, std::size_t count) {
+  const char* p = static_cast<const char*>(data);
+  while (count > 0) {
+    const ssize_t n = write(file, p, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    p += n;
+    count -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool send(int file, const tetgenio& out) {
+  const Head head{out.numberofpoints, out.numberoftetrahedra, out.numberoftrifaces};
+  const auto bytes = [](std::int64_t count, std::size_t size) {
+    return static_cast<std::size_t>(count) * size;
+  };
+  return out.numberofcorners == 4 && write_all(file, &head, sizeof head) &&
+         write_all(file, out.pointlist, bytes(head.nodes, 3 * sizeof(REAL))) &&
+         write_all(file, out.tetrahedronlist, bytes(head.tets, 4 * sizeof(int))) &&
+         write_all(file, out.trifacelist, bytes(head.faces, 3 * sizeof(int))) &&
+         write_all(file, out.trifacemarkerlist, bytes(head.faces, sizeof(int)));
+}
+
+// All that happens in the child. Never returns, so nothing of the parent is destroyed twice.
+[[noreturn]] void run_child(const TetgenInput& input, const TetgenOptions& options, int pipe_end) {
+  // The parent's handlers are not for us; a crash is expected and leaves no core.
+  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGPIPE, SIGTERM, SIGINT})
+    signal(number, SIG_DFL);
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  // Ends the child also when the parent was killed in the meantime.
+  const auto seconds = static_cast<rlim_t>(std::ceil(options.time_limit)) + 1;
+  const rlimit cpu{seconds, seconds};
+  setrlimit(RLIMIT_CPU, &cpu);
+  const int nowhere = open("/dev/null", O_WRONLY);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  try {
+    tetgenio out;
+    {
+      tetgenio in;
+      fill_points(in, input);
+      fill_facets(in, input);
+      std::string text = switches(input, options);
+      tetrahedralize(text.data(), &in, &out);
+    }
+    _exit(send(pipe_end, out) ? 0 : 1);
+  } catch (int number) {
+    _exit(kThrew + std::clamp(number, 0, 20));
+  } catch (const std::bad_alloc&) {
+    _exit(kThrew + 1);
+  } catch (...) {
+    _exit(2);
+  }
+}
+
+// The reading end, with the deadline and the heartbeat.
+class Reader {
+ public:
+  Reader(int file, const TetgenOptions& options)
+      : file_(file),
+        options_(options),
+        deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                     std::chrono::duration<double>(options.time_limit))) {}
+  bool timed_out() const { return timed_out_; }
+
+  // False at the end of the stream and at the deadline.
+  bool read(void* to, std::size_t count) {
+    char* p = static_cast<char*>(to);
+    while (count > 0) {
+      const auto left = deadline_ - Clock::now();
+      timed_out_ = left <= Clock::duration::zero();
+      if (timed_out_) return false;
+      pollfd watched{file_, POLLIN, 0};
+      const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(
+          std::min<Clock::duration>(left, kBeat));
+      if (poll(&watched, 1, static_cast<int>(wait.count()) + 1) <= 0) {
+        if (options_.heartbeat) options_.heartbeat();
+        continue;
+      }
+      const ssize_t n = ::read(file_, p, count);
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) return false;
+      p += n;
+      count -= static_cast<std::size_t>(n);
+    }
+    return true;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  int file_;
+  const TetgenOptions& options_;
+  Clock::time_point deadline_;
+  bool timed_out_ = false;
+};
+
+bool receive(Reader& reader, TetgenAnswer& answer) {
+  Head head;
+  if (!reader.read(&head, sizeof head)) return false;
+  answer.nodes.resize(static_cast<std::size_t>(head.nodes));
+  if (!reader.read(answer.nodes.data(), answer.nodes.size() * sizeof(Vec3))) return false;
+  answer.tets.reserve(static_cast<std::size_t>(head.tets));
+  std::vector<std::array<int, 4>> block(1 << 14);
+  for (auto left = static_cast<std::size_t>(head.tets); left > 0; left -= block.size()) {
+    block.resize(std::min(block.size(), left));
+    if (!reader.read(block.data(), block.size() * sizeof block[0])) return false;
+    for (const auto& [a, b, c, d] : block)
+      answer.tets.push_back({a, b, c, d, -1, -1, -1, -1, -1, -1});
+  }
+  answer.faces.resize(static_cast<std::size_t>(head.faces));
+  answer.marker.resize(answer.faces.size());
+  return reader.read(answer.faces.data(), answer.faces.size() * sizeof(Triangle)) &&
+         reader.read(answer.marker.data(), answer.marker.size() * sizeof(int));
+}
+
+std::string why(int status) {
+  if (WIFSIGNALED(status)) return fmt::format("TetGen crashed (signal {})", WTERMSIG(status));
+  switch (WIFEXITED(status) ? WEXITSTATUS(status) - kThrew : -1) {
+    case 1:
+      return "TetGen ran out of memory";
+    case 3:
+      return "TetGen found facets that cut each other";
+    case 4:
+      return "TetGen found a feature too small to mesh";
+    case 5:
+      return "TetGen found two facets too close to each other";
+    default:
+      return "TetGen gave up";
+  }
+}
+
+}  // namespace
+
+TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& options) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(int));
+  // One fork at a time: no child may inherit the writing end of another one's pipe, or its end
+  // would go unseen.
+  static std::mutex mutex;
+  int ends[2];
+  pid_t child;
+  {
+    const std::lock_guard lock(mutex);
+    if (pipe2(ends, O_CLOEXEC) != 0)
+      throw Error(ExitCode::kIo, "TetGen", std::string("no pipe: ") + std::strerror(errno),
+                  "close other programs");
+    child = fork();
+    if (child == 0) {
+      // With a reader of its own the child would wait for ever on a parent that was killed.
+      close(ends[0]);
+      run_child(input, options, ends[1]);
+    }
+    close(ends[1]);
+  }
+  if (child < 0) {
+    close(ends[0]);
+    throw Error(ExitCode::kIo, "TetGen", std::string("no process: ") + std::strerror(errno),
+                "close other programs");
+  }
+  // Whatever happens to us, the child is ended and waited for.
+  struct Child {
+    pid_t id;
+    int end, status = 0;
+    bool done = false;
+    void finish(bool ended) {
+      if (done) return;
+      done = true;
+      close(end);
+      if (!ended) kill(id, SIGKILL);
+      while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
+      }
+    }
+    ~Child() { finish(false); }
+  } running{child, ends[0]};
+  TetgenAnswer answer;
+  Reader reader(ends[0], options);
+  const bool whole = receive(reader, answer);
+  running.finish(!reader.timed_out());
+  if (reader.timed_out())
+    answer.failure = fmt::format("TetGen did not finish in {:g} s", options.time_limit);
+  else if (!WIFEXITED(running.status) || WEXITSTATUS(running.status) != 0)
+    answer.failure = why(running.status);
+  else if (!whole)
+    answer.failure = "TetGen's answer is cut off";
+  else if (answer.tets.empty())
+    answer.failure = "TetGen found no inside";
+  return answer;
+}
+
+}  // namespace hapsim
