@@ -4,7 +4,7 @@
 # and resumed; and through a Slurm controller and node daemon on loopback where they are installed, also with
 # the node daemon killed, missed by the controller and started again. Prints one table: what was found and
 # told, times, parallel efficiency, whether the summaries are equal. The efficiency means something on a
-# machine with nothing else to do.
+# machine with nothing else to do. Recorded in bench/results/batch.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd) count=${2:-300} stage=${3:-model}
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -7,6 +7,7 @@
 //
 // BIN is the folder of hs-simulate. CalculiX's second-order elements have no mean dilatation, so
 // the forces of second order differ a little; those of first order are the same.
+// Recorded in bench/results/calculix.txt (bench/record.sh).
 #include <fmt/format.h>
 #include <unistd.h>
 

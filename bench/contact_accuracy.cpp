@@ -13,6 +13,7 @@
 // The reference has half of every length: the edges of the surface with what it may stray from the
 // body's own, the edges at the rim and their growth with the distance. Thirds instead of halves
 // move the errors by 0.07 % of the stiffness.
+// Recorded in bench/results/contact-accuracy*.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

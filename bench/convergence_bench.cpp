@@ -4,6 +4,7 @@
 // seconds of the processor, mesh included (CalculiX: its whole run).
 //
 //   bench_convergence [SVG]
+// Recorded in bench/results/convergence.txt (bench/record.sh).
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,5 +1,6 @@
 // What a force costs at finite strain: a body of the size of a scanned heart (528 nodes, 1764
 // first-order tetrahedra), and a graded second-order mesh of one contact.
+// Recorded in bench/results/fem.txt (bench/record.sh).
 #include <benchmark/benchmark.h>
 
 #include "contact/contact_stiffness.h"

@@ -2,7 +2,7 @@
 # fuse_live.sh BIN FOLDER [REPEATS] [RATE]: hs-fuse --live at RATE (1000) lines a second, fed by another
 # process through a pipe, on the organ that share/examples/thesis/heart.sh has left in FOLDER; its fast motion
 # so many times over (5), with 0.2 s of air between. Prints the error against the exact solution beside that of
-# the analytical model alone.
+# the analytical model alone. Recorded in bench/results/fuse-live.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd) heart=$(cd "$2" && pwd) repeats=${3:-5} rate=${4:-1000}
 work=$(mktemp -d)

@@ -2,6 +2,7 @@
 # pace.sh BIN [SECONDS] [RATES]: hs-simulate --live --rate fed by another process through a pipe, so many
 # seconds (60) at each rate ("1000 10000"), on a cuboid and a heart, elastic and with Maxwell elements;
 # prints what was answered, how late, and whether the bytes are those of an unpaced run.
+# Recorded in bench/results/pace.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd) seconds=${2:-60} rates=${3:-1000 10000}
 shapes=$(cd "$(dirname "$0")/../share/examples" && pwd)/shapes.awk

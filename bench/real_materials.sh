@@ -8,6 +8,7 @@
 #   liver: a recording of sites pig_liver*.csv: each position its own stiffness, interpolated between them,
 #          alone and with laws of the depth; error on sites left out, asked: below 41.5 mN, the
 #          inverse-distance map's.
+# Recorded in bench/results/real-materials.txt (bench/record.sh).
 # MEAT_BLOCK, MEAT_RADIUS, CELL_BLOCK, CELL_RADIUS, LIVER_RADIUS, IMPORT (further flags of hs-import): see
 # below.
 set -uo pipefail

@@ -1,5 +1,6 @@
 // What a real-time force costs: making a body ready, one step of the loop, and all compliances of a
 // surface beside CHOLMOD's own solutions. Prints tables; larger bodies: bench_sizes.
+// Recorded in bench/results/realtime*.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <algorithm>

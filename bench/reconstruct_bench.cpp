@@ -3,6 +3,7 @@
 //   bench_reconstruct [OBJECT...]
 // A row per object and method; "auto" says which it took. Truth: points of the object without
 // noise, where there is one, else the scan's own points.
+// Recorded in bench/results/reconstruct.txt (bench/record.sh).
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

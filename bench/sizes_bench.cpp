@@ -5,6 +5,7 @@
 //   bench_sizes [first|batch|surfaces]   tables up to 100,000 tetrahedra (minutes, 5 GB)
 //   bench_sizes growth [SVG]             time and memory from 1,000 to 1,000,000 tetrahedra,
 //   plotted
+// Recorded in bench/results/sizes*.txt (bench/record.sh).
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

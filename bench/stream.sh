@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # stream.sh BIN [MEGABYTES]: so much CSV through hs-simulate --live by a pipe; prints rate and peak memory,
-# which must not grow with the length of the stream.
+# which must not grow with the length of the stream. Recorded in bench/results/stream.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd) size=${2:-2000}
 work=$(mktemp -d)

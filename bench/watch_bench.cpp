@@ -1,5 +1,6 @@
 // A model that watches itself: how soon it notices a change, what it calls it, and what error is
 // left; or, with `hours N`, how many alarms N hours of an unchanged body give. Prints tables.
+// Recorded in bench/results/watch*.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <algorithm>

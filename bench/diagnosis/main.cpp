@@ -5,6 +5,7 @@
 // Seeds FROM to TO, each with a level drawn between LOW and HIGH (or the largest that the effect
 // can do): the error, over the noise, that what is hidden leaves of the model that is diagnosed. A
 // truth `nothing*` means all that begin so.
+// Recorded in bench/results/diagnosis*.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <algorithm>

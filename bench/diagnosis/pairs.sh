@@ -4,6 +4,7 @@
 # would: forces from the exact shape and finer meshes, noise 0.01 N. One line a hidden effect: error
 # of the elastic model over the noise, what is said of the first data, and after each round.
 # "right": that effect alone; "set": ambiguous, it is among the rivals; "+": others named besides.
+# Recorded in bench/results/diagnosis-alike.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd) out=$2
 shift 2

@@ -6,6 +6,7 @@
 # anew. Two runs at once share nothing: give each an OUT of its own and put the files together. Inclusions lie
 # where they are seen from the phantom's places. Truths whose finite elements are solved (regions, layer,
 # anisotropic, base, inclusion) take up to 13 GB: one such run at a time.
+# Recorded in bench/results/diagnosis*.txt (bench/record.sh).
 set -euo pipefail
 arguments=() options=() object=phantom protocol=rich
 while (($#)); do

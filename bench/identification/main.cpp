@@ -4,6 +4,7 @@
 // and relax by closed forms.
 //   bench_identification OUT [WORDS...]: the cases whose names begin with one of the words
 // Results in OUT/results.csv are gone on with; delete the file to begin anew. DRAWS=N: fewer draws.
+// Recorded in bench/results/identification*.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <algorithm>

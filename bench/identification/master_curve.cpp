@@ -5,6 +5,7 @@
 // (shares of the instantaneous modulus E_0, a column or else fitted to DATA as one factor). Terms
 // of two relaxation times a decade are fitted with moduli of at least 0 by relative least squares;
 // printed is how far the two curves are apart at the data's points. Asked: 1 %.
+// Recorded in bench/results/master-curve.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -9,6 +9,7 @@
 // loop without its derivatives. CalculiX solves a first-order mesh refined at the tools, one unit
 // press a run, and is given what that very mesh gives for the truth, so that it can be right; our
 // data come from finer meshes.
+// Recorded in bench/results/identify-speed.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>

@@ -2,6 +2,7 @@
 # run.sh BIN OUT [scan|stl [NAME...]]: recordings that CalculiX computed on meshes of Gmsh's, diagnosed as a
 # user would. OUT keeps the stiffnesses (an hour on two cores), the recordings and the results;
 # what is there is not made again: delete OUT/diagnosed to diagnose anew.
+# Recorded in bench/results/independent-*.txt (bench/record.sh).
 set -euo pipefail
 bin=$1 out=$2 from=${3:-stl}
 shift $(($# < 3 ? $# : 3))

@@ -20,7 +20,7 @@ struct SolverChoice {
 };
 
 // kBySize: the one that takes less time for this many right-hand sides of a body of tetrahedra, by
-// measured costs (bench/RESULTS.md, Growth with size); another wish is kept. `unknowns`; entries of
+// measured costs (bench/results/sizes-growth.txt); another wish is kept. `unknowns`; entries of
 // the lower triangle.
 SolverChoice choose_solver(SolverKind wished, int unknowns, std::size_t entries,
                            int right_hand_sides);
