@@ -17,12 +17,12 @@
 #   OUT/cache, OUT/tools, OUT/stderr prepared stiffnesses, stand-ins for the tools, the last step's standard
 #                                    error; not compared
 #
-# A step with its `exit` is not run again, so an interrupted recording is gone on with by the same call; to record
-# a step or a group anew, delete OUT/GROUP/said/STEP or OUT/GROUP. A tool that fails is recorded like any other.
+# A step with its `exit` is not run again, so an interrupted recording is gone on with by the same call; to record a
+# group anew, delete OUT/GROUP. A tool that fails is recorded like any other.
 #
-# What may differ from run to run is taken out (see tidy below, and the groups): names of this OUT, durations and
-# latencies, the day an entry of a library was stored, the stamps of a batch. Not recorded at all, for their
-# results depend on the clock: hs-link (telepresence), hs-fuse --live and --rate.
+# What may differ from run to run is taken out (see tidy below, and the groups): the name of OUT, durations and
+# latencies, the day when a library stored a model. Not recorded at all, for their results depend on the clock:
+# hs-link (telepresence), hs-fuse --live and --rate.
 set -euo pipefail
 (($# >= 2)) || { sed -n '2,/^set/s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -41,5 +41,5 @@ step library 'rm -f lab.db
   hs-identify phantom/plain.csv --body data/body.ply --library lab.db --material foam --folds 0 -o stored.csv
   hs-identify phantom/data.csv --body data/body.ply --library lab.db --material foam --add viscoelastic --folds 0 -o nearest.csv
   hs-library lab.db | cut -d, -f1,3- >list.csv  # without the day
-  hs-library lab.db --show 2 -o shown.csv
+  hs-library lab.db --show 2 | grep -v "^# stored" >shown.csv
   rm lab.db'
