@@ -40,10 +40,13 @@ examples=$root/share/examples
 tools=$(sed -n 's/^hapsim_tool(\(hs-[a-z0-9]*\) .*/\1/p' "$root/tools/CMakeLists.txt")
 for tool in $tools; do
   [[ -x $RECORDED_BIN/$tool ]] || { echo "record: $RECORDED_BIN has no $tool; build all tools first" >&2; exit 2; }
-  ln -sf "$here/stand-in.sh" "$out/tools/$tool"
+  cp --remove-destination "$here/stand-in.sh" "$out/tools/$tool"
 done
 export PATH=$out/tools:$PATH XDG_CACHE_HOME=$out/cache LC_ALL=C TZ=UTC
 export MAKEFLAGS='' TIMEFORMAT='%R %U %S'
+
+# Tools end well when they are interrupted; what they then leave is not taken for the step's result.
+trap 'exit 130' INT TERM
 
 # use NAME TARGET: an input under a name in the group's folder. Links are not compared.
 use() { ln -sfn "$2" "$1"; }
@@ -55,7 +58,7 @@ step() {
   rm -rf "$said"
   mkdir -p "$said"
   { time SAID=$said bash -euo pipefail -c "$2" >"$said/stdout" 2>"$out/stderr" </dev/null || code=$?; } 2>"$out/time"
-  ((code <= 128)) || { echo "record: $group/$1 was interrupted (exit $code)" >&2; exit "$code"; }
+  ((code <= 128)) || { echo "record: $group/$1 was ended by a signal (exit $code)" >&2; exit "$code"; }
   awk -v step="$group/$1" '{ printf "%-40s %8.1f s, of the processor %8.1f s\n", step, $1, $2 + $3 }' "$out/time" |
     tee -a "$out/times.txt"
   ((code == 0)) || printf 'record: %s/%s ended with %d\n' "$group" "$1" "$code" >&2
