@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "cli/tool.h"
+#include "experiment/experiment.h"
 #include "experiment/plausible.h"
-#include "experiment/workspace.h"
 #include "formats/tetmesh_io.h"
 #include "mesh/tetmesh.h"
 #include "model/search_state.h"
@@ -15,7 +15,7 @@
 
 namespace hapsim {
 
-inline std::vector<Option> workspace_flags() {
+inline std::vector<Option> experiment_flags() {
   return {
       {.flag = "--body",
        .kind = OptionKind::kFile,
@@ -99,9 +99,9 @@ inline Model load_model(const Arguments& arguments, const std::string& tool) {
 }
 
 // With progress on a terminal while positions are prepared.
-inline WorkspaceOptions workspace_options(const Arguments& arguments,
-                                          std::shared_ptr<Progress>& progress) {
-  WorkspaceOptions options;
+inline ExperimentOptions experiment_options(const Arguments& arguments,
+                                            std::shared_ptr<Progress>& progress) {
+  ExperimentOptions options;
   options.threads = static_cast<int>(arguments.integer("--threads"));
   if (arguments.given("--rim-edge")) options.rim_edge = arguments.number("--rim-edge");
   if (arguments.given("--noise")) options.noise = arguments.number("--noise");

@@ -60,7 +60,7 @@ ToolSpec specification() {
       "evidence says so.",
       "A common gain of the force sensor cannot be told from Young's modulus by any recording: "
       "check the sensor with a calibration weight."};
-  spec.options = workspace_flags();
+  spec.options = experiment_flags();
   const std::vector<Option> own{
       {.flag = "--model",
        .kind = OptionKind::kFile,
@@ -162,18 +162,19 @@ void write_table(std::ostream& out, const Arguments& arguments, const Diagnosis&
       {"rank", "effect", "verdict", "rmse_now", "rmse_after", "heldout_now", "heldout_after",
        "p_value", "confused_with", "where", "evidence", "next_measurement", "command"});
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : ""; };
-  csv.row({"0", "model", verdict_name(d.verdict), number(d.rmse), number(d.rmse_end),
-           number(d.held_out), number(d.held_out_end), "", "", "", d.explanation, "", ""});
+  csv.row({"0", "model", verdict_name(d.verdict), number(d.rmse.told()), number(d.rmse_end.told()),
+           number(d.held_out.told()), number(d.held_out_end.told()), "", "", "", d.explanation, "",
+           ""});
   int rank = 0;
   for (const Finding& f : d.findings) {
     const bool tried = f.verdict != Verdict::kNotTestable;
     const bool add = f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable ||
                      f.verdict == Verdict::kPossible;
     const auto value = [&](double v) { return tried ? number(v) : std::string(); };
-    csv.row({std::to_string(++rank), f.effect, verdict_name(f.verdict), value(f.rmse_now),
-             value(f.rmse_after), value(f.held_out_now), value(f.held_out_after), value(f.p_value),
-             joined(f.confused_with), f.where, f.evidence, f.next_measurement,
-             add ? add_command(arguments, f) : ""});
+    csv.row({std::to_string(++rank), f.effect, verdict_name(f.verdict), value(f.rmse_now.told()),
+             value(f.rmse_after.told()), value(f.held_out_now.told()),
+             value(f.held_out_after.told()), value(f.p_value), joined(f.confused_with), f.where,
+             f.evidence, f.next_measurement, add ? add_command(arguments, f) : ""});
   }
 }
 
@@ -187,19 +188,19 @@ nlohmann::json as_json(const Arguments& arguments, const Diagnosis& d) {
   j["shape_error"] = d.shape.before;
   j["shape_error_moved"] = d.shape.after;
   j["shape_in_doubt"] = d.shape_in_doubt;
-  j["force_rms"] = d.force_rms;
-  j["rmse"] = d.rmse;
-  j["heldout"] = d.held_out;
-  j["rmse_with_missing_effects"] = d.rmse_end;
-  j["heldout_with_missing_effects"] = d.held_out_end;
+  j["force_rms"] = d.force_rms.told();
+  j["rmse"] = d.rmse.told();
+  j["heldout"] = d.held_out.told();
+  j["rmse_with_missing_effects"] = d.rmse_end.told();
+  j["heldout_with_missing_effects"] = d.held_out_end.told();
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings)
     j["effects"].push_back({{"effect", f.effect},
                             {"verdict", verdict_name(f.verdict)},
-                            {"rmse_now", f.rmse_now},
-                            {"rmse_after", f.rmse_after},
-                            {"heldout_now", f.held_out_now},
-                            {"heldout_after", f.held_out_after},
+                            {"rmse_now", f.rmse_now.told()},
+                            {"rmse_after", f.rmse_after.told()},
+                            {"heldout_now", f.held_out_now.told()},
+                            {"heldout_after", f.held_out_after.told()},
                             {"p_value", f.p_value},
                             {"criterion_gain", f.criterion_gain},
                             {"share", f.share},
@@ -217,8 +218,8 @@ void report(const Arguments& arguments, const Diagnosis& d) {
   line(fmt::format(
       "typical error {:.3g} N = {:.3g} % of the force's rms; sensor noise {:.3g} N "
       "({}); mesh uncertainty {:.1f} %, floor {:.1f} %",
-      d.rmse, 100 * d.rmse / d.force_rms, d.noise, d.noise_measured ? "measured" : "declared",
-      100 * d.mesh_uncertainty, 100 * d.floor));
+      d.rmse.told(), 100 * d.rmse.told() / d.force_rms.told(), d.noise,
+      d.noise_measured ? "measured" : "declared", 100 * d.mesh_uncertainty, 100 * d.floor));
   if (const std::string shape = d.shape.words(); !shape.empty())
     line(shape + (d.shape_in_doubt
                       ? "; the forces do not follow such a move, so the scan is in doubt "
@@ -229,13 +230,13 @@ void report(const Arguments& arguments, const Diagnosis& d) {
       line(fmt::format("  {:<13} not testable: {}", f.effect, f.evidence));
       continue;
     }
-    const std::string unseen =
-        std::isfinite(f.held_out_after)
-            ? fmt::format(", unseen {:.3g} -> {:.3g} N", f.held_out_now, f.held_out_after)
-            : "";
+    const std::string unseen = std::isfinite(f.held_out_after.pooled)
+                                   ? fmt::format(", unseen {:.3g} -> {:.3g} N",
+                                                 f.held_out_now.told(), f.held_out_after.told())
+                                   : "";
     line(fmt::format("  {:<13} {:<17} error {:.3g} -> {:.3g} N{}, false alarm {:.3f}; {}", f.effect,
-                     verdict_name(f.verdict), f.rmse_now, f.rmse_after, unseen, f.p_value,
-                     f.evidence));
+                     verdict_name(f.verdict), f.rmse_now.told(), f.rmse_after.told(), unseen,
+                     f.p_value, f.evidence));
     if (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable) {
       if (!f.confused_with.empty())
         line("                may be confused with " + joined(f.confused_with) +
@@ -248,7 +249,7 @@ void report(const Arguments& arguments, const Diagnosis& d) {
       "with a calibration weight");
 }
 
-void write_plan(const Arguments& arguments, const Diagnosis& d, const Workspace& w) {
+void write_plan(const Arguments& arguments, const Diagnosis& d, const Experiment& w) {
   const MeasurementPlan plan =
       plan_presses(d.rivals, w, static_cast<std::size_t>(arguments.integer("--plan-presses")));
   Output output(arguments.text("--plan"));
@@ -285,18 +286,18 @@ int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-diagnose");
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
-  WorkspaceOptions options = workspace_options(arguments, progress);
+  ExperimentOptions options = experiment_options(arguments, progress);
   options.draft = true;  // many materials are tried; the one that is added is identified finely
   set_poisson_range(model, options);
-  Recording recording = load_recording(arguments, arguments.input(), true);
-  require_presses(make_dataset(recording));
-  Workspace w = make_workspace(body, std::move(recording), options);
+  Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), true));
+  require_presses(dataset);
+  const Experiment w = make_experiment({body}, std::move(dataset), options);
   progress.reset();
   DiagnoseOptions diagnose_options;
   diagnose_options.folds = static_cast<int>(arguments.integer("--folds"));
   diagnose_options.flips = static_cast<int>(arguments.integer("--flips"));
   diagnose_options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
-  const Diagnosis d = diagnose(model, w, diagnose_options);
+  const Diagnosis d = diagnose(model, w, w.allowance(), diagnose_options);
 
   Output output(arguments.output());
   write_table(output.stream(), arguments, d);

@@ -31,58 +31,59 @@
 namespace hapsim {
 namespace {
 
-std::string words_of(const TermChoice& choice, const std::string& effect, double per_measured) {
+std::string words_of(const TermChoice& choice, const std::string& effect) {
   std::string trials;
   for (const TermTrial& t : choice.trials)
     trials += fmt::format(
-        "{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, per_measured * t.rmse,
-        std::isnan(t.held_out) ? "" : fmt::format(", unseen {:.4g} N", per_measured * t.held_out));
+        "{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.fit.error.told(),
+        std::isnan(t.held_out.pooled) ? "" : fmt::format(", unseen {:.4g} N", t.held_out.told()));
   return fmt::format("{} of {} chosen ({})", counted(choice.terms, "term", "terms"), effect,
                      trials);
 }
 
 // Models to fit on the chosen episodes: fitted step by step, one effect after the other.
-std::vector<Model> build(const Plan& plan, const Workspace& w, const Selection& selection,
-                         const FitOptions& fit_options, const ExtendOptions& extend) {
+Starts build(const Plan& plan, const Experiment& w, const Selection& selection,
+             const FitOptions& fit_options, const ExtendOptions& extend,
+             const Linearisation& known = {}) {
   Model model = plan.start;
   if (model.parameters.empty()) {
-    model = elastic_model(w.dataset, selection, *w.body);
+    model = elastic_model(w, selection);
     for (const std::string& what : plan.fix)
       if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
   }
-  std::vector<Model> starts{model};
+  Starts starts{{model}, known};
   for (std::size_t k = 0; k < plan.add.size(); ++k) {
     FitOptions quick = fit_options;
     quick.exact_regions = false;
     quick.starts = 1;  // the last fit searches
-    const Model base = fit_best(starts, w.dataset, selection, *w.body, quick).model;
+    const Fit base = fit_best(starts.models, w, selection, quick, starts.known);
     const EffectCard& card = require_effect(plan.add[k]).card();
     const bool terms = card.terms && !card.from_locations;
     FitOptions searching = quick;
     searching.starts = fit_options.starts;
     ExtendOptions own = extend;
     if (terms && plan.terms.automatic) {
-      const TermChoice choice = choose_terms(base, plan.add[k], plan.terms.count, w.dataset,
-                                             selection, *w.body, searching, extend);
+      const TermChoice choice =
+          choose_terms(base, plan.add[k], plan.terms.count, w, selection, searching, extend);
       own.terms = choice.terms;
-      if (plan.say) plan.say(words_of(choice, plan.add[k], per_measured_component(w.dataset)));
+      if (plan.say) plan.say(words_of(choice, plan.add[k]));
     }
-    starts = with_effect(base, plan.add[k], w.dataset, selection, *w.body, own);
+    starts = {with_effect(base, plan.add[k], w, selection, own), base.about};
     if (terms && !plan.terms.windows.empty())
-      for (Model& start : starts) set_windows(start, plan.add[k], plan.terms.windows);
+      for (Model& start : starts.models) set_windows(start, plan.add[k], plan.terms.windows);
   }
-  for (Model& start : starts)
+  for (Model& start : starts.models)
     for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
   return starts;
 }
 
 // Adds what a diagnosis finds missing, step by step; each step goes into the history.
 Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, const TetMesh& body,
-                                 WorkspaceOptions options, const FitOptions& fit_options,
-                                 Workspace& w, double force_rms) {
+                                 ExperimentOptions options, const FitOptions& fit_options,
+                                 const Experiment& w, double force_rms) {
   options.draft = true;
   options.progress = nullptr;
-  Workspace draft = make_workspace(body, w.dataset.recording, options);
+  const Experiment draft = make_experiment({body}, w.dataset, options);
   ImproveOptions improve_options;
   improve_options.fit = fit_options;
   improve_options.diagnose.folds = static_cast<int>(arguments.integer("--folds"));
@@ -92,15 +93,14 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   };
   Model start = plan.start;
   if (start.parameters.empty()) {
-    start = elastic_model(w.dataset, all_episodes(w.dataset), *w.body);
+    start = elastic_model(w, all_episodes(w.dataset));
     for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
   }
   Improvement improvement = improve(start, w, draft, improve_options);
   for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
     const ImprovementStep& step = improvement.steps[k];
     const std::string label = effects_label(step.fitted.model);
-    const double per_measured = per_measured_component(w.dataset);
-    const double rmse = per_measured * step.fitted.rmse, held_out = per_measured * step.held_out;
+    const double rmse = step.fitted.error.told(), held_out = step.held_out.told();
     say(arguments, "hs-identify",
         fmt::format("{}: error {:.4g} N{}, {:.3g} x noise", label, rmse,
                     std::isnan(held_out) ? "" : fmt::format(", unseen {:.4g} N", held_out),
@@ -121,11 +121,12 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   return improvement;
 }
 
-void describe_fit(Model& model, const Plan& plan, const Workspace& w, double rmse) {
+void describe_fit(Fit& fitted, const Plan& plan, const Experiment& w) {
+  Model& model = fitted.model;
   model.metadata = plan.start.metadata;
   unmark(model);
   for (const char* key : {"heldout", "until", "heldout_later"}) model.metadata.remove(key);
-  model.metadata.set("rmse", format_number(rmse));
+  model.metadata.set("rmse", format_number(fitted.error.told()));
   model.metadata.set("force_noise", format_number(w.noise.value));
   if (w.dataset.tools() > 1)
     model.metadata.remove("tool_radius");
@@ -134,12 +135,11 @@ void describe_fit(Model& model, const Plan& plan, const Workspace& w, double rms
 }
 
 // The best so far of a fit that a signal ended, marked.
-int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspace& w,
-                     FitResult result, const SearchState& search) {
+int write_unfinished(const Arguments& arguments, const Plan& plan, const Experiment& w, Fit result,
+                     const SearchState& search) {
   SearchState state = search;
   state.done = result.starts_done;
-  result.rmse *= per_measured_component(w.dataset);
-  describe_fit(result.model, plan, w, result.rmse);
+  describe_fit(result, plan, w);
   mark_unfinished(result.model, state);
   Output output(arguments.output());
   write_model(output.stream(), result.model);
@@ -149,7 +149,7 @@ int write_unfinished(const Arguments& arguments, const Plan& plan, const Workspa
       fmt::format(
           "the fit was interrupted{}; the best so far, error {:.4g} N, is written",
           state.starts > 1 ? fmt::format(" after {} of {} starts", state.done, state.starts) : "",
-          result.rmse),
+          result.error.told()),
       state.starts > 1 ? "go on with --model and --resume" : "go on with --model");
 }
 
@@ -182,13 +182,13 @@ int run(const Arguments& arguments) {
   extend.regions = regions_asked(arguments.text("--regions"));
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
-  Experiment experiment = load_experiment(arguments);
-  require_fit_for(arguments, plan, experiment);
-  Later later(arguments, experiment);
-  const TetMesh& body = experiment.bodies.front();
-  IdentifyLibrary library(arguments, experiment.recording, body);
+  GivenRecordings given = load_recordings(arguments);
+  require_fit_for(arguments, plan, given.dataset);
+  RestOfPress rest(arguments, given);
+  const TetMesh& body = given.bodies.front();
+  IdentifyLibrary library(arguments, given.dataset.recording, body);
   std::shared_ptr<Progress> progress;
-  WorkspaceOptions options = workspace_options(arguments, progress);
+  ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(plan.start, options);
   if (plan.start.parameters.empty())
     for (const std::string& what : plan.fix) {
@@ -197,8 +197,7 @@ int run(const Arguments& arguments) {
       if (is_nu && parse_number(what.substr(what.find('=') + 1), nu))
         options.nu_low = options.nu_high = nu;
     }
-  Workspace w = make_workspace(experiment.bodies, std::move(experiment.recording),
-                               experiment.setup_of_row, options);
+  const Experiment w = make_experiment(given.bodies, std::move(given.dataset), options);
   progress.reset();
   FitOptions fit_options{w.noise.value, w.floor, true};
   fit_options.starts = search.starts;
@@ -209,7 +208,6 @@ int run(const Arguments& arguments) {
   extend.floor = w.floor;
 
   const Selection all = all_episodes(w.dataset);
-  const double per_measured = per_measured_component(w.dataset);
   SearchWatch watch(arguments);
   fit_options.watch = watch.watch();
   FitOptions final_options = fit_options;
@@ -218,25 +216,23 @@ int run(const Arguments& arguments) {
     fail_usage("--profile and --robust exclude each other",
                "a robust loss is no likelihood: use one of them");
   final_options.profile = arguments.given("--profile");
-  const double force_rms = std::sqrt(measured_forces(w.dataset, all).squaredNorm() /
-                                     (3.0 * static_cast<double>(w.dataset.rows()))) *
-                           per_measured;
-  double held_out = std::nan("");
+  const double force_rms = force_error(w.dataset, measured_forces(w.dataset, all)).told();
+  ForceError unseen;
   std::string cut_short;  // what a signal ended
   Folds folds;
-  FitResult result;
+  Fit result;
   if (plan.automatic) {
     const Improvement improvement =
         improve_step_by_step(arguments, plan, body, options, fit_options, w, force_rms);
     result = improvement.steps.back().fitted;
-    held_out = improvement.steps.back().held_out;
+    unseen = improvement.steps.back().held_out;
     cut_short = improvement.stopped ? "the model was improved" : "";
     folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
   } else {
-    std::vector<Model> starts = build(plan, w, all, fit_options, extend);
-    require_enough_data(starts.front(), w.dataset, all);
-    if (plan.start.parameters.empty()) library.add_start(starts);
-    result = fit_best(starts, w.dataset, all, *w.body, final_options);
+    Starts starts = build(plan, w, all, fit_options, extend);
+    require_enough_data(starts.models.front(), w.dataset, all);
+    if (plan.start.parameters.empty()) library.add_start(starts.models);
+    result = fit_best(starts.models, w, all, final_options, starts.known);
     if (arguments.given("--boundary") && result.converged)
       result = with_refined_boundaries(arguments, result, w, body, fit_options);
   }
@@ -260,37 +256,39 @@ int run(const Arguments& arguments) {
       remove_effect(refit.start, "regions");
       refit.add.push_back("regions");
     }
-    held_out =
-        held_out_error(
-            [&](const Selection& training) { return build(refit, w, training, quick, extend); },
-            w.dataset, folds, *w.body, quick)
-            .rmse;
+    const Linearisation known = w.places.solve(material_of(refit.start));
+    unseen = held_out_error(
+                 [&](const Selection& training) {
+                   return build(refit, w, training, quick, extend, known);
+                 },
+                 w, folds, quick)
+                 .error;
   }
   if (watch.end() && cut_short.empty()) {
     cut_short = "the error on unseen data was found";
-    held_out = std::nan("");
+    unseen = {};
   }
-  result.rmse *= per_measured;
-  held_out *= per_measured;
+  const double held_out = unseen.told();
   Model& model = result.model;
-  describe_fit(model, plan, w, result.rmse);
+  describe_fit(result, plan, w);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
   if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
   report(arguments, w, result, held_out, folds.by, force_rms);
-  later.tell(model, w);
+  rest.tell(result, w);
   Output output(arguments.output());
   write_model(output.stream(), model);
   if (arguments.given("--locations") && cut_short.empty()) {
     Output locations(arguments.text("--locations"));
-    write_locations(locations.stream(), fit_locations(model, w.dataset, *w.body, fit_options));
+    write_locations(locations.stream(), fit_locations(model, w, fit_options));
     locations.commit();
   }
-  if (arguments.given("--image") && cut_short.empty()) write_asked_image(arguments, model, w, body);
+  if (arguments.given("--image") && cut_short.empty())
+    write_asked_image(arguments, result, w, body);
   library.store(model, [&] { output.commit(); });
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),
-                {arguments.output(), effects_label(model), result.rmse, held_out, w.noise.value,
-                 force_rms, static_cast<int>(model.free_parameters().size())});
+                {arguments.output(), effects_label(model), result.error.told(), held_out,
+                 w.noise.value, force_rms, static_cast<int>(model.free_parameters().size())});
   if (!cut_short.empty())
     fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,
                   "the model that was fitted is written: go on from it with --model");

@@ -91,11 +91,11 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   if (arguments.given("--vtu") && body.is_regional())
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
-  set_normals(dataset, body.normals());
+  dataset = with_normals(std::move(dataset), body.normals());
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
   write_forces(arguments, model, dataset, all,
-               model_forces(model, dataset, all, stiffness_at, false).f);
+               model_forces(model, dataset, stiffness_at, all, false).f);
   for (const FieldRow& row : fields) {
     Output output(fmt::format("{}-{}.vtu", arguments.text("--vtu"), row.row + 1));
     body.write_field(output.stream(), dataset.episodes[row.episode], row.sample);
@@ -110,18 +110,14 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
 
 // Each position on its own graded mesh.
 Eigen::VectorXd contact_mesh_forces(const Arguments& arguments, const Model& model,
-                                    const Workspace& w, const Selection& all) {
+                                    const Experiment& w, const Selection& all) {
   const MaterialSpec material = material_of(model);
   const std::vector<RegionRelaxation> regions = regional_relaxation_of(model, material);
-  if (regions.empty()) {
-    w.body->solve(material);
-    return model_forces(model, w.dataset, all, *w.body, false).f;
-  }
+  if (regions.empty()) return solved_forces(model, w, all, false).f;
   const auto solve = [&](const MaterialSpec& sample) {
-    w.body->solve(sample);
+    const Linearisation about = w.places.solve(sample);
     std::vector<Eigen::Matrix3d> K;
-    for (std::size_t p = 0; p < w.dataset.positions.size(); ++p)
-      K.push_back(w.body->at(p, sample).K);
+    for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) K.push_back(about.at(p, sample).K);
     return K;
   };
   double misfit = 0;
@@ -132,7 +128,7 @@ Eigen::VectorXd contact_mesh_forces(const Arguments& arguments, const Model& mod
                   "stiffness",
                   stiffness.front().relaxing.size(), misfit));
   const auto at = [&](std::size_t p) { return stiffness[p]; };
-  return model_forces(model, w.dataset, all, at, false).f;
+  return model_forces(model, w.dataset, at, all, false).f;
 }
 
 int run_acfm(const Arguments& arguments, const Acfm& model) {
@@ -189,17 +185,18 @@ int run(const Arguments& arguments) {
   if (arguments.given("--own-mesh")) return run_own_mesh(arguments, model);
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
-  WorkspaceOptions options = workspace_options(arguments, progress);
+  ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
-  Workspace w = make_workspace(body, load_recording(arguments, arguments.input(), false), options);
+  const Experiment w =
+      make_experiment(body, load_recording(arguments, arguments.input(), false), options);
   progress.reset();
   const Selection all = all_episodes(w.dataset);
   write_forces(arguments, model, w.dataset, all, contact_mesh_forces(arguments, model, w, all),
-               w.body->mesh_uncertainty());
+               w.places.mesh_uncertainty());
   say(arguments, "hs-simulate",
       fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", w.dataset.rows(),
                   w.dataset.positions.size(), effects_label(model),
-                  100 * w.body->mesh_uncertainty()));
+                  100 * w.places.mesh_uncertainty()));
   return 0;
 }
 

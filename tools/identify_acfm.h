@@ -25,9 +25,9 @@ inline int run_acfm(const Arguments& arguments) {
     if (arguments.given(flag))
       fail_usage(std::string(flag) + " is of models with effects, and --acfm has none",
                  "leave one of them out");
-  Experiment experiment = load_experiment(arguments);
-  const SignedDistance surface(boundary_surface(experiment.bodies.front()), "body");
-  const Dataset dataset = make_dataset(std::move(experiment.recording), experiment.setup_of_row);
+  const GivenRecordings given = load_recordings(arguments);
+  const Dataset& dataset = given.dataset;
+  const SignedDistance surface(boundary_surface(given.bodies.front()), "body");
   require_one_setup(dataset, "--acfm");
   std::vector<Vec3> normals;
   for (const Vec3& p : dataset.positions) {

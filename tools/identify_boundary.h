@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 #include "fit/boundary_fit.h"
 
 namespace hapsim {
@@ -26,16 +26,16 @@ inline Option boundary_flag() {
 }
 
 // `fitted` with its boundaries refined, where that is better; in words on standard error.
-inline FitResult with_refined_boundaries(const Arguments& arguments, const FitResult& fitted,
-                                         const Workspace& w, const TetMesh& body,
-                                         const FitOptions& fit_options) {
+inline Fit with_refined_boundaries(const Arguments& arguments, const Fit& fitted,
+                                   const Experiment& experiment, const TetMesh& body,
+                                   const FitOptions& fit_options) {
   BoundaryOptions options;
   options.key_points = static_cast<int>(arguments.integer("--boundary"));
   options.threads = static_cast<int>(arguments.integer("--threads"));
   options.fit = fit_options;
   Progress progress(arguments, "boundaries, positions solved", 0);
   options.progress = [&progress] { progress.step(); };
-  const BoundaryFit refined = refine_boundaries(fitted, w.dataset, *w.body, body, options);
+  const BoundaryFit refined = refine_boundaries(fitted, experiment, body, options);
   if (!refined.better) {
     say(arguments, "hs-identify", "the boundaries stay: moving them does not lower the error");
     return refined.fitted;
@@ -46,7 +46,8 @@ inline FitResult with_refined_boundaries(const Arguments& arguments, const FitRe
       fmt::format("boundaries moved by {:.2g} mm (rms), at most {:.2g} mm; error {:.4g} N before; "
                   "their points are known to {:.2g} to {:.2g} mm",
                   1e3 * std::sqrt(squares),
-                  1e3 * *std::max_element(refined.moved.begin(), refined.moved.end()), fitted.rmse,
+                  1e3 * *std::max_element(refined.moved.begin(), refined.moved.end()),
+                  fitted.error.told(),
                   1e3 * *std::min_element(refined.error.begin(), refined.error.end()),
                   1e3 * *std::max_element(refined.error.begin(), refined.error.end())));
   return refined.fitted;

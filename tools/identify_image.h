@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 #include "imaging/image_file.h"
 #include "imaging/stiffness_image.h"
 
@@ -21,18 +21,18 @@ inline Option image_flag() {
 }
 
 // The modulus of every tetrahedron as all presses ask for it; in words on standard error.
-inline void write_asked_image(const Arguments& arguments, const Model& model, const Workspace& w,
-                              const TetMesh& body) {
+inline void write_asked_image(const Arguments& arguments, const Fit& fitted,
+                              const Experiment& experiment, const TetMesh& body) {
+  const Model& model = fitted.model;
   const MaterialSpec material = material_of(model);
   if (material.modulus.size() > 1 || !material.features.empty())
     fail_input("", "--image starts from a body of one modulus",
                "remove regions, layers, inclusions and anisotropy from the model (--remove)");
   ImageOptions options;
   options.threads = static_cast<int>(arguments.integer("--threads"));
-  Progress progress(arguments, "sensitivities", w.dataset.positions.size());
+  Progress progress(arguments, "sensitivities", experiment.dataset.positions.size());
   options.progress = [&progress] { progress.step(); };
-  const StiffnessImage image =
-      stiffness_image(model, w.dataset, *w.body, body, w.noise.value, options);
+  const StiffnessImage image = stiffness_image(model, experiment, fitted.about, body, options);
   std::vector<double> modulus;
   for (const auto& n : body.tets) {
     const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;

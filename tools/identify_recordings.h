@@ -19,10 +19,10 @@
 
 namespace hapsim {
 
-struct Experiment {
+struct GivenRecordings {
   std::vector<TetMesh> bodies;
-  Recording recording;              // all as one
   std::vector<Setup> setup_of_row;  // Setup::body numbers `bodies`
+  Dataset dataset;                  // all as one
 };
 
 inline std::vector<Option> recording_flags() {
@@ -45,7 +45,7 @@ inline std::vector<Option> recording_flags() {
 
 // Error(kUsage) when there is neither one body nor one for each recording; Error(kBadInput) for a
 // recording whose presses cannot be what they claim (require_presses()).
-inline Experiment load_experiment(const Arguments& arguments) {
+inline GivenRecordings load_recordings(const Arguments& arguments) {
   std::vector<std::string> paths = arguments.list("--data");
   paths.insert(paths.begin(), arguments.input());
   const std::vector<std::string> bodies = arguments.list("--body");
@@ -54,7 +54,7 @@ inline Experiment load_experiment(const Arguments& arguments) {
         fmt::format("{} for {}", counted(bodies.size(), "body", "bodies"),
                     counted(paths.size(), "recording", "recordings")),
         "give --body once, or once for each recording: the main input first, then each --data");
-  Experiment experiment;
+  GivenRecordings given;
   std::vector<int> body_of;  // by --body: the same file is the same body
   std::vector<std::string> read;
   for (const std::string& path : bodies) {
@@ -68,18 +68,20 @@ inline Experiment load_experiment(const Arguments& arguments) {
     if (k < read.size()) continue;
     read.push_back(path);
     Input input(path);
-    experiment.bodies.push_back(read_body(input));
+    given.bodies.push_back(read_body(input));
   }
   std::vector<Recording> recordings;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     recordings.push_back(load_recording(arguments, paths[k], true));
     const Recording& r = recordings.back();
-    require_presses(make_dataset(r));  // what is wrong is told with its file's name
-    experiment.setup_of_row.insert(experiment.setup_of_row.end(), r.rows(),
-                                   {body_of[bodies.size() == 1 ? 0 : k], r.tool_radius()});
+    // What is wrong with one of several is told with its file's name.
+    if (paths.size() > 1) require_presses(make_dataset(r));
+    given.setup_of_row.insert(given.setup_of_row.end(), r.rows(),
+                              {body_of[bodies.size() == 1 ? 0 : k], r.tool_radius()});
   }
-  experiment.recording = join_recordings(recordings);
-  return experiment;
+  given.dataset = make_dataset(join_recordings(recordings), given.setup_of_row);
+  if (paths.size() == 1) require_presses(given.dataset);
+  return given;
 }
 
 // For what knows one body and one tool only.
@@ -93,9 +95,7 @@ inline void require_one_setup(const Dataset& dataset, const std::string& what) {
 // Refuses, before anything is prepared, too few places, and what is asked of recordings of several
 // bodies or tools and knows one only: features of this tool, and effects (of the start, or to be
 // added) whose parameters belong to one.
-inline void require_fit_for(const Arguments& arguments, const Plan& plan,
-                            const Experiment& experiment) {
-  const Dataset dataset = make_dataset(experiment.recording, experiment.setup_of_row);
+inline void require_fit_for(const Arguments& arguments, const Plan& plan, const Dataset& dataset) {
   if (plan.automatic) require_one_setup(dataset, "--effects auto");
   for (const char* flag : {"--boundary", "--image", "--library"})
     if (arguments.given(flag)) require_one_setup(dataset, flag);

@@ -9,8 +9,8 @@
 #include "base/counted.h"
 #include "cli/tool.h"
 #include "estimate/identifiability.h"
+#include "experiment/experiment.h"
 #include "experiment/plausible.h"
-#include "experiment/workspace.h"
 #include "fit/fit.h"
 #include "fit/maxwell_terms.h"
 #include "linalg/blas.h"
@@ -39,7 +39,7 @@ inline std::vector<std::string> hardly_known(const Model& model) {
   return names;
 }
 
-inline void report(const Arguments& arguments, const Workspace& w, const FitResult& result,
+inline void report(const Arguments& arguments, const Experiment& w, const Fit& result,
                    double held_out, const std::string& by, double force_rms) {
   const auto line = [&](const std::string& text) { say(arguments, "hs-identify", text); };
   line(fmt::format("{} at {}{}, {}; noise {:.3g} N ({}), force rms {:.3g} N",
@@ -83,8 +83,9 @@ inline void report(const Arguments& arguments, const Workspace& w, const FitResu
   if (!enough_data(result.residuals,
                    static_cast<Eigen::Index>(result.model.free_parameters().size())))
     line("fewer than ten force components a free parameter: noise may decide their values");
-  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", result.rmse,
-                   100 * result.rmse / force_rms, result.rmse / w.noise.value));
+  const double error = result.error.told();
+  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", error,
+                   100 * error / force_rms, error / w.noise.value));
   if (!by.empty() && !std::isnan(held_out))
     line(fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
                      100 * held_out / force_rms, held_out / w.noise.value));

@@ -56,7 +56,7 @@ inline ToolSpec identify_specification() {
           unshared(&EffectCard::one_body) + ") or to one tool (" + unshared(&EffectCard::one_tool) +
           ") is refused where there are several.",
       "Effects: " + effect_names() + "."};
-  spec.options = workspace_flags();
+  spec.options = experiment_flags();
   std::erase_if(spec.options, [](const Option& o) { return o.flag == "--body"; });
   const std::vector<Option> own{
       {.flag = "--effects",

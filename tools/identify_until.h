@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 #include "fit/rest_of_press.h"
 #include "identify_recordings.h"
 
@@ -24,21 +24,25 @@ inline Option until_flag() {
           .minimum = 1e-6};
 }
 
-// Cuts the experiment; keeps it whole for the error on what comes later.
-class Later {
+// Cuts the recordings; keeps them whole for the error on what comes later.
+class RestOfPress {
  public:
-  Later(const Arguments& arguments, Experiment& experiment) : arguments_(arguments) {
+  RestOfPress(const Arguments& arguments, GivenRecordings& given) : arguments_(arguments) {
     if (!arguments.given("--until")) return;
     seconds_ = arguments.number("--until");
-    whole_ = make_dataset(experiment.recording, experiment.setup_of_row);
-    experiment.recording =
-        beginning_of_presses(experiment.recording, seconds_, experiment.setup_of_row);
+    Recording beginning =
+        beginning_of_presses(given.dataset.recording, seconds_, given.setup_of_row);
+    whole_ = std::move(given.dataset);
+    given.dataset = make_dataset(std::move(beginning), given.setup_of_row);
   }
 
-  void tell(Model& model, const Workspace& w) {
+  // Writes it into the fitted model too.
+  void tell(Fit& fitted, const Experiment& experiment) {
     if (!whole_) return;
-    set_normals(*whole_, w.body->normals());
-    const LaterError error = later_error(model, *whole_, *w.body, seconds_);
+    Model& model = fitted.model;
+    const LaterError error = later_error(
+        fitted, with_normals(std::move(*whole_), experiment.places.normals()), seconds_);
+    whole_.reset();
     model.metadata.set("until", format_number(seconds_));
     model.metadata.set("heldout_later", format_number(error.rmse));
     say(arguments_, "hs-identify",

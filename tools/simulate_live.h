@@ -20,14 +20,14 @@
 namespace hapsim {
 
 // The positions of --contacts, to be solved finely for any material. `progress` must outlive it.
-inline std::optional<Workspace> fine_contacts(const Arguments& arguments, const TetMesh& body,
-                                              const Model& model,
-                                              std::shared_ptr<Progress>& progress) {
+inline std::optional<Experiment> fine_contacts(const Arguments& arguments, const TetMesh& body,
+                                               const Model& model,
+                                               std::shared_ptr<Progress>& progress) {
   if (!arguments.given("--contacts")) return std::nullopt;
-  WorkspaceOptions options = workspace_options(arguments, progress);
+  ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(model, options);
-  return make_workspace(body, load_recording(arguments, arguments.text("--contacts"), false),
-                        options);
+  return make_experiment(body, load_recording(arguments, arguments.text("--contacts"), false),
+                         options);
 }
 
 // Where the motion comes from.
@@ -95,12 +95,11 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, in.metadata, arguments.input());
   std::shared_ptr<Progress> progress;
-  const std::optional<Workspace> fine = fine_contacts(arguments, mesh, model, progress);
+  const std::optional<Experiment> fine = fine_contacts(arguments, mesh, model, progress);
   progress.reset();
   if (fine)
     options.contacts = [&](const MaterialSpec& material) {
-      fine->body->solve(material);
-      return known_contacts(*fine->body, material);
+      return known_contacts(fine->places, material);
     };
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);

@@ -53,7 +53,7 @@ inline ToolSpec simulate_specification() {
       "graded to its tool's rim, or with --own-mesh on the body's. It takes seconds a step and is "
       "what the quick laws are judged by. Several tools press one body at once with a column "
       "tool_id: rows of one press and time, one a tool, are one step."};
-  spec.options = workspace_flags();
+  spec.options = experiment_flags();
   for (Option& option : spec.options)
     if (option.flag == "--body") {
       option.required = false;

@@ -69,7 +69,7 @@ TetMesh body(const std::string& path) {
 }
 
 struct Pair {
-  Workspace truth, diagnosed;
+  Experiment truth, diagnosed;
 };
 
 // Bodies prepared once for each kind of recording.
@@ -80,15 +80,15 @@ class Pairs {
   Pair& of(const Truth& truth) {
     const auto [it, fresh] = pairs_.try_emplace({truth.open, truth.presses});
     if (!fresh) return it->second;
-    WorkspaceOptions options;
+    ExperimentOptions options;
     options.noise = kNoise;
     options.cache = default_cache_directory();
-    WorkspaceOptions finer = options;
+    ExperimentOptions finer = options;
     finer.rim_edge = kTrueRim;
     finer.nu_low = finer.nu_high = true_base({}).find("elastic", 0, "nu")->value;
     options.draft = true;  // as hs-diagnose
-    it->second = {make_workspace(truth_, motion(path_, truth), finer),
-                  make_workspace(diagnosed_, motion(path_, truth), options)};
+    it->second = {make_experiment(truth_, motion(path_, truth), finer),
+                  make_experiment(diagnosed_, motion(path_, truth), options)};
     return it->second;
   }
 
@@ -113,7 +113,7 @@ void add_noise(NoiseKind kind, const Episode& e, Random& random, Eigen::Ref<Eige
 }
 
 // Each position's forces with a symmetric relative error, and noise.
-void measure(NoiseKind noise, const Workspace& w, int seed, Eigen::VectorXd& f) {
+void measure(NoiseKind noise, const Experiment& w, int seed, Eigen::VectorXd& f) {
   Random random(static_cast<std::uint64_t>(seed));
   std::vector<Eigen::Matrix3d> error;
   for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) {
@@ -141,7 +141,7 @@ struct Drawn {
 // From `low` to `high` times the noise, or to the largest that the truth can do, by seed.
 struct Levels {
   double low = 3, high = 10;
-  double of(const Truth& truth, const Workspace& w, int seed) const {
+  double of(const Truth& truth, const Experiment& w, int seed) const {
     Random random(500 + static_cast<std::uint64_t>(seed));
     const double most =
         largest_misfit(truth, w, 1000 + static_cast<std::uint64_t>(seed)) / kNoise / 1.01;
@@ -149,7 +149,7 @@ struct Levels {
   }
 };
 
-Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w,
+Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Experiment& w,
            const Levels& levels, int seed) {
   const std::uint64_t own = 1000 + static_cast<std::uint64_t>(seed);
   Drawn drawn;
@@ -178,22 +178,20 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Workspace& w
 }
 
 // Whether the forces would show a change of the truth's parameter: what has no effect has no size.
-bool acts(const Model& truth, const Parameter& exact, const Workspace& w) {
+bool acts(const Model& truth, const Parameter& exact, const Experiment& w) {
   Model changed = truth;
   Parameter& p = *changed.find(exact.effect, exact.region, exact.name);
   const double step = parameter_card(require_effect(exact.effect), exact.name)->scale;
   p.value += p.value + step > p.upper ? -step : step;
   const Selection all = all_episodes(w.dataset);
-  const auto forces = [&](const Model& m) {
-    return model_forces(m, w.dataset, all, *w.body, false).f;
-  };
+  const auto forces = [&](const Model& m) { return solved_forces(m, w, all, false).f; };
   return (forces(changed) - forces(truth)).norm() > kNoise;
 }
 
 // How many of the sizes that were found hold the truth in their 95 % intervals. Not counted:
 // orientations, which have twins (an axis and its reverse), another number of terms than the truth
 // has, whose values are other ones, and what no interval is stated for (at a bound).
-void count_sizes(const Model& found, const Model& truth, const Workspace& w, Trial& trial) {
+void count_sizes(const Model& found, const Model& truth, const Experiment& w, Trial& trial) {
   const auto rows = [](const Model& model, const std::string& effect) {
     return std::count_if(model.parameters.begin(), model.parameters.end(),
                          [&](const Parameter& p) { return p.effect == effect; });
@@ -237,7 +235,7 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
     return trial;
   }
   measure(truth.noise, pair.truth, seed, drawn.forces);
-  Workspace& w = pair.diagnosed;
+  Experiment& w = pair.diagnosed;
   const Selection everything = all_episodes(w.dataset);
   const std::vector<int> rows = stacked_rows(w.dataset, everything);
   for (std::size_t i = 0; i < rows.size(); ++i)

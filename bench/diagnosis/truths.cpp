@@ -34,7 +34,7 @@ Truth of_model(const std::string& name, const std::string& effect, double most,
   if (!effect.empty()) truth.effects = {effect};
   truth.most = most;
   truth.model = model;
-  truth.forces = [model](const Workspace& w, const Model& base, double s, Random&) {
+  truth.forces = [model](const Experiment& w, const Model& base, double s, Random&) {
     return forces_of(w, s > 0 ? model(base, s) : base);
   };
   return truth;
@@ -63,7 +63,7 @@ Truth other_form(const std::string& name, const std::string& effect, double most
   truth.name = name;
   truth.effects = {effect};
   truth.most = most;
-  truth.forces = [change](const Workspace& w, const Model& base, double s, Random& random) {
+  truth.forces = [change](const Experiment& w, const Model& base, double s, Random& random) {
     Eigen::VectorXd f = forces_of(w, base);
     Eigen::Index at = 0;
     for (const Episode& e : w.dataset.episodes) {
@@ -82,7 +82,7 @@ Truth by_place(const std::string& name, const std::function<double(const Vec3&, 
   truth.name = name;
   truth.effects = {"regions"};
   truth.most = 3;
-  truth.forces = [factor](const Workspace& w, const Model& base, double s, Random&) {
+  truth.forces = [factor](const Experiment& w, const Model& base, double s, Random&) {
     Eigen::VectorXd f = forces_of(w, base);
     Eigen::Index at = 0;
     for (const Episode& e : w.dataset.episodes) {
@@ -381,23 +381,23 @@ Model true_base(const std::vector<std::string>& base) {
   return model;
 }
 
-Eigen::VectorXd forces_of(const Workspace& w, const Model& model) {
+Eigen::VectorXd forces_of(const Experiment& w, const Model& model) {
   w.body->solve(material_of(model));  // exact, not linear about an earlier strength
-  return model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false).f;
+  return solved_forces(model, w, all_episodes(w.dataset), false).f;
 }
 
-double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Workspace& w) {
+double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Experiment& w) {
   const Eigen::VectorXd plain = forces_of(w, true_base(truth.base));
   const double gain = forces.dot(plain) / plain.squaredNorm();
   return std::sqrt((forces - gain * plain).squaredNorm() / static_cast<double>(plain.size()));
 }
 
-double largest_misfit(const Truth& truth, const Workspace& w, std::uint64_t seed) {
+double largest_misfit(const Truth& truth, const Experiment& w, std::uint64_t seed) {
   Random random(seed);
   return misfit_of(truth.forces(w, true_base(truth.base), truth.most, random), truth, w);
 }
 
-double strength_for(const Truth& truth, const Workspace& w, double misfit, std::uint64_t seed) {
+double strength_for(const Truth& truth, const Experiment& w, double misfit, std::uint64_t seed) {
   const Model base = true_base(truth.base);
   const auto differs = [&](double s) {
     Random random(seed);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 
 namespace hapsim::bench {
 
@@ -26,7 +26,7 @@ struct Truth {
   // The base with the effect, where it has the catalogue's own form; else empty.
   std::function<Model(const Model& base, double strength)> model;
   // Stacked forces at a strength from 0 (nothing) on; the same seed draws the same effect.
-  std::function<Eigen::VectorXd(const Workspace&, const Model& base, double strength, Random&)>
+  std::function<Eigen::VectorXd(const Experiment&, const Model& base, double strength, Random&)>
       forces;
 };
 
@@ -36,13 +36,13 @@ const Truth& find_truth(const std::vector<Truth>& truths, const std::string& nam
 // The model of the body behind all trials, with the effects of `base` at their true values.
 Model true_base(const std::vector<std::string>& base);
 // Stacked forces of a model, features solved by finite elements.
-Eigen::VectorXd forces_of(const Workspace& w, const Model& model);
+Eigen::VectorXd forces_of(const Experiment& w, const Model& model);
 
 // What the base, less a common gain, leaves of the truth's forces [N] rms.
-double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Workspace& w);
+double misfit_of(const Eigen::VectorXd& forces, const Truth& truth, const Experiment& w);
 // The largest of that.
-double largest_misfit(const Truth& truth, const Workspace& w, std::uint64_t seed);
+double largest_misfit(const Truth& truth, const Experiment& w, std::uint64_t seed);
 // The strength at which that is `misfit`; negative when even the largest does not reach it.
-double strength_for(const Truth& truth, const Workspace& w, double misfit, std::uint64_t seed);
+double strength_for(const Truth& truth, const Experiment& w, double misfit, std::uint64_t seed);
 
 }  // namespace hapsim::bench

@@ -19,7 +19,7 @@ constexpr double kModulus = 1e4, kPoisson = 0.45, kDepth = 3e-3, kRatio = 5, kRa
 struct Setting {
   Vec3 centre;
   Object object;
-  Workspace w;
+  Experiment w;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
 };
@@ -46,11 +46,11 @@ std::shared_ptr<Setting> make_setting(const std::string& name, double depth,
     }
   Recording r = record(positions, s->presses, 0);
   s->forces = true_forces(r, s->presses, K, kModulus, {});
-  WorkspaceOptions options;
+  ExperimentOptions options;
   options.cache = out + "/cache";
   options.noise = 0.01 * peak(s->forces);
   options.nu_low = options.nu_high = kPoisson;
-  s->w = make_workspace(s->object.meshed, std::move(r), options);
+  s->w = make_experiment(s->object.meshed, std::move(r), options);
   return s;
 }
 

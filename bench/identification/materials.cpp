@@ -21,7 +21,7 @@ constexpr int kMost = 20;        // positions on a body
 
 // Everything that the draws of one case share.
 struct Setting {
-  Workspace w;
+  Experiment w;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
   double noise = 0;
@@ -58,10 +58,10 @@ std::shared_ptr<Setting> make_setting(const Plan& plan, const std::string& out) 
   Recording r = record(positions, s->presses, plan.step);
   s->forces = true_forces(r, s->presses, K, kModulus, plan.relaxation);
   s->noise = plan.noise * peak(s->forces);
-  WorkspaceOptions options;
+  ExperimentOptions options;
   options.cache = out + "/cache";
   options.noise = s->noise;
-  s->w = make_workspace(object.meshed, std::move(r), options);
+  s->w = make_experiment(object.meshed, std::move(r), options);
   return s;
 }
 
@@ -85,8 +85,7 @@ FitOptions fit_options(const Setting& s) {
 std::vector<Result> fit_elastic(const std::string& trial, const Setting& s, bool gains, int draw) {
   const Dataset data = drawn(s, gains, draw);
   const Selection all = all_episodes(data);
-  const FitResult result =
-      fit(elastic_model(data, all, *s.w.body), data, all, *s.w.body, fit_options(s));
+  const Fit result = fit(elastic_model(data, all, *s.w.body), data, all, *s.w.body, fit_options(s));
   return {value_of(trial, draw, result.model, "elastic", "E", kModulus, -0.03),
           value_of(trial, draw, result.model, "elastic", "nu", kPoisson, 0.03)};
 }
@@ -101,7 +100,7 @@ std::vector<Result> fit_two_terms(const std::string& trial, const Setting& s, in
   const Selection all = all_episodes(data);
   ExtendOptions extend;
   extend.terms = 2;
-  const FitResult result =
+  const Fit result =
       fit_best(with_effect(elastic_fit(s, data), "viscoelastic", data, all, *s.w.body, extend),
                data, all, *s.w.body, fit_options(s));
   std::vector<Result> results{value_of(trial, draw, result.model, "elastic", "E", kModulus, -0.03),

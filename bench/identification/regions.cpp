@@ -34,7 +34,7 @@ struct Setting {
   Regions truth;
   Object object;
   Recording recording;
-  WorkspaceOptions options;
+  ExperimentOptions options;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
   double noise = 0;
@@ -79,7 +79,7 @@ double boundary_error(const std::vector<BoundaryLine>& lines, const Regions& tru
 
 std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   // Its own: a body is solved for one material at a time.
-  Workspace w = make_workspace(s.object.meshed, s.recording, s.options);
+  Experiment w = make_experiment(s.object.meshed, s.recording, s.options);
   Dataset& data = w.dataset;
   Random random(static_cast<std::uint64_t>(draw));
   measure(data.recording, s.presses, s.forces, 0, s.noise, random);
@@ -89,7 +89,7 @@ std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   Parameter& nu = *start.find("elastic", 0, "nu");
   nu.value = kPoisson;
   nu.state = ParameterState::kFixed;
-  const FitResult plain = fit(start, data, all, *w.body, options);
+  const Fit plain = fit(start, data, all, *w.body, options);
   const LocationTable table = fit_locations(plain.model, data, *w.body, options);
   const RegionEstimate regions = estimate_regions(table, {});
   const int count = static_cast<int>(regions.value.size());
@@ -108,7 +108,7 @@ std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   results.push_back({name, draw, "QDA mm", 0, 1e3 * boundary_error(lines, s.truth), none, 6});
   Model refined = region_model(table, regions, classify, lines, 8);
   refined.find("elastic", 0, "nu")->state = ParameterState::kFixed;
-  const FitResult first = fit(refined, data, all, *w.body, options);
+  const Fit first = fit(refined, data, all, *w.body, options);
   results.push_back({name, draw, "QDA rmse N", 0, first.rmse, none, 0.1});
   BoundaryOptions boundary;
   boundary.threads = 1;
@@ -116,7 +116,7 @@ std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   const BoundaryFit moved = refine_boundaries(first, data, *w.body, s.object.meshed, boundary);
   results.push_back(
       {name, draw, "refined mm", 0, 1e3 * boundary_error(moved.lines, s.truth), none, 6});
-  const FitResult& fitted = moved.fitted;
+  const Fit& fitted = moved.fitted;
   results.push_back({name, draw, "rmse N", 0, fitted.rmse, none, 0.1});
   results.push_back({name, draw, "noise N", 0, s.noise, none, 0});
   for (int r = 0; r < count; ++r) {

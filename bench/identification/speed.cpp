@@ -136,7 +136,7 @@ std::vector<double> values_of(const Model& model) {
 }
 
 // The same fit with differences for derivatives: one more evaluation a parameter.
-void by_differences(const Model& start, const Workspace& w, double ours, const std::string& what) {
+void by_differences(const Model& start, const Experiment& w, double ours, const std::string& what) {
   const Selection all = all_episodes(w.dataset);
   const Eigen::VectorXd f = measured_forces(w.dataset, all);
   Model trial = start;
@@ -146,8 +146,7 @@ void by_differences(const Model& start, const Workspace& w, double ours, const s
     for (std::size_t c = 0; c < free.size(); ++c)
       trial.parameters[free[c]].value = x[static_cast<Eigen::Index>(c)];
     ++evaluations;
-    return Eigen::VectorXd((model_forces(trial, w.dataset, all, *w.body, false).f - f) /
-                           w.noise.value);
+    return Eigen::VectorXd((solved_forces(trial, w, all, false).f - f) / w.noise.value);
   };
   const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                          Eigen::MatrixXd* J) {
@@ -245,15 +244,15 @@ int run(const std::string& out, const std::string& bin) {
       "0.3 6000 5\n",
       s.object.meshed.nodes.size(), s.object.meshed.tets.size(), kModulus, kPoisson);
   fmt::print("{:<44} {:>10} {:>8} {:>6} {:>9}  values\n", "", "s", "ratio", "calls", "error N");
-  WorkspaceOptions options;
+  ExperimentOptions options;
   for (const bool relaxing : {false, true}) {
     const double begin = processor_seconds();
-    Workspace w = make_workspace(s.object.meshed, measured(s, relaxing), options);
+    Experiment w = make_experiment(s.object.meshed, measured(s, relaxing), options);
     fmt::print("preparation, {} samples: {:.3f} s\n", w.dataset.rows(),
                processor_seconds() - begin);
     const Selection all = all_episodes(w.dataset);
     FitOptions fit_options{w.noise.value, w.floor, true};
-    FitResult result;
+    Fit result;
     const Model start = start_model(relaxing);
     const std::string what = relaxing ? "six parameters" : "E and nu";
     const auto fit_once = [&] { result = fit(start, w.dataset, all, *w.body, fit_options); };

@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "contact/contact_stiffness.h"
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 #include "recording/recording.h"
 
 namespace hapsim::bench {

@@ -1,7 +1,6 @@
 #include "contact/contact_library.h"
 
 #include <cmath>
-#include <mutex>
 
 #include "base/parallel.h"
 #include "linalg/blas.h"
@@ -63,7 +62,8 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
       grid_(plan_grid(base_.surface)),
       radius_(tool_radius),
       options_(options),
-      cache_(options.cache) {
+      cache_(options.cache),
+      kept_(std::make_unique<Memo<Position, std::shared_ptr<ContactBodies>>>(options.kept)) {
   // Meshing forks; OpenBLAS must have its one thread before that.
   prepare_blas_for_many_threads();
   for (const Vec3& p : base_.surface.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
@@ -78,18 +78,10 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
   free_surface_ = free_surface(base_);
 }
 
-std::shared_ptr<ContactBodies> ContactLibrary::bodies_at(const Vec3& p, bool keep) const {
-  constexpr std::size_t kMost = 256;  // of about a megabyte each
-  const auto fresh = [&] {
-    return std::make_shared<ContactBodies>(base_, p, radius_, options_.rim_edge, free_surface_);
-  };
-  if (!keep) return fresh();
-  const std::lock_guard lock(kept_mutex_);
-  std::shared_ptr<ContactBodies>& bodies = kept_[{p.x(), p.y(), p.z()}];
-  if (!bodies) bodies = fresh();
-  auto result = bodies;
-  if (kept_.size() > kMost) kept_.erase(kept_.begin());
-  return result;
+std::shared_ptr<ContactBodies> ContactLibrary::take_bodies(const Vec3& p, bool kept) const {
+  if (kept)
+    if (auto bodies = kept_->take({p.x(), p.y(), p.z()})) return bodies;
+  return std::make_shared<ContactBodies>(base_, p, radius_, options_.rim_edge, free_surface_);
 }
 
 ContentHash ContactLibrary::key_of(const Material& material, const std::string& description) const {
@@ -118,10 +110,12 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
         results[p * m + k] = *found;
         continue;
       }
-      if (!bodies) bodies = bodies_at(positions[p], keep);
+      if (!bodies) bodies = take_bodies(positions[p], keep);
       results[p * m + k] = tasks[k].solve(*bodies, p);
       cache_.store(hash.hex(), results[p * m + k]);
     }
+    if (bodies && keep)
+      kept_->put({positions[p].x(), positions[p].y(), positions[p].z()}, std::move(bodies));
     if (options_.step) options_.step();
   });
   return results;
@@ -131,10 +125,11 @@ std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
     const std::vector<Vec3>& positions) const {
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());
   in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
-    // The estimate reads the mesh of these bodies and keeps them.
-    const std::shared_ptr<ContactBodies> bodies = bodies_at(positions[p], true);
+    // The estimate reads the coarser mesh of these bodies, which never changes, and keeps them.
+    const std::shared_ptr<ContactBodies> bodies = take_bodies(positions[p], true);
     const std::shared_ptr<const FeatureEstimate> estimate = bodies->estimate(kTypicalPoisson);
     estimates[p] = {estimate.get(), [bodies, estimate](const FeatureEstimate*) {}};
+    kept_->put({positions[p].x(), positions[p].y(), positions[p].z()}, bodies);
   });
   return estimates;
 }

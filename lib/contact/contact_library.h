@@ -3,12 +3,11 @@
 
 #include <array>
 #include <functional>
-#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "base/memo.h"
 #include "contact/contact_cache.h"
 #include "contact/contact_stiffness.h"
 #include "contact/feature_estimate.h"
@@ -45,6 +44,9 @@ struct ContactLibraryOptions {
   std::string cache;           // directory, "" for none
   double rim_edge = kRimEdge;  // edge length at the tool's rim over its radius
   bool draft = false;          // materials that are not homogeneous on the coarser mesh
+  // Up to so many meshes of positions (of about a megabyte each) stay for the next material; 0:
+  // none. Changes no result.
+  std::size_t kept = 256;
   std::function<void()> step;  // called once a position is ready (from any thread)
 };
 
@@ -83,7 +85,8 @@ class ContactLibrary {
   std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
                                            const std::vector<Task>& tasks, bool keep) const;
   ContentHash key_of(const Material& material, const std::string& description) const;
-  std::shared_ptr<ContactBodies> bodies_at(const Vec3& position, bool keep) const;
+  // Those that are `kept`, or fresh ones; the caller has them alone.
+  std::shared_ptr<ContactBodies> take_bodies(const Vec3& position, bool kept) const;
 
   ContactBase base_;
   PlanGrid grid_;
@@ -92,9 +95,8 @@ class ContactLibrary {
   ContactCache cache_;
   ContentHash base_hash_;
   std::shared_ptr<const SurfaceTree> free_surface_;
-  // Meshes of positions are kept for the next material, up to a number.
-  mutable std::mutex kept_mutex_;
-  mutable std::map<std::array<double, 3>, std::shared_ptr<ContactBodies>> kept_;
+  using Position = std::array<double, 3>;
+  std::unique_ptr<Memo<Position, std::shared_ptr<ContactBodies>>> kept_;
 };
 
 }  // namespace hapsim

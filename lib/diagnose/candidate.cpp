@@ -27,22 +27,22 @@ double parameter_count(const Model& model) {
 
 // Columns of the new parameters at the candidate's fit, and the finite change of the forces that it
 // makes; for effects made from locations one gain a position, of which any regions are sums.
-Eigen::MatrixXd new_columns(const Effect& effect, const FitResult& fitted, const Baseline& base,
-                            const Workspace& w) {
-  const Selection all = all_episodes(w.dataset);
+Eigen::MatrixXd new_columns(const Effect& effect, const Fit& fitted, const Baseline& base,
+                            const TrialGround& g) {
+  const Selection all = all_episodes(g.dataset);
   if (effect.card().from_locations) {
-    const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+    const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
     Eigen::MatrixXd columns =
-        Eigen::MatrixXd::Zero(f.size(), static_cast<Eigen::Index>(w.dataset.positions.size()));
+        Eigen::MatrixXd::Zero(f.size(), static_cast<Eigen::Index>(g.dataset.positions.size()));
     Eigen::Index at = 0;
     for (const int e : all) {
-      const Eigen::Index n = 3 * static_cast<Eigen::Index>(w.dataset.episodes[e].rows.size());
-      columns.col(w.dataset.episodes[e].position).segment(at, n) = f.segment(at, n);
+      const Eigen::Index n = 3 * static_cast<Eigen::Index>(g.dataset.episodes[e].rows.size());
+      columns.col(g.dataset.episodes[e].position).segment(at, n) = f.segment(at, n);
       at += n;
     }
     return columns;
   }
-  const Signal signal = model_forces(fitted.model, w.dataset, all, *w.body, true);
+  const Signal signal = model_forces(fitted, g.experiment, all, true);
   const std::vector<int> free = fitted.model.free_parameters();
   std::vector<int> chosen;
   for (std::size_t c = 0; c < free.size(); ++c)
@@ -50,41 +50,43 @@ Eigen::MatrixXd new_columns(const Effect& effect, const FitResult& fitted, const
       chosen.push_back(static_cast<int>(c));
   Eigen::MatrixXd columns(signal.f.size(), static_cast<Eigen::Index>(chosen.size()) + 1);
   columns.leftCols(columns.cols() - 1) = signal.df(Eigen::all, chosen);
-  columns.rightCols<1>() =
-      signal.f - model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  columns.rightCols<1>() = signal.f - model_forces(base.fitted, g.experiment, all, false).f;
   return columns;
 }
 
 // Whether any start of the effect changes the forces by more than a trace of the noise. A start
 // without forces tells nothing; Error(kNoConvergence) when none has any.
 bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Baseline& base,
-                const Workspace& w) {
-  const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+                const TrialGround& g) {
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
   std::size_t without = 0;
   for (const Model& start : starts) {
     Signal signal;
     try {
-      signal = model_forces(start, w.dataset, all, *w.body, true);
+      const Linearisation about =
+          g.experiment.places.estimate(material_of(start), base.fitted.about);
+      signal = model_forces(start, g.experiment, about, all, true);
     } catch (const Error& error) {
       if (error.code() != ExitCode::kNoConvergence || ++without == starts.size()) throw;
       continue;
     }
-    if ((signal.f - f).norm() > w.noise.value) return true;
+    if ((signal.f - f).norm() > g.allowance.noise) return true;
     const std::vector<int> free = start.free_parameters();
     for (std::size_t c = 0; c < free.size(); ++c) {
       const Parameter& p = start.parameters[free[c]];
       if (p.effect != effect.card().name) continue;
       const double typical = parameter_card(effect, p.name)->scale;
-      if (typical * signal.df.col(static_cast<Eigen::Index>(c)).norm() > w.noise.value) return true;
+      if (typical * signal.df.col(static_cast<Eigen::Index>(c)).norm() > g.allowance.noise)
+        return true;
     }
   }
   return false;
 }
 
 // Scores by press of the columns with what the baseline's own parameters can do taken out.
-CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const Workspace& w) {
-  if (y.offsets) take_out_press_means(w.dataset, all_episodes(w.dataset), columns);
+CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const TrialGround& g) {
+  if (y.offsets) take_out_press_means(g.dataset, all_episodes(g.dataset), columns);
   y.weights.whiten(columns);
   if (y.jacobian.cols() > 0) {
     const auto qr = y.jacobian.colPivHouseholderQr();
@@ -93,10 +95,10 @@ CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const 
   CandidateScores scores;
   scores.information = columns.transpose() * columns;
   scores.by_group =
-      Eigen::MatrixXd::Zero(columns.cols(), static_cast<Eigen::Index>(w.dataset.episodes.size()));
+      Eigen::MatrixXd::Zero(columns.cols(), static_cast<Eigen::Index>(g.dataset.episodes.size()));
   Eigen::Index at = 0;
-  for (const int e : all_episodes(w.dataset)) {
-    const Eigen::Index n = 3 * static_cast<Eigen::Index>(w.dataset.episodes[e].rows.size());
+  for (const int e : all_episodes(g.dataset)) {
+    const Eigen::Index n = 3 * static_cast<Eigen::Index>(g.dataset.episodes[e].rows.size());
     scores.by_group.col(e) = columns.middleRows(at, n).transpose() * y.residual.segment(at, n);
     at += n;
   }
@@ -105,39 +107,37 @@ CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const 
 
 }  // namespace
 
-Baseline make_baseline(const Model& model, Workspace& w, const Folds& folds) {
+Baseline make_baseline(const Model& model, const TrialGround& g, const Folds& folds) {
   Baseline base;
-  const Selection all = all_episodes(w.dataset);
-  base.fitted = fit(model, w.dataset, all, *w.body, trial_fit_options(w));
+  const Selection all = all_episodes(g.dataset);
+  base.fitted = fit(model, g.experiment, all, trial_fit_options(g));
   if (folds.held_out.empty()) return base;
-  base.held_out = held_out_of(base.fitted.model, w, folds, Map::kAnew);
-  base.on_known_map = has_map(base.fitted.model)
-                          ? held_out_of(base.fitted.model, w, folds, Map::kKnown)
-                          : base.held_out;
+  base.held_out = held_out_of(base.fitted, g, folds, Map::kAnew);
+  base.on_known_map =
+      has_map(base.fitted.model) ? held_out_of(base.fitted, g, folds, Map::kKnown) : base.held_out;
   return base;
 }
 
-std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, Workspace& w,
-                                    std::string& lack) {
+std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
+                                    const TrialGround& g, std::string& lack) {
   const EffectCard& card = effect.card();
-  lack = lacking_for(card, w.dataset);
+  lack = lacking_for(card, g.dataset);
   if (!lack.empty()) return std::nullopt;
-  const Selection all = all_episodes(w.dataset);
+  const Selection all = all_episodes(g.dataset);
   const Model& model = base.fitted.model;
   Candidate candidate;
   candidate.effect = &effect;
   candidate.one_more_term = model.has(card.name);
   const std::vector<Model> starts =
-      with_effect(model, card.name, w.dataset, all, *w.body, trial_extend_options(w));
-  // What an earlier model made of this effect is no place to look from.
-  if (card.solved) w.body->forget(material_of(starts.front()));
+      with_effect(base.fitted, card.name, g.experiment, all, trial_extend_options(g));
   try {
-    if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, w)) {
+    if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, g)) {
       lack = "nothing in these presses depends on it; record " + card.separated_by;
       return std::nullopt;
     }
     // Estimates; refine() solves where that is promising.
-    candidate.fitted = fit_best(starts, w.dataset, all, *w.body, trial_fit_options(w, 0));
+    candidate.fitted =
+        fit_best(starts, g.experiment, all, trial_fit_options(g, 0), base.fitted.about);
     if (card.solved) candidate.starts = starts;
   } catch (const Error& error) {
     if (error.code() != ExitCode::kNoConvergence) throw;
@@ -147,95 +147,97 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base, 
   return candidate;
 }
 
-void refine(Candidate& candidate, Workspace& w) {
+void refine(Candidate& candidate, const TrialGround& g) {
   const EffectCard& card = candidate.effect->card();
-  const Selection all = all_episodes(w.dataset);
+  const Selection all = all_episodes(g.dataset);
   if (card.solved)
-    candidate.fitted = fit_solved(candidate.fitted.model, candidate.starts, w.dataset, all, *w.body,
-                                  trial_fit_options(w));
+    candidate.fitted = fit_solved(candidate.fitted.model, candidate.starts, g.experiment, all,
+                                  trial_fit_options(g));
   else if (card.from_locations)
-    candidate.fitted = fit(candidate.fitted.model, w.dataset, all, *w.body, trial_fit_options(w));
+    candidate.fitted = fit(candidate.fitted.model, g.experiment, all, trial_fit_options(g));
 }
 
-void hold_out(Candidate& candidate, Workspace& w, const Folds& folds) {
+void hold_out(Candidate& candidate, const TrialGround& g, const Folds& folds) {
   if (folds.held_out.empty()) return;
   const Map map = candidate.effect->card().from_locations ? Map::kAnew : Map::kKnown;
-  candidate.held_out = held_out_of(candidate.fitted.model, w, folds, map);
+  candidate.held_out = held_out_of(candidate.fitted, g, folds, map);
 }
 
-void prefer_sites(Candidate& candidate, const Baseline& base, Workspace& w, const Folds& folds) {
+void prefer_sites(Candidate& candidate, const Baseline& base, const TrialGround& g,
+                  const Folds& folds) {
   if (!candidate.effect->card().from_locations || folds.held_out.empty()) return;
-  ExtendOptions options = trial_extend_options(w);
+  ExtendOptions options = trial_extend_options(g);
   options.regions = kEverySite;
   Candidate sites = candidate;
   sites.every_site = true;
-  sites.fitted = fit_best(with_effect(base.fitted.model, candidate.effect->card().name, w.dataset,
-                                      all_episodes(w.dataset), *w.body, options),
-                          w.dataset, all_episodes(w.dataset), *w.body, trial_fit_options(w, 0));
-  hold_out(sites, w, folds);
+  const Selection all = all_episodes(g.dataset);
+  sites.fitted =
+      fit_best(with_effect(base.fitted, candidate.effect->card().name, g.experiment, all, options),
+               g.experiment, all, trial_fit_options(g, 0), base.fitted.about);
+  hold_out(sites, g, folds);
   // Between pressed places a boundary may lie anywhere and errs there, but one that leaves the
   // pressed ones noise alone is there.
-  const bool proven = candidate.fitted.rmse < kLikeNoise * w.noise.value &&
-                      candidate.fitted.rmse < kMuchLess * sites.fitted.rmse;
-  if (!proven && sites.held_out.rmse < kMuchLess * candidate.held_out.rmse)
+  const bool proven = candidate.fitted.error.pooled < kLikeNoise * g.allowance.noise &&
+                      candidate.fitted.error.pooled < kMuchLess * sites.fitted.error.pooled;
+  if (!proven && sites.held_out.error.pooled < kMuchLess * candidate.held_out.error.pooled)
     candidate = std::move(sites);
 }
 
 Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& candidates,
-                         const Workspace& w) {
-  double best = base.fitted.rmse;
-  for (const Candidate& c : candidates) best = std::min(best, c.fitted.rmse);
-  const double noise = std::max(w.noise.value, best);
-  const Selection all = all_episodes(w.dataset);
-  const Signal signal = model_forces(base.fitted.model, w.dataset, all, *w.body, true);
-  Yardstick y{Weights(w.dataset, all, signal.f, noise, w.floor), noise,
-              measured_forces(w.dataset, all) - signal.f, signal.df,
+                         const TrialGround& g) {
+  double best = base.fitted.error.pooled;
+  for (const Candidate& c : candidates) best = std::min(best, c.fitted.error.pooled);
+  const double noise = std::max(g.allowance.noise, best);
+  const Selection all = all_episodes(g.dataset);
+  const Signal signal = model_forces(base.fitted, g.experiment, all, true);
+  Yardstick y{Weights(g.dataset, all, signal.f, noise, g.allowance.floor), noise,
+              measured_forces(g.dataset, all) - signal.f, signal.df,
               offset_effect(base.fitted.model) != nullptr};
-  if (y.offsets) take_out_press_means(w.dataset, all, y.jacobian);
+  if (y.offsets) take_out_press_means(g.dataset, all, y.jacobian);
   y.weights.whiten(y.residual);
   y.weights.whiten(y.jacobian);
   return y;
 }
 
-double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& w) {
+double autocorrelation_time(const Eigen::VectorXd& residual, const TrialGround& g) {
   std::vector<Eigen::Index> lengths;
-  for (const Episode& e : w.dataset.episodes)
+  for (const Episode& e : g.dataset.episodes)
     lengths.push_back(static_cast<Eigen::Index>(e.rows.size()));
   return autocorrelation_time(residual, lengths);
 }
 
 Measured measure(const Candidate& candidate, const Baseline& base, const Yardstick& y,
-                 const Workspace& w) {
-  const Selection all = all_episodes(w.dataset);
-  Eigen::VectorXd residual = measured_forces(w.dataset, all) -
-                             model_forces(candidate.fitted.model, w.dataset, all, *w.body, false).f;
+                 const TrialGround& g) {
+  const Selection all = all_episodes(g.dataset);
+  Eigen::VectorXd residual =
+      measured_forces(g.dataset, all) - model_forces(candidate.fitted, g.experiment, all, false).f;
   y.weights.whiten(residual);
   Measured m;
   m.sum_of_squares = residual.squaredNorm();
   // Which region each position belongs to is chosen by the data as well, and is paid for.
   const double extra =
       candidate.effect->card().from_locations
-          ? static_cast<double>(w.dataset.positions.size()) - 1
+          ? static_cast<double>(g.dataset.positions.size()) - 1
           : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
   m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
-  m.memory = autocorrelation_time(residual, w);
+  m.memory = autocorrelation_time(residual, g);
   const double independent = independent_samples(residual, m.memory);
   const double fall = y.residual.squaredNorm() / m.sum_of_squares - 1;
   const double freedom = std::max(1.0, extra);
   if (independent > 2 * freedom)
     m.p_by_size = fisher_upper(fall * independent / freedom, freedom, independent);
   if (candidate.effect->card().by_press) {
-    const Selection every = all_episodes(w.dataset);
-    const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, every, *w.body, false).f;
+    const Selection every = all_episodes(g.dataset);
+    const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, every, false).f;
     const OffsetTest test =
-        test_offsets(w.dataset, (measured_forces(w.dataset, every) - f) / y.noise, f);
+        test_offsets(g.dataset, (measured_forces(g.dataset, every) - f) / y.noise, f);
     m.p_value = test.p_value;
     m.sum_of_squares = y.residual.squaredNorm() - test.gain;
     m.explained = test.gain * y.noise * y.noise / static_cast<double>(residual.size());
     m.smallest_seen = y.noise * std::sqrt((m.penalty + 10) / static_cast<double>(residual.size()));
     return m;
   }
-  m.scores = press_scores(new_columns(*candidate.effect, candidate.fitted, base, w), y, w);
+  m.scores = press_scores(new_columns(*candidate.effect, candidate.fitted, base, g), y, g);
   m.scores.penalty = m.penalty;
   const double information = m.scores.information(0, 0);
   if (information > 0) m.smallest_seen = std::sqrt((m.penalty + 10) / information);

@@ -14,7 +14,7 @@ constexpr double kLikeNoise = 1.1;  // errors of less than this times the noise 
 
 // A fitted model that candidates are compared against.
 struct Baseline {
-  FitResult fitted;
+  Fit fitted;
   HeldOut held_out;      // any map made anew
   HeldOut on_known_map;  // what effects that make no map are compared with
 };
@@ -26,7 +26,7 @@ inline const HeldOut& held_out_for(const Effect& effect, const Baseline& base) {
 
 struct Candidate {
   const Effect* effect = nullptr;
-  FitResult fitted;
+  Fit fitted;
   std::vector<Model> starts;  // of the estimate, where finite elements are solved for it
   HeldOut held_out;
   bool one_more_term = false;
@@ -59,24 +59,24 @@ struct Measured {
   double smallest_seen = 0;  // size of the first parameter that would show
 };
 
-Baseline make_baseline(const Model& model, Workspace& workspace, const Folds& folds);
+Baseline make_baseline(const Model& model, const TrialGround& ground, const Folds& folds);
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
-                                    Workspace& workspace, std::string& lack);
+                                    const TrialGround& ground, std::string& lack);
 // Fits with finite elements solved what was fitted by estimates.
-void refine(Candidate& candidate, Workspace& workspace);
+void refine(Candidate& candidate, const TrialGround& ground);
 // Its error on held-out positions, on the known map if it makes none (held_out_for()).
-void hold_out(Candidate& candidate, Workspace& workspace, const Folds& folds);
+void hold_out(Candidate& candidate, const TrialGround& ground, const Folds& folds);
 // Of regions: where positions stand for themselves and others are interpolated between them, if
 // that errs much less on unseen positions than boundaries do (a stiffness that changes gradually),
 // unless boundaries alone explain what was pressed.
-void prefer_sites(Candidate& candidate, const Baseline& baseline, Workspace& workspace,
+void prefer_sites(Candidate& candidate, const Baseline& baseline, const TrialGround& ground,
                   const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
-                         const Workspace& workspace);
+                         const TrialGround& ground);
 // Over all presses.
-double autocorrelation_time(const Eigen::VectorXd& residual, const Workspace& workspace);
+double autocorrelation_time(const Eigen::VectorXd& residual, const TrialGround& ground);
 Measured measure(const Candidate& candidate, const Baseline& baseline, const Yardstick& yardstick,
-                 const Workspace& workspace);
+                 const TrialGround& ground);
 
 }  // namespace hapsim

@@ -16,14 +16,14 @@ bool Departures::at_one() const {
   return largest > kRare && largest > kUnlike * typical;
 }
 
-Departures stiffness_departures(const Model& model, const Workspace& w) {
-  const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = model_forces(model, w.dataset, all, *w.body, false).f;
-  Eigen::VectorXd residual = measured_forces(w.dataset, all) - f;
-  Weights(w.dataset, all, f, w.noise.value, w.floor).whiten(residual);
+Departures stiffness_departures(const Fit& fitted, const TrialGround& g) {
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd f = model_forces(fitted, g.experiment, all, false).f;
+  Eigen::VectorXd residual = measured_forces(g.dataset, all) - f;
+  Weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor).whiten(residual);
   Departures d;
   std::vector<double> squares;
-  const std::vector<GainBlock> blocks = gain_directions(w.dataset, all, f);
+  const std::vector<GainBlock> blocks = gain_directions(g.dataset, all, f);
   for (std::size_t p = 0; p < blocks.size(); ++p) {
     // The weights map the span of these directions on itself.
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(blocks[p].Z);
@@ -34,7 +34,7 @@ Departures stiffness_departures(const Model& model, const Workspace& w) {
     d.freedom += static_cast<double>(qr.rank());
     if (square <= d.largest) continue;
     d.largest = square;
-    d.where = w.dataset.positions[static_cast<std::size_t>(blocks[p].position)];
+    d.where = g.dataset.positions[static_cast<std::size_t>(blocks[p].position)];
   }
   if (!squares.empty()) {
     const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);

@@ -1,7 +1,7 @@
 // Whether residuals ask for another contact stiffness, over all positions and at the worst one.
 #pragma once
 
-#include "experiment/workspace.h"
+#include "diagnose/trial_ground.h"
 #include "fit/fit.h"
 
 namespace hapsim {
@@ -18,6 +18,6 @@ struct Departures {
   // One position beyond what chance does to one in ten million, and unlike the others.
   bool at_one() const;
 };
-Departures stiffness_departures(const Model& model, const Workspace& workspace);
+Departures stiffness_departures(const Fit& fitted, const TrialGround& ground);
 
 }  // namespace hapsim

@@ -47,7 +47,7 @@ constexpr double kAlike = 1.25;  // errors that differ by less
 constexpr double kDecisive = 50, kLikeWhite = 1.5;
 
 bool decided(const Finding& winner, const Finding& rival, double noise) {
-  return winner.rmse_after < kLikeNoise * noise && winner.memory < kLikeWhite &&
+  return winner.rmse_after.pooled < kLikeNoise * noise && winner.memory < kLikeWhite &&
          winner.criterion_gain - rival.criterion_gain > kDecisive * winner.memory;
 }
 
@@ -66,7 +66,7 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
       continue;
     // Falls saturate where the model erred much: what is left must be alike too.
     const bool as_good =
-        f.rmse_after <= kAlike * winner.rmse_after &&
+        f.rmse_after.pooled <= kAlike * winner.rmse_after.pooled &&
         (can_hold_out ? held_out_fall(f) >= gates.rival_fall * held_out_fall(winner)
                       : f.share >= gates.rival_fall * winner.share);
     if (as_good || winner.criterion_gain - f.criterion_gain < gates.criterion_gain)
@@ -76,10 +76,10 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
 }
 
 // A structure that noise does not have: neighbouring whitened residuals that go together.
-double neighbour_correlation(const Eigen::VectorXd& residual, const Workspace& w) {
+double neighbour_correlation(const Eigen::VectorXd& residual, const TrialGround& g) {
   double product = 0, square = 0;
   Eigen::Index at = 0;
-  for (const Episode& e : w.dataset.episodes) {
+  for (const Episode& e : g.dataset.episodes) {
     for (std::size_t i = 0; i < e.rows.size(); ++i, ++at) {
       square += residual.segment<3>(3 * at).squaredNorm();
       if (i > 0) product += residual.segment<3>(3 * at).dot(residual.segment<3>(3 * at - 3));
@@ -100,7 +100,7 @@ void put_in_order(std::vector<Finding>& findings) {
 }
 
 // What was found first may have stood for what was found after it.
-void drop_superfluous(Baseline& base, Workspace& w, const Folds& folds,
+void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
                       const DiagnoseOptions& options, Diagnosis& d) {
   for (std::size_t k = 0; k + 1 < d.findings.size();) {
     const Finding& earlier = d.findings[k];
@@ -114,7 +114,7 @@ void drop_superfluous(Baseline& base, Workspace& w, const Folds& folds,
       continue;
     }
     if (options.progress) options.progress("without " + earlier.effect);
-    auto lesser = without_superfluous(earlier.effect, base, w, folds, options.gates);
+    auto lesser = without_superfluous(earlier.effect, base, g, folds, options.gates);
     if (!lesser) {
       ++k;
       continue;
@@ -123,27 +123,27 @@ void drop_superfluous(Baseline& base, Workspace& w, const Folds& folds,
     d.findings[k + 1].rmse_now = earlier.rmse_now;
     d.findings[k + 1].held_out_now = earlier.held_out_now;
     Finding& latest = d.findings.back();
-    latest.rmse_after = base.fitted.rmse;
-    latest.held_out_after = held_out_for(require_effect(latest.effect), base).rmse;
+    latest.rmse_after = base.fitted.error;
+    latest.held_out_after = held_out_for(require_effect(latest.effect), base).error;
     d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
   }
 }
 
 // Adds the best effect while one passes the gates.
-void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOptions& options,
-            Diagnosis& d) {
+void search(Baseline& base, const TrialGround& g, const Folds& folds,
+            const DiagnoseOptions& options, Diagnosis& d) {
   const bool can_hold_out = !folds.held_out.empty();
   Random random(options.seed);
   Round last;
   for (int step = 0; step < options.gates.most_effects; ++step) {
-    Round round = try_all(base, w, folds, options, random);
+    Round round = try_all(base, g, folds, options, random);
     const std::size_t best = best_of(round, options.gates, can_hold_out);
     last = std::move(round);
     if (best == last.findings.size()) break;
     std::vector<std::size_t> rivals =
-        rivals_of(best, last, options.gates, can_hold_out, w.noise.value);
+        rivals_of(best, last, options.gates, can_hold_out, g.allowance.noise);
     if (std::any_of(rivals.begin(), rivals.end(), [&](std::size_t k) {
-          return both_act(last.candidates[best], last.candidates[k], w);
+          return both_act(last.candidates[best], last.candidates[k], g);
         }))
       rivals.clear();  // the next rounds find the other
     if (!rivals.empty()) {
@@ -168,9 +168,9 @@ void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOpti
       if (k != best && passes(last.findings[k], options.gates, can_hold_out))
         finding.confused_with.push_back(last.findings[k].effect);
     d.findings.push_back(finding);
-    base = make_baseline(last.candidates[best].fitted.model, w, folds);
+    base = make_baseline(last.candidates[best].fitted.model, g, folds);
     last.findings[best].effect.clear();
-    drop_superfluous(base, w, folds, options, d);
+    drop_superfluous(base, g, folds, options, d);
   }
   for (Finding& f : d.findings)
     std::erase_if(f.confused_with, [&](const std::string& other) {
@@ -179,7 +179,7 @@ void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOpti
   for (const Finding& f : last.findings) {
     if (f.effect.empty()) continue;
     const bool known = std::any_of(d.findings.begin(), d.findings.end(),
-                                   [&](const Finding& g) { return g.effect == f.effect; });
+                                   [&](const Finding& other) { return other.effect == f.effect; });
     if (known) continue;
     Finding finding = f;
     const bool by_chance = !f.plain && f.p_value >= options.gates.p_value;
@@ -194,14 +194,14 @@ void search(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOpti
   d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
 }
 
-void search_few(Baseline& base, Workspace& w, const Folds& folds, const DiagnoseOptions& options,
-                Diagnosis& d) {
-  const FewPresses few = diagnose_few_presses(base, w, options);
+void search_few(Baseline& base, const TrialGround& g, const Folds& folds,
+                const DiagnoseOptions& options, Diagnosis& d) {
+  const FewPresses few = diagnose_few_presses(base, g, options);
   d.findings = few.findings;
   put_in_order(d.findings);
   d.findings.insert(d.findings.end(), few.untestable.begin(), few.untestable.end());
   d.rivals = few.rivals;
-  base = make_baseline(few.end.model, w, folds);
+  base = make_baseline(few.end.model, g, folds);
 }
 
 }  // namespace
@@ -236,48 +236,38 @@ std::string verdict_name(ModelVerdict verdict) {
 
 namespace {
 
-// The search counts three components; what is told counts those that were measured.
-void count_measured_components(Diagnosis& d, double factor) {
-  for (double* error : {&d.rmse, &d.held_out, &d.force_rms, &d.rmse_end, &d.held_out_end})
-    *error *= factor;
-  for (Finding& f : d.findings)
-    for (double* error : {&f.rmse_now, &f.rmse_after, &f.held_out_now, &f.held_out_after})
-      *error *= factor;
-}
-
-Diagnosis with_floor(const Model& model, Workspace& w, const DiagnoseOptions& options) {
-  const Folds folds = make_folds(w.dataset, options.folds);
-  Baseline base = make_baseline(model, w, folds);
+Diagnosis with_allowance(const Model& model, const TrialGround& g, const DiagnoseOptions& options) {
+  const Folds folds = make_folds(g.dataset, options.folds);
+  Baseline base = make_baseline(model, g, folds);
   if (!base.fitted.converged)
-    fail_numerics(w.dataset.recording.name, "the model does not fit: " + base.fitted.message,
+    fail_numerics(g.dataset.recording.name, "the model does not fit: " + base.fitted.message,
                   "identify it again with hs-identify");
   Diagnosis d;
-  d.noise = w.noise.value;
-  d.noise_measured = w.noise.measured;
-  d.floor = w.floor;
-  d.shape = w.shape;
-  d.mesh_uncertainty = w.body->mesh_uncertainty();
-  d.rmse = base.fitted.rmse;
-  d.held_out = base.held_out.rmse;
+  d.noise = g.allowance.noise;
+  d.noise_measured = g.experiment.noise.measured;
+  d.floor = g.allowance.floor;
+  d.shape = g.experiment.shape;
+  d.mesh_uncertainty = g.experiment.places.mesh_uncertainty();
+  d.rmse = base.fitted.error;
+  d.held_out = base.held_out.error;
   d.held_out_by = folds.by;
-  const Eigen::VectorXd measured = measured_forces(w.dataset, all_episodes(w.dataset));
-  d.force_rms = std::sqrt(measured.squaredNorm() / static_cast<double>(measured.size()));
+  const Eigen::VectorXd measured = measured_forces(g.dataset, all_episodes(g.dataset));
+  d.force_rms = force_error(g.dataset, measured);
 
-  const bool few_presses = w.dataset.episodes.size() < kLeastPresses;
-  (few_presses ? search_few : search)(base, w, folds, options, d);
+  const bool few_presses = g.dataset.episodes.size() < kLeastPresses;
+  (few_presses ? search_few : search)(base, g, folds, options, d);
   const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
-  d.rmse_end = base.fitted.rmse;
-  d.held_out_end = base.held_out.rmse;
-  count_measured_components(d, per_measured_component(w.dataset));
-  const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = model_forces(base.fitted.model, w.dataset, all, *w.body, false).f;
+  d.rmse_end = base.fitted.error;
+  d.held_out_end = base.held_out.error;
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
   Eigen::VectorXd left = measured - f;
-  Weights(w.dataset, all, f, w.noise.value, w.floor).whiten(left);
+  Weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor).whiten(left);
   d.reduced_chi_square_end = left.squaredNorm() / static_cast<double>(left.size());
-  const double correlation = neighbour_correlation(left, w);
+  const double correlation = neighbour_correlation(left, g);
   const bool structure = d.reduced_chi_square_end > 1.5 && correlation > 0.2;
-  const Departures departures = stiffness_departures(base.fitted.model, w);
+  const Departures departures = stiffness_departures(base.fitted, g);
   const bool local = departures.at_one();
   const bool missing =
       std::any_of(d.findings.begin(), d.findings.end(),
@@ -293,13 +283,13 @@ Diagnosis with_floor(const Model& model, Workspace& w, const DiagnoseOptions& op
         "position confirms: press around it, a few millimetres apart.",
         1e3 * departures.where.x(), 1e3 * departures.where.y(), 1e3 * departures.where.z());
   if (!few_presses) return d;
-  const std::size_t presses = w.dataset.episodes.size();
+  const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);
   if (d.verdict == ModelVerdict::kUnexplained)
     d.explanation = fmt::format(
         "the model fails by {:.2g} x noise, but {} cannot name the cause with a false-alarm rate; "
         "the possible effects stand below, the best first. Record {} presses or more.",
-        d.rmse_end / d.noise, count, kLeastPresses);
+        d.rmse_end.told() / d.noise, count, kLeastPresses);
   else
     d.explanation += fmt::format(
         " Judged by the time within {} alone, which says nothing of other places; record {} "
@@ -318,16 +308,16 @@ bool tells_of_move(const Diagnosis& d) {
 
 }  // namespace
 
-Diagnosis diagnose(const Model& model, Workspace& w, const DiagnoseOptions& options) {
-  Diagnosis d = with_floor(model, w, options);
+Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& allowance,
+                   const DiagnoseOptions& options) {
+  Diagnosis d = with_allowance(model, {e, allowance}, options);
   // Points off the surface that no move explains, of the kind that forces follow, are a wrong
   // shape: what differs by place may be its work.
-  if (d.verdict == ModelVerdict::kComplete || !w.shape.plain() || w.doubted_floor <= w.floor ||
-      model.has("shift") || tells_of_move(d))
+  if (d.verdict == ModelVerdict::kComplete || !e.shape.plain() ||
+      e.doubted_floor <= allowance.floor || model.has("shift") || tells_of_move(d))
     return d;
   if (options.progress) options.progress("the shape in doubt");
-  w.floor = w.doubted_floor;
-  d = with_floor(model, w, options);
+  d = with_allowance(model, {e, {allowance.noise, e.doubted_floor}}, options);
   d.shape_in_doubt = true;
   std::string doubted;
   for (Finding& f : d.findings) {

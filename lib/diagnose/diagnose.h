@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/workspace.h"
+#include "diagnose/trial_ground.h"
 #include "fit/extend.h"
 
 namespace hapsim {
@@ -39,8 +39,8 @@ struct DiagnoseOptions {
 struct Finding {
   std::string effect;
   Verdict verdict = Verdict::kAbsent;
-  double rmse_now = 0, rmse_after = 0;          // [N] per component
-  double held_out_now = 0, held_out_after = 0;  // [N]
+  ForceError rmse_now{0}, rmse_after{0};          // on what was fitted
+  ForceError held_out_now{0}, held_out_after{0};  // on what was not
   double p_value = 1;
   double criterion_gain = 0;
   double memory = 1;  // samples per independent one in what it leaves
@@ -61,10 +61,11 @@ struct Diagnosis {
   bool noise_measured = false;
   ShapeError shape;
   bool shape_in_doubt =
-      false;  // contact points lie off it, not by a move; the floor allows for that
-  double rmse = 0, held_out = 0, force_rms = 0;  // of the model as given, refitted [N]
-  double rmse_end = 0, held_out_end = 0;         // with all missing effects added [N]
-  double reduced_chi_square_end = 1;             // whitened
+      false;                  // contact points lie off it, not by a move; the floor allows for that
+  ForceError rmse, held_out;  // of the model as given, refitted
+  ForceError force_rms;       // of the measured forces
+  ForceError rmse_end, held_out_end;  // with all missing effects added
+  double reduced_chi_square_end = 1;  // whitened
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
   // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the
@@ -74,6 +75,9 @@ struct Diagnosis {
 
 // Refits the model, tries every effect of the catalogue on top of it, and goes on while one is
 // found missing. Ranking is by the information criterion of true refits; acceptance by the gates.
-Diagnosis diagnose(const Model& model, Workspace& workspace, const DiagnoseOptions& options);
+// Depends on its arguments alone. Where contact points lie off the body's surface, what a wrong
+// shape could do is judged again with a larger allowance.
+Diagnosis diagnose(const Model& model, const Experiment& experiment, const Allowance& allowance,
+                   const DiagnoseOptions& options);
 
 }  // namespace hapsim

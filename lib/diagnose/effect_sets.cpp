@@ -30,12 +30,8 @@ bool needs_many_presses(const EffectCard& card) {
   return card.by_press || card.from_locations;
 }
 
-void solve_body_of(const EffectSet& set, Workspace& w) {
-  w.body->solve(material_of(set.fitted.model));
-}
-
-EffectSets::EffectSets(const Baseline& base, Workspace& w, const DiagnoseOptions& options)
-    : w_(w), options_(options), departs_(stiffness_departures(base.fitted.model, w).anywhere()) {
+EffectSets::EffectSets(const Baseline& base, const TrialGround& g, const DiagnoseOptions& options)
+    : ground_(g), options_(options), departs_(stiffness_departures(base.fitted, g).anywhere()) {
   keep({}, base.fitted);
 }
 
@@ -45,12 +41,11 @@ const EffectSet* EffectSets::grown(const EffectSet& from, const Effect& effect) 
   if (refused_.count(names) > 0) return nullptr;
   if (options_.progress) options_.progress(effect.card().name);
   std::string lack;
-  solve_body_of(from, w_);
-  auto candidate = try_effect(effect, {from.fitted, {}}, w_, lack);
+  auto candidate = try_effect(effect, {from.fitted, {}, {}}, ground_, lack);
   if (candidate) {
-    refine(*candidate, w_);
-    lack = implausible(candidate->fitted.model, effect, w_.dataset);
-    if (lack.empty()) lack = unlike_a_sensor(candidate->fitted.model, effect);
+    refine(*candidate, ground_);
+    lack = implausible(candidate->fitted.model, effect, ground_.dataset);
+    if (lack.empty()) lack = unlike_a_sensor(candidate->fitted, effect);
     if (lack.empty()) return keep(names, candidate->fitted);
   } else if (from.added.empty()) {
     lack_[effect.card().name] = lack;
@@ -90,23 +85,23 @@ std::vector<const Effect*> EffectSets::growth(const EffectSet& from) const {
 
 double EffectSets::criterion(const EffectSet& set) const {
   Eigen::VectorXd r = set.residual;
-  Weights(w_.dataset, all_episodes(w_.dataset),
-          measured_forces(w_.dataset, all_episodes(w_.dataset)),
-          std::max(w_.noise.value, least_->fitted.rmse), w_.floor)
+  Weights(ground_.dataset, all_episodes(ground_.dataset),
+          measured_forces(ground_.dataset, all_episodes(ground_.dataset)),
+          std::max(ground_.allowance.noise, least_->fitted.error.pooled), ground_.allowance.floor)
       .whiten(r);
   return information_criterion(r.squaredNorm(), memory_, independent_, set.parameters);
 }
 
 // One press cannot tell a sensor that is not straight from a material that stiffens, but a sensor
 // is a sensor.
-std::string EffectSets::unlike_a_sensor(const Model& model, const Effect& effect) const {
+std::string EffectSets::unlike_a_sensor(const Fit& fitted, const Effect& effect) const {
   if (effect.card().name != "sensor-curve") return "";
-  Model straight = model;
-  std::erase_if(straight.parameters,
+  Fit straight = fitted;
+  std::erase_if(straight.model.parameters,
                 [&](const Parameter& p) { return p.effect == effect.card().name; });
-  const Selection all = all_episodes(w_.dataset);
-  const Eigen::VectorXd f = model_forces(model, w_.dataset, all, *w_.body, false).f;
-  const Eigen::VectorXd g = model_forces(straight, w_.dataset, all, *w_.body, false).f;
+  const Selection all = all_episodes(ground_.dataset);
+  const Eigen::VectorXd f = model_forces(fitted, ground_.experiment, all, false).f;
+  const Eigen::VectorXd g = model_forces(straight, ground_.experiment, all, false).f;
   // Off the straight line from nothing to the largest force (terminal-based linearity).
   const double full = f.cwiseAbs().maxCoeff();
   const double gain = full / g.cwiseAbs().maxCoeff();
@@ -118,17 +113,17 @@ std::string EffectSets::unlike_a_sensor(const Model& model, const Effect& effect
       100 * bend);
 }
 
-const EffectSet* EffectSets::keep(const EffectNames& names, const FitResult& fitted) {
-  const Selection all = all_episodes(w_.dataset);
+const EffectSet* EffectSets::keep(const EffectNames& names, const Fit& fitted) {
+  const Selection all = all_episodes(ground_.dataset);
   EffectSet set{names, fitted,
-                measured_forces(w_.dataset, all) -
-                    model_forces(fitted.model, w_.dataset, all, *w_.body, false).f,
+                measured_forces(ground_.dataset, all) -
+                    model_forces(fitted, ground_.experiment, all, false).f,
                 fitted.model.free_parameters().size()};
   const EffectSet* kept = &all_.emplace(names, std::move(set)).first->second;
   singles_ += names.size() == 1;
-  if (least_ == nullptr || fitted.rmse < least_->fitted.rmse) {
+  if (least_ == nullptr || fitted.error.pooled < least_->fitted.error.pooled) {
     least_ = kept;
-    memory_ = autocorrelation_time(kept->residual, w_);
+    memory_ = autocorrelation_time(kept->residual, ground_);
     independent_ = independent_samples(kept->residual, memory_);
   }
   return kept;

@@ -13,7 +13,7 @@ using EffectNames = std::vector<std::string>;  // sorted; a name twice is a term
 
 struct EffectSet {
   EffectNames added;
-  FitResult fitted;
+  Fit fitted;
   Eigen::VectorXd residual;  // [N]
   std::size_t parameters = 0;
 };
@@ -22,14 +22,11 @@ EffectNames with(EffectNames names, const std::string& name);
 EffectNames without(EffectNames names, const std::string& name);
 // Whether an effect is told by comparing presses.
 bool needs_many_presses(const EffectCard& card);
-// Before anything is computed with a set's model: the body may since have been solved about another
-// set's material of the same layout.
-void solve_body_of(const EffectSet& set, Workspace& w);
 
 // Each set is fitted once, when it is first asked for. Pointers stay valid.
 class EffectSets {
  public:
-  EffectSets(const Baseline& base, Workspace& workspace, const DiagnoseOptions& options);
+  EffectSets(const Baseline& base, const TrialGround& ground, const DiagnoseOptions& options);
 
   // Nothing when the effect cannot be seen there or comes out implausible; refusal() says why.
   const EffectSet* grown(const EffectSet& from, const Effect& effect);
@@ -49,10 +46,10 @@ class EffectSets {
   std::size_t tried() const { return singles_; }  // effects, on top of the model alone
 
  private:
-  const EffectSet* keep(const EffectNames& names, const FitResult& fitted);
-  std::string unlike_a_sensor(const Model& model, const Effect& effect) const;
+  const EffectSet* keep(const EffectNames& names, const Fit& fitted);
+  std::string unlike_a_sensor(const Fit& fitted, const Effect& effect) const;
 
-  Workspace& w_;
+  const TrialGround& ground_;
   const DiagnoseOptions& options_;
   bool departs_;
   std::map<EffectNames, EffectSet> all_;

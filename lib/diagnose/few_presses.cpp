@@ -42,31 +42,31 @@ const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
 
 // What the effect does on top of a set without it.
 Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& without_it,
-               std::size_t tried, Workspace& w) {
-  solve_body_of(without_it, w);
-  solve_body_of(with_it, w);
-  const Baseline base{without_it.fitted, {}};
+               std::size_t tried, const TrialGround& g) {
+  const Baseline base{without_it.fitted, {}, {}};
   Candidate candidate;
   candidate.effect = &effect;
   candidate.fitted = with_it.fitted;
   candidate.one_more_term = without_it.fitted.model.has(effect.card().name);
-  const Yardstick yardstick = make_yardstick(base, {candidate}, w);
-  const Measured m = measure(candidate, base, yardstick, w);
+  const Yardstick yardstick = make_yardstick(base, {candidate}, g);
+  const Measured m = measure(candidate, base, yardstick, g);
   Finding f;
   f.effect = effect.card().name;
   f.one_more_term = candidate.one_more_term;
-  f.rmse_now = without_it.fitted.rmse;
-  f.rmse_after = with_it.fitted.rmse;
-  f.held_out_now = f.held_out_after = std::nan("");
+  f.rmse_now = without_it.fitted.error;
+  f.rmse_after = with_it.fitted.error;
+  f.held_out_now = f.held_out_after = {};
   f.p_value = std::min(1.0, 2 * m.p_by_size * static_cast<double>(tried));
   f.criterion_gain = yardstick.residual.squaredNorm() - m.sum_of_squares - m.penalty;
   f.memory = m.memory;
-  const double noise = w.noise.value * w.noise.value;
-  const double beyond_noise = f.rmse_now * f.rmse_now - noise;
+  const double noise = g.allowance.noise * g.allowance.noise;
+  const double beyond_noise = f.rmse_now.pooled * f.rmse_now.pooled - noise;
   if (beyond_noise > 0.01 * noise)
-    f.share = std::clamp((f.rmse_now * f.rmse_now - f.rmse_after * f.rmse_after) / beyond_noise,
-                         0.0, 1.0);
-  f.where = describe_where(candidate, w);
+    f.share = std::clamp(
+        (f.rmse_now.pooled * f.rmse_now.pooled - f.rmse_after.pooled * f.rmse_after.pooled) /
+            beyond_noise,
+        0.0, 1.0);
+  f.where = describe_where(candidate);
   f.evidence = describe_evidence(candidate, m, f);
   f.next_measurement = effect.card().separated_by;
   return f;
@@ -83,7 +83,7 @@ struct Member {
 };
 
 // Of several terms first the effect as a whole, then each further term. The largest first.
-std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, Workspace& w) {
+std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, const TrialGround& g) {
   std::vector<Member> members;
   for (std::size_t i = 0; i < set.added.size(); ++i) {
     const std::string& name = set.added[i];
@@ -93,7 +93,7 @@ std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, Workspace
     else
       std::erase(rest, name);
     const EffectSet* found = sets.find_below(rest);
-    members.push_back({judged(require_effect(name), set, *found, sets.tried(), w), found});
+    members.push_back({judged(require_effect(name), set, *found, sets.tried(), g), found});
   }
   std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
     return a.finding.criterion_gain > b.finding.criterion_gain;
@@ -108,7 +108,7 @@ struct Rival {
 
 // What can take a member's place.
 std::vector<Rival> rivals_of(const Member& member, const EffectSet& best, EffectSets& sets,
-                             const Gates& gates, Workspace& w) {
+                             const Gates& gates, const TrialGround& g) {
   const Effect& own = require_effect(member.finding.effect);
   std::vector<Rival> rivals;
   for (const Effect* effect : sets.growth(*member.rest)) {
@@ -117,24 +117,24 @@ std::vector<Rival> rivals_of(const Member& member, const EffectSet& best, Effect
     const EffectSet* other = sets.grown(*member.rest, *effect);
     if (other == nullptr || sets.criterion(*other) > sets.criterion(best) + gates.criterion_gain)
       continue;
-    rivals.push_back({judged(*effect, *other, *member.rest, sets.tried(), w), other->fitted.model});
+    rivals.push_back({judged(*effect, *other, *member.rest, sets.tried(), g), other->fitted.model});
   }
   return rivals;
 }
 
 }  // namespace
 
-FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
+FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
                                 const DiagnoseOptions& options) {
   const Gates& gates = options.gates;
-  EffectSets sets(base, w, options);
+  EffectSets sets(base, g, options);
   const EffectSet* best = &best_set(sets, gates);
   FewPresses result;
 
-  std::vector<Member> members = members_of(*best, sets, w);
+  std::vector<Member> members = members_of(*best, sets, g);
   while (!members.empty() && !passes(members.back().finding, gates)) {
     best = sets.find_below(without(best->added, members.back().finding.effect));
-    members = members_of(*best, sets, w);
+    members = members_of(*best, sets, g);
   }
 
   result.end = best->fitted;
@@ -143,7 +143,7 @@ FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
     Finding& f = member.finding;
     f.verdict = Verdict::kMissing;
     settled.push_back(f.effect);
-    std::vector<Rival> rivals = rivals_of(member, *best, sets, gates, w);
+    std::vector<Rival> rivals = rivals_of(member, *best, sets, gates, g);
     for (const Rival& r : rivals) f.confused_with.push_back(r.finding.effect);
     if (!rivals.empty())  // one ambiguous set at a time
       f.verdict = result.rivals.empty() ? Verdict::kIndistinguishable : Verdict::kPossible;
@@ -166,14 +166,14 @@ FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
     if (more == nullptr) {
       Finding f;
       f.effect = effect->card().name;
-      f.rmse_now = f.rmse_after = best->fitted.rmse;
-      f.held_out_now = f.held_out_after = std::nan("");
+      f.rmse_now = f.rmse_after = best->fitted.error;
+      f.held_out_now = f.held_out_after = {};
       f.evidence = sets.refusal(*best, *effect);
       f.next_measurement = effect->card().separated_by;
       result.findings.push_back(f);
       continue;
     }
-    Finding f = judged(*effect, *more, *best, sets.tried(), w);
+    Finding f = judged(*effect, *more, *best, sets.tried(), g);
     f.verdict = f.criterion_gain > gates.criterion_gain && f.share >= gates.share
                     ? Verdict::kPossible
                     : Verdict::kAbsent;
@@ -184,7 +184,7 @@ FewPresses diagnose_few_presses(const Baseline& base, Workspace& w,
     Finding f;
     f.effect = card.name;
     f.verdict = Verdict::kNotTestable;
-    f.evidence = lacking_for(card, w.dataset);
+    f.evidence = lacking_for(card, g.dataset);
     if (f.evidence.empty() && needs_many_presses(card))
       f.evidence = fmt::format("too few presses: record {} or more", kLeastPresses);
     if (const auto lack = sets.lack().find(card.name); lack != sets.lack().end())

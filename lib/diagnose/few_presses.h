@@ -13,7 +13,7 @@ constexpr std::size_t kLeastPresses = 6;
 struct FewPresses {
   std::vector<Finding> findings;  // with verdicts; those that are missing first, the largest first
   std::vector<Finding> untestable;
-  FitResult end;              // with all that is missing
+  Fit end;                    // with all that is missing
   std::vector<Model> rivals;  // fitted; empty when nothing is ambiguous
 };
 
@@ -24,7 +24,7 @@ struct FewPresses {
 // likelihood: Wedderburn, Biometrika 61, 1974). Each effect of the best set is then judged by an F
 // test on what the set loses without it, times the number of effects tried (Bonferroni), and is
 // ambiguous with any other that can take its place. Says nothing of places that were not pressed.
-FewPresses diagnose_few_presses(const Baseline& base, Workspace& workspace,
+FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& ground,
                                 const DiagnoseOptions& options);
 
 }  // namespace hapsim

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t kMostSolvedPositions = 60;
 
 // As the model's own regions were made.
-ExtendOptions extend_as(const Workspace& w, const Model& model) {
-  ExtendOptions options = trial_extend_options(w);
+ExtendOptions extend_as(const TrialGround& g, const Model& model) {
+  ExtendOptions options = trial_extend_options(g);
   if (material_of(model).local) options.regions = kEverySite;
   return options;
 }
@@ -43,18 +43,19 @@ bool covers(const MaterialSpec& material, const Selection& training, const Datas
 
 }  // namespace
 
-FitOptions trial_fit_options(const Workspace& w, int rounds) {
-  FitOptions options{w.noise.value, w.floor, w.dataset.positions.size() <= kMostSolvedPositions};
+FitOptions trial_fit_options(const TrialGround& g, int rounds) {
+  FitOptions options{g.allowance.noise, g.allowance.floor,
+                     g.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
   options.settled = 1e-3;
   options.keep_apart = false;  // a term that coincides with another explains nothing
   return options;
 }
 
-ExtendOptions trial_extend_options(const Workspace& w) {
+ExtendOptions trial_extend_options(const TrialGround& g) {
   ExtendOptions options;
-  options.noise = w.noise.value;
-  options.floor = w.floor;
+  options.noise = g.allowance.noise;
+  options.floor = g.allowance.floor;
   return options;
 }
 
@@ -66,20 +67,25 @@ bool has_map(const Model& model) {
 }
 
 // Refits in a fold start from the fit on all data.
-HeldOut held_out_of(const Model& fitted, Workspace& w, const Folds& folds, Map map) {
+HeldOut held_out_of(const Fit& fitted, const TrialGround& g, const Folds& folds, Map map) {
   std::vector<std::string> rebuilt;
-  const Model plain = without_map(fitted, rebuilt);
-  const MaterialSpec material = material_of(fitted);
-  const auto builder = [&](const Selection& training) -> std::vector<Model> {
-    if (map == Map::kKnown && covers(material, training, w.dataset)) return {fitted};
-    Model model = plain;
+  const Model plain = without_map(fitted.model, rebuilt);
+  const Linearisation about_plain =
+      rebuilt.empty() ? fitted.about : g.experiment.places.solve(material_of(plain));
+  const MaterialSpec material = material_of(fitted.model);
+  const auto builder = [&](const Selection& training) -> Starts {
+    if (map == Map::kKnown && covers(material, training, g.dataset))
+      return {{fitted.model}, fitted.about};
+    Starts starts{{plain}, about_plain};
     for (const std::string& name : rebuilt) {
-      model = fit(model, w.dataset, training, *w.body, trial_fit_options(w, 0)).model;
-      model = with_effect(model, name, w.dataset, training, *w.body, extend_as(w, fitted)).front();
+      const Fit base =
+          fit(starts.models.front(), g.experiment, training, trial_fit_options(g, 0), about_plain);
+      starts.models = {
+          with_effect(base, name, g.experiment, training, extend_as(g, fitted.model)).front()};
     }
-    return {model};
+    return starts;
   };
-  return held_out_error(builder, w.dataset, folds, *w.body, trial_fit_options(w));
+  return held_out_error(builder, g.experiment, folds, trial_fit_options(g));
 }
 
 }  // namespace hapsim

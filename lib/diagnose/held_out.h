@@ -1,14 +1,14 @@
 // The error of a fitted model on positions that it has not seen.
 #pragma once
 
-#include "experiment/workspace.h"
+#include "diagnose/trial_ground.h"
 #include "fit/extend.h"
 
 namespace hapsim {
 
 // How a diagnosis fits and extends what it tries.
-FitOptions trial_fit_options(const Workspace& w, int rounds = 6);
-ExtendOptions trial_extend_options(const Workspace& w);
+FitOptions trial_fit_options(const TrialGround& g, int rounds = 6);
+ExtendOptions trial_extend_options(const TrialGround& g);
 
 // Where the stiffness changes over the body: what effects made from the positions say.
 bool has_map(const Model& model);
@@ -22,6 +22,6 @@ bool has_map(const Model& model);
 enum class Map { kAnew, kKnown };
 
 // By true refits.
-HeldOut held_out_of(const Model& fitted, Workspace& workspace, const Folds& folds, Map map);
+HeldOut held_out_of(const Fit& fitted, const TrialGround& ground, const Folds& folds, Map map);
 
 }  // namespace hapsim

@@ -11,29 +11,29 @@ namespace hapsim {
 namespace {
 
 ImprovementStep fitted_step(const std::string& added, const std::vector<Model>& starts,
-                            Workspace& w, const Folds& folds, const ImproveOptions& options) {
+                            const TrialGround& g, const Folds& folds,
+                            const ImproveOptions& options) {
   ImprovementStep step;
   step.added = added;
-  step.fitted = fit_best(starts, w.dataset, all_episodes(w.dataset), *w.body, options.fit);
-  step.held_out = std::nan("");
+  step.fitted = fit_best(starts, g.experiment, all_episodes(g.dataset), options.fit);
   if (step.fitted.converged && !folds.held_out.empty())
-    step.held_out = held_out_of(step.fitted.model, w, folds, Map::kAnew).rmse;
+    step.held_out = held_out_of(step.fitted, g, folds, Map::kAnew).error;
   return step;
 }
 
 // Of the error on what is unseen, judged as the diagnosis judged it, by the effect that `after` has
 // more.
 double remaining(const ImprovementStep& before, const ImprovementStep& after,
-                 const Finding& finding, Workspace& w, const Folds& folds) {
+                 const Finding& finding, const TrialGround& g, const Folds& folds) {
   const Model& model = before.fitted.model;
   const auto by = [&](const Folds& parts, Map map) {
-    return held_out_of(after.fitted.model, w, parts, map).rmse /
-           held_out_of(model, w, parts, map).rmse;
+    return held_out_of(after.fitted, g, parts, map).error.pooled /
+           held_out_of(before.fitted, g, parts, map).error.pooled;
   };
   if (finding.by_presses)
-    return by(make_press_folds(w.dataset, static_cast<int>(folds.held_out.size())), Map::kAnew);
+    return by(make_press_folds(g.dataset, static_cast<int>(folds.held_out.size())), Map::kAnew);
   if (!has_map(model) || require_effect(after.added).card().from_locations)
-    return after.held_out / before.held_out;
+    return after.held_out.pooled / before.held_out.pooled;
   return by(folds, Map::kKnown);
 }
 
@@ -41,21 +41,21 @@ struct Ended {};  // by the watch of the fits
 
 }  // namespace
 
-Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
+Improvement improve(const Model& start, const Experiment& fine, const Experiment& draft,
                     const ImproveOptions& options) {
   const auto tell = [&](const std::string& what) {
     if (options.progress) options.progress(what);
   };
+  const TrialGround ground(fine, fine.allowance());
   const Selection all = all_episodes(fine.dataset);
   const Folds folds = make_folds(fine.dataset, options.diagnose.folds);
   ExtendOptions extend;
   extend.noise = fine.noise.value;
   extend.floor = fine.floor;
   Improvement result;
-  const Model first =
-      start.parameters.empty() ? elastic_model(fine.dataset, all, *fine.body) : start;
+  const Model first = start.parameters.empty() ? elastic_model(fine, all) : start;
   tell("fitting " + effects_label(first));
-  result.steps.push_back(fitted_step("", {first}, fine, folds, options));
+  result.steps.push_back(fitted_step("", {first}, ground, folds, options));
   result.stopped = result.steps.front().fitted.stopped;
   if (result.stopped) return result;
   if (!result.steps.front().fitted.converged)
@@ -70,7 +70,7 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
   for (int k = 0; k < options.most_diagnoses; ++k) {
     tell("diagnosing " + effects_label(result.steps.back().fitted.model));
     try {
-      result.last = diagnose(result.steps.back().fitted.model, draft, watched);
+      result.last = diagnose(result.steps.back().fitted.model, draft, draft.allowance(), watched);
     } catch (const Ended&) {
       result.stopped = true;
       return result;
@@ -81,16 +81,16 @@ Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
       tell("adding " + finding.effect);
       const ImprovementStep& before = result.steps.back();
       extend.regions = finding.every_site ? kEverySite : kAutomaticRegions;
-      ImprovementStep step = fitted_step(
-          finding.effect,
-          with_effect(before.fitted.model, finding.effect, fine.dataset, all, *fine.body, extend),
-          fine, folds, options);
+      ImprovementStep step =
+          fitted_step(finding.effect, with_effect(before.fitted, finding.effect, fine, all, extend),
+                      ground, folds, options);
       result.stopped = step.fitted.stopped;
       if (result.stopped) return result;
       // Without anything to hold out the diagnosis decides alone.
-      const bool helps = step.fitted.converged && (std::isnan(step.held_out) ||
-                                                   remaining(before, step, finding, fine, folds) <=
-                                                       1 - options.diagnose.gates.held_out_fall);
+      const bool helps =
+          step.fitted.converged &&
+          (std::isnan(step.held_out.pooled) || remaining(before, step, finding, ground, folds) <=
+                                                   1 - options.diagnose.gates.held_out_fall);
       if (!helps) {
         result.refused = finding.effect;
         return result;

@@ -19,8 +19,8 @@ struct ImproveOptions {
 // A model version: the one before it and one more effect.
 struct ImprovementStep {
   std::string added;  // "" for the first
-  FitResult fitted;
-  double held_out = 0;  // [N], NaN when there is nothing to hold out
+  Fit fitted;
+  ForceError held_out;  // NaN when there is nothing to hold out
 };
 
 struct Improvement {
@@ -34,9 +34,9 @@ struct Improvement {
 // Thesis 5.5, with the diagnosis deciding what to add: an effect stays only when the error on
 // whole positions (presses, when there is one position) that the fit has not seen falls by the
 // gate of the diagnosis. Ambiguous effects are never added: which of them it is, the data cannot
-// tell. `draft` is `fine` with WorkspaceOptions::draft, for the diagnosis. A start without
+// tell. `draft` is `fine` with ExperimentOptions::draft, for the diagnosis. A start without
 // parameters is elastic. Error(kNoConvergence) when the first model does not fit.
-Improvement improve(const Model& start, Workspace& fine, Workspace& draft,
+Improvement improve(const Model& start, const Experiment& fine, const Experiment& draft,
                     const ImproveOptions& options);
 
 }  // namespace hapsim

@@ -7,6 +7,6 @@ namespace hapsim {
 
 // Both together leave noise and mesh alone, and each of the two plainly more than that: neither
 // stands for the other. Of rivals the second adds nothing to the first.
-bool both_act(const Candidate& a, const Candidate& b, Workspace& workspace);
+bool both_act(const Candidate& a, const Candidate& b, const TrialGround& ground);
 
 }  // namespace hapsim

@@ -11,7 +11,7 @@ namespace hapsim {
 // The model without `effect`, refitted, when what remains explains the data as well: the effect
 // fails the gates by which it was found. Nothing when it is still needed.
 std::optional<Baseline> without_superfluous(const std::string& effect, const Baseline& base,
-                                            Workspace& workspace, const Folds& folds,
+                                            const TrialGround& ground, const Folds& folds,
                                             const Gates& gates);
 
 }  // namespace hapsim

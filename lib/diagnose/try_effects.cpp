@@ -33,22 +33,22 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
   return p;
 }
 
-double force_change(const Model& a, const Model& b, const Workspace& w) {
-  const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd d = model_forces(a, w.dataset, all, *w.body, false).f -
-                            model_forces(b, w.dataset, all, *w.body, false).f;
+double force_change(const Fit& a, const Fit& b, const TrialGround& g) {
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd d =
+      model_forces(a, g.experiment, all, false).f - model_forces(b, g.experiment, all, false).f;
   return std::sqrt(d.squaredNorm() / static_cast<double>(d.size()));
 }
 
 // What the model's approximate laws may leave [N]: from less, no other effect can be inferred.
-double left_by_laws(const Model& model, const Workspace& w) {
+double left_by_laws(const Fit& fitted, const TrialGround& g) {
   double most = 0;
-  for (const std::string& name : model.effects()) {
+  for (const std::string& name : fitted.model.effects()) {
     const double share = require_effect(name).card().form_error;
     if (share <= 0) continue;
-    Model without = model;
+    Model without = fitted.model;
     std::erase_if(without.parameters, [&](const Parameter& p) { return p.effect == name; });
-    most = std::max(most, share * force_change(model, without, w));
+    most = std::max(most, share * force_change(fitted, as_it_is(without, g.experiment), g));
   }
   return most;
 }
@@ -59,42 +59,44 @@ constexpr double kPromising = 2.5, kBetter = 0.99;
 
 // The best estimates first: what they become, not what they promised, decides what else is worth
 // the solutions.
-void refine_promising(std::vector<Candidate>& candidates, const Baseline& base, Workspace& w,
-                      const DiagnoseOptions& options) {
+void refine_promising(std::vector<Candidate>& candidates, const Baseline& base,
+                      const TrialGround& g, const DiagnoseOptions& options) {
   std::vector<Candidate*> order;
-  double least = base.fitted.rmse;
+  double least = base.fitted.error.pooled;
   for (Candidate& c : candidates) {
     const EffectCard& card = c.effect->card();
     if (card.solved || card.from_locations) order.push_back(&c);
     // Offsets of presses imitate any misfit and are no measure of it.
     else if (!card.by_press)
-      least = std::min(least, c.fitted.rmse);
+      least = std::min(least, c.fitted.error.pooled);
   }
   std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
-    return a->fitted.rmse < b->fitted.rmse;
+    return a->fitted.error.pooled < b->fitted.error.pooled;
   });
   for (Candidate* c : order) {
-    if (c->fitted.rmse >= kPromising * least || c->fitted.rmse >= kBetter * base.fitted.rmse)
+    if (c->fitted.error.pooled >= kPromising * least ||
+        c->fitted.error.pooled >= kBetter * base.fitted.error.pooled)
       continue;
     if (options.progress) options.progress(c->effect->card().name);
-    refine(*c, w);
-    least = std::min(least, c->fitted.rmse);
+    refine(*c, g);
+    least = std::min(least, c->fitted.error.pooled);
   }
 }
 
 // What acts at one position is not known from the others. Where it takes away all that is beyond
 // noise, presses that are left out of positions pressed otherwise too are what it has to help.
-void judge_by_presses(const Candidate& c, const Baseline& base, Workspace& w,
+void judge_by_presses(const Candidate& c, const Baseline& base, const TrialGround& g,
                       const DiagnoseOptions& options, Finding& f) {
   constexpr double kAllOfIt = 0.9;
-  if (!c.effect->card().local || f.share < kAllOfIt || f.rmse_after > kLikeNoise * w.noise.value ||
-      std::isnan(f.held_out_after) || held_out_fall(f) >= kPlainFall)
+  if (!c.effect->card().local || f.share < kAllOfIt ||
+      f.rmse_after.pooled > kLikeNoise * g.allowance.noise || std::isnan(f.held_out_after.pooled) ||
+      held_out_fall(f) >= kPlainFall)
     return;
-  const Folds folds = make_press_folds(w.dataset, options.folds);
+  const Folds folds = make_press_folds(g.dataset, options.folds);
   if (folds.held_out.empty()) return;
   f.by_presses = true;
-  f.held_out_now = held_out_of(base.fitted.model, w, folds, Map::kAnew).rmse;
-  f.held_out_after = held_out_of(c.fitted.model, w, folds, Map::kAnew).rmse;
+  f.held_out_now = held_out_of(base.fitted, g, folds, Map::kAnew).error;
+  f.held_out_after = held_out_of(c.fitted, g, folds, Map::kAnew).error;
 }
 
 }  // namespace
@@ -120,32 +122,32 @@ bool contains(const Effect& effect, const std::string& other) {
 }
 
 double held_out_fall(const Finding& f) {
-  return f.held_out_now > 0 ? 1 - f.held_out_after / f.held_out_now : 0;
+  return f.held_out_now.pooled > 0 ? 1 - f.held_out_after.pooled / f.held_out_now.pooled : 0;
 }
 
 Finding ruled_out(const Effect& effect, const Baseline& base) {
   Finding finding;
   finding.effect = effect.card().name;
-  finding.rmse_now = finding.rmse_after = base.fitted.rmse;
-  finding.held_out_now = finding.held_out_after = held_out_for(effect, base).rmse;
+  finding.rmse_now = finding.rmse_after = base.fitted.error;
+  finding.held_out_now = finding.held_out_after = held_out_for(effect, base).error;
   finding.evidence =
       "no position asks for another stiffness than the model's, beyond noise and mesh";
   finding.next_measurement = effect.card().separated_by;
   return finding;
 }
 
-Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
+Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
-  const bool departs = stiffness_departures(base.fitted.model, w).anywhere();
+  const bool departs = stiffness_departures(base.fitted, g).anywhere();
   for (const Effect* effect : untried(base.fitted.model)) {
     if (options.progress) options.progress(effect->card().name);
-    if (effect->card().solved && !departs && lacking_for(effect->card(), w.dataset).empty()) {
+    if (effect->card().solved && !departs && lacking_for(effect->card(), g.dataset).empty()) {
       round.ruled_out.push_back(ruled_out(*effect, base));
       continue;
     }
     std::string lack;
-    if (auto candidate = try_effect(*effect, base, w, lack)) {
+    if (auto candidate = try_effect(*effect, base, g, lack)) {
       round.candidates.push_back(std::move(*candidate));
       continue;
     }
@@ -156,26 +158,26 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     finding.next_measurement = lack;
     round.untestable.push_back(finding);
   }
-  refine_promising(round.candidates, base, w, options);
-  const Yardstick yardstick = make_yardstick(base, round.candidates, w);
+  refine_promising(round.candidates, base, g, options);
+  const Yardstick yardstick = make_yardstick(base, round.candidates, g);
   std::vector<Measured> measured;
-  for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, w));
+  for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, g));
   const std::vector<double> p = p_values(measured, options.flips, random);
   const double before = yardstick.residual.squaredNorm();
-  const double noise = w.noise.value * w.noise.value;
-  const double by_laws = left_by_laws(base.fitted.model, w);
-  const double beyond_noise = base.fitted.rmse * base.fitted.rmse - noise;
+  const double noise = g.allowance.noise * g.allowance.noise;
+  const double by_laws = left_by_laws(base.fitted, g);
+  const double beyond_noise = base.fitted.error.pooled * base.fitted.error.pooled - noise;
   for (std::size_t k = 0; k < round.candidates.size(); ++k) {
     Candidate& c = round.candidates[k];
     const Measured& m = measured[k];
     Finding f;
     f.effect = c.effect->card().name;
     f.one_more_term = c.one_more_term;
-    f.rmse_now = base.fitted.rmse;
-    f.rmse_after = c.fitted.rmse;
-    f.held_out_now = held_out_for(*c.effect, base).rmse;
-    f.held_out_after = std::nan("");
-    f.evidence = implausible(c.fitted.model, *c.effect, w.dataset);
+    f.rmse_now = base.fitted.error;
+    f.rmse_after = c.fitted.error;
+    f.held_out_now = held_out_for(*c.effect, base).error;
+    f.held_out_after = {};
+    f.evidence = implausible(c.fitted.model, *c.effect, g.dataset);
     if (!f.evidence.empty()) {
       round.findings.push_back(f);
       continue;
@@ -183,30 +185,32 @@ Round try_all(const Baseline& base, Workspace& w, const Folds& folds,
     f.p_value = p[k];
     f.criterion_gain = before - m.sum_of_squares - m.penalty;
     f.memory = m.memory;
-    const double fall = base.fitted.rmse * base.fitted.rmse - c.fitted.rmse * c.fitted.rmse;
+    const double fall = base.fitted.error.pooled * base.fitted.error.pooled -
+                        c.fitted.error.pooled * c.fitted.error.pooled;
     // Offsets of presses take away what other misfits leave as well, so only what nothing else
     // can be counts, unless noise alone is left.
-    const bool all_of_it = std::isnan(m.explained) || c.fitted.rmse < kLikeNoise * w.noise.value;
+    const bool all_of_it =
+        std::isnan(m.explained) || c.fitted.error.pooled < kLikeNoise * g.allowance.noise;
     if (beyond_noise > 0.01 * noise)
       f.share = std::clamp((all_of_it ? fall : m.explained) / beyond_noise, 0.0, 1.0);
     // Refits for held-out positions cost most and only matter to what passes otherwise.
     if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share) {
       if (options.progress) options.progress(f.effect);
-      hold_out(c, w, folds);
-      prefer_sites(c, base, w, folds);
+      hold_out(c, g, folds);
+      prefer_sites(c, base, g, folds);
       f.every_site = c.every_site;
-      f.rmse_after = c.fitted.rmse;
+      f.rmse_after = c.fitted.error;
     }
-    f.held_out_after = c.held_out.rmse;
-    judge_by_presses(c, base, w, options, f);
+    f.held_out_after = c.held_out.error;
+    judge_by_presses(c, base, g, options, f);
     // Where few presses carry an effect their signs cannot prove it, however large it is.
     const double by_size =
         std::min(1.0, 2 * m.p_by_size * static_cast<double>(round.candidates.size()));
     if (f.share >= kMostOfIt && held_out_fall(f) >= kPlainFall)
       f.p_value = std::min(f.p_value, by_size);
     f.plain = f.share >= kMostOfIt && by_size < options.gates.p_value;
-    f.within_form = by_laws > 0 && force_change(c.fitted.model, base.fitted.model, w) < by_laws;
-    f.where = describe_where(c, w);
+    f.within_form = by_laws > 0 && force_change(c.fitted, base.fitted, g) < by_laws;
+    f.where = describe_where(c);
     f.evidence = describe_evidence(c, m, f);
     if (f.within_form)
       f.evidence += fmt::format(

@@ -27,7 +27,7 @@ Finding ruled_out(const Effect& effect, const Baseline& base);
 
 // Estimates every effect, solves for the promising ones, and measures them all alike. Findings have
 // no verdict yet.
-Round try_all(const Baseline& base, Workspace& workspace, const Folds& folds,
+Round try_all(const Baseline& base, const TrialGround& ground, const Folds& folds,
               const DiagnoseOptions& options, Random& random);
 
 }  // namespace hapsim

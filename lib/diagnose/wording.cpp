@@ -18,7 +18,7 @@ std::string with_error(double value, double error, const std::string& unit) {
 
 }  // namespace
 
-std::string describe_where(const Candidate& candidate, const Workspace& w) {
+std::string describe_where(const Candidate& candidate) {
   const EffectCard& card = candidate.effect->card();
   if (!card.from_locations) return card.signature;
   const MaterialSpec material = material_of(candidate.fitted.model);
@@ -37,7 +37,6 @@ std::string describe_where(const Candidate& candidate, const Workspace& w) {
     return fmt::format("{} mm{}", text,
                        all > named ? fmt::format(" and {} more", all - named) : "");
   };
-  (void)w;
   return fmt::format("stiffest near {}; softest near {}; ratio {:.2g}",
                      places(stiffest - material.modulus.begin()),
                      places(softest - material.modulus.begin()), *stiffest / *softest);
@@ -81,7 +80,7 @@ std::string describe_verdict(const Diagnosis& d, bool structure_left) {
                                ? fmt::format(
                                      " After that {:.3g} N ({:.2g} x noise) with structure is left "
                                      "that no known effect takes away.",
-                                     d.rmse_end, d.rmse_end / d.noise)
+                                     d.rmse_end.told(), d.rmse_end.told() / d.noise)
                                : "";
   switch (d.verdict) {
     case ModelVerdict::kIncomplete:
@@ -93,7 +92,7 @@ std::string describe_verdict(const Diagnosis& d, bool structure_left) {
       return fmt::format(
           "the model fails with structure ({:.2g} x noise) that none of the effects "
           "it knows takes away.",
-          d.rmse_end / d.noise);
+          d.rmse_end.told() / d.noise);
     default:
       return "nothing is missing that these data could show above the sizes named with each "
              "effect.";

@@ -8,7 +8,7 @@
 namespace hapsim {
 
 // Where the effect acts: the stiff and the soft places, or what its card says of its signature.
-std::string describe_where(const Candidate& candidate, const Workspace& workspace);
+std::string describe_where(const Candidate& candidate);
 // How much of the misfit it takes away, and its fitted size with uncertainty.
 std::string describe_evidence(const Candidate& candidate, const Measured& measured,
                               const Finding& finding);

@@ -91,11 +91,12 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
       episode.view.session.push_back(recording.t[row] - session_start);
     }
   }
+  dataset.axes = measured_axes(recording.f);
   dataset.recording = std::move(recording);
   return dataset;
 }
 
-void set_normals(Dataset& dataset, const std::vector<Vec3>& normals) {
+Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals) {
   const bool heals = dataset.recording.metadata.find("recovery").value_or("") == "full";
   std::vector<double> deepest(dataset.positions.size(), 0.0);
   for (Episode& e : dataset.episodes) {
@@ -111,6 +112,7 @@ void set_normals(Dataset& dataset, const std::vector<Vec3>& normals) {
     }
     deepest[e.position] = std::max(deepest[e.position], depth);
   }
+  return dataset;
 }
 
 Noise force_noise(const Recording& recording) {

@@ -14,7 +14,7 @@ namespace hapsim {
 struct Episode {
   int position = 0;
   std::vector<int> rows;  // of the recording
-  PressView view;         // normal, direction, past_depth are filled in by set_normals()
+  PressView view;         // normal, direction, past_depth are filled in by with_normals()
 };
 
 constexpr double kSamePlace = 1e-4;  // contact points nearer than this are one [m]
@@ -32,6 +32,7 @@ struct Dataset {
   std::vector<Episode> episodes;
   std::vector<Setup> setups;  // distinct, in the order of the recording
   std::vector<int> setup_of;  // by position
+  int axes = 3;               // force components that are not 0 in every row (measured_axes())
   std::size_t rows() const { return recording.rows(); }
   std::size_t bodies() const;  // distinct ones
   std::size_t tools() const;   // distinct radii
@@ -41,9 +42,9 @@ struct Dataset {
 // recording; empty: all rows of one body, with the recording's tool. Error(kBadInput) when a press
 // moves its contact point by more than that.
 Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row = {});
-// Normals by position, and what follows from them: each press's direction and the deepest press
-// before it at its place (none with `recovery: full`).
-void set_normals(Dataset& dataset, const std::vector<Vec3>& normals);
+// With normals by position, and what follows from them: each press's direction and the deepest
+// press before it at its place (none with `recovery: full`).
+Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals);
 
 // Standard deviation of the force noise per component [N]: metadata `force_noise`, or second
 // differences in time, median(|d2|) / (0.6745 sqrt 6), pooled over the components that were

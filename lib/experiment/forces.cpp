@@ -144,17 +144,22 @@ std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection
   return rows;
 }
 
-Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const BodyStiffness& body, bool derivatives) {
+Signal model_forces(const Model& model, const Experiment& experiment, const Linearisation& about,
+                    const Selection& selection, bool derivatives) {
   const MaterialSpec material = material_of(model);
   return model_forces(
-      model, dataset, selection, [&](std::size_t p) { return body.at(p, material); }, derivatives,
-      body.threads());
+      model, experiment.dataset, [&](std::size_t p) { return about.at(p, material); }, selection,
+      derivatives, experiment.places.threads());
 }
 
-Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const StiffnessAt& stiffness_at, bool derivatives, int threads,
-                    Eigen::Index more) {
+Signal solved_forces(const Model& model, const Experiment& experiment, const Selection& selection,
+                     bool derivatives) {
+  return model_forces(model, experiment, experiment.places.solve(material_of(model)), selection,
+                      derivatives);
+}
+
+Signal model_forces(const Model& model, const Dataset& dataset, const StiffnessAt& stiffness_at,
+                    const Selection& selection, bool derivatives, int threads, Eigen::Index more) {
   std::vector<EffectInstance> effects = effect_instances(model, derivatives);
   const MaterialSpec material = material_of(model);
   const Eigen::Index columns =
@@ -200,8 +205,9 @@ Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selecti
   return f;
 }
 
-double per_measured_component(const Dataset& dataset) {
-  return std::sqrt(3.0 / measured_axes(dataset.recording.f));
+ForceError force_error(const Dataset& dataset, const Eigen::VectorXd& residual) {
+  const auto count = static_cast<double>(residual.size());
+  return {residual.size() == 0 ? 0 : std::sqrt(residual.squaredNorm() / count), dataset.axes};
 }
 
 }  // namespace hapsim

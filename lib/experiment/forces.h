@@ -2,11 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
-#include "experiment/body_stiffness.h"
-#include "experiment/dataset.h"
+#include "experiment/experiment.h"
 #include "model/model.h"
 
 namespace hapsim {
@@ -31,23 +32,35 @@ Selection all_episodes(const Dataset& dataset);
 // Rows of the recording in the stacked order.
 std::vector<int> stacked_rows(const Dataset& dataset, const Selection& selection);
 
-// Stacked forces (3 x rows) and, when asked, their derivatives by the free parameters.
-Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const BodyStiffness& body, bool derivatives);
+// Stacked forces (3 x rows) and, when asked, their derivatives by the free parameters. Depends on
+// its arguments alone; `about` is made for the model's material (Places::solve, Places::estimate).
+Signal model_forces(const Model& model, const Experiment& experiment, const Linearisation& about,
+                    const Selection& selection, bool derivatives);
+// About the model's own material, solved here.
+Signal solved_forces(const Model& model, const Experiment& experiment, const Selection& selection,
+                     bool derivatives);
 
 // The same with stiffnesses by position from elsewhere, on so many threads (0: as many as there
 // are); the threads change nothing in the result. Derivatives by `more` parameters of the
 // stiffness alone come after those of the model.
 using StiffnessAt = std::function<PositionStiffness(std::size_t position)>;
-Signal model_forces(const Model& model, const Dataset& dataset, const Selection& selection,
-                    const StiffnessAt& stiffness_at, bool derivatives, int threads = 1,
+Signal model_forces(const Model& model, const Dataset& dataset, const StiffnessAt& stiffness_at,
+                    const Selection& selection, bool derivatives, int threads = 1,
                     Eigen::Index more = 0);
 
 // The measured forces in the same order.
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);
 
-// What makes of a root mean square over all three components (FitResult, HeldOut) one over those
-// that were measured, which is what people are told: sqrt(3 / measured_axes).
-double per_measured_component(const Dataset& dataset);
+// A root mean square of force errors that knows what it is taken over.
+struct ForceError {
+  // Over all three components, measured or not: what fits and tests of effects count [N]. NaN:
+  // there is none.
+  double pooled = std::numeric_limits<double>::quiet_NaN();
+  int axes = 3;  // components that were measured
+
+  // Over the components that were measured: what people are told [N].
+  double told() const { return std::sqrt(3.0 / axes) * pooled; }
+};
+ForceError force_error(const Dataset& dataset, const Eigen::VectorXd& residual);
 
 }  // namespace hapsim

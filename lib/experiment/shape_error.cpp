@@ -21,11 +21,11 @@ std::string ShapeError::words() const {
       1e3 * before, 1e3 * farthest, 1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z(), 1e3 * after);
 }
 
-ShapeError shape_error(const BodyStiffness& body) {
+ShapeError shape_error(const Places& places) {
   ShapeError error;
   double before = 0, after = 0, count = 0;
-  for (std::size_t s = 0; s < body.setups(); ++s) {
-    const SetupStiffness& setup = body.setup(s);
+  for (std::size_t s = 0; s < places.setups(); ++s) {
+    const SetupPlaces& setup = *places.setup(s);
     const RigidMove move = setup.move();
     const auto points = static_cast<double>(setup.positions().size());
     before += points * move.before * move.before;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "experiment/body_stiffness.h"
+#include "experiment/places.h"
 
 namespace hapsim {
 
@@ -23,6 +23,6 @@ struct ShapeError {
   std::string words() const;  // "" unless plain
 };
 
-ShapeError shape_error(const BodyStiffness& body);
+ShapeError shape_error(const Places& places);
 
 }  // namespace hapsim

@@ -10,20 +10,20 @@
 
 namespace hapsim {
 
-void add_boundary_error(FitResult& fitted, const Dataset& dataset, const BodyStiffness& body,
-                        const Eigen::MatrixXd& by_shift, const Eigen::MatrixXd& covariance) {
-  const Selection all = all_episodes(dataset);
+void add_boundary_error(Fit& fitted, const Experiment& experiment, const Eigen::MatrixXd& by_shift,
+                        const Eigen::MatrixXd& covariance) {
+  const Selection all = all_episodes(experiment.dataset);
   const std::vector<int> free = fitted.model.free_parameters();
   std::vector<Eigen::Index> told;
   for (std::size_t c = 0; c < free.size(); ++c)
     if (std::isfinite(fitted.model.parameters[free[c]].std_error))
       told.push_back(static_cast<Eigen::Index>(c));
   if (told.empty()) return;
-  Eigen::MatrixXd F = model_forces(fitted.model, dataset, all, body, true).df(Eigen::all, told);
+  Eigen::MatrixXd F = model_forces(fitted, experiment, all, true).df(Eigen::all, told);
   Eigen::MatrixXd B = by_shift;
   if (offset_effect(fitted.model) != nullptr) {
-    take_out_press_means(dataset, all, F);
-    take_out_press_means(dataset, all, B);
+    take_out_press_means(experiment.dataset, all, F);
+    take_out_press_means(experiment.dataset, all, B);
   }
   const Eigen::VectorXd scale =
       F.colwise().norm().transpose().cwiseMax(std::numeric_limits<double>::min());

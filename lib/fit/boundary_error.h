@@ -14,8 +14,8 @@ namespace hapsim {
 // have a standard error, B = `by_shift` those by the shifts of its key points (stacked rows x
 // shifts [N/m]), C = `covariance` of the shifts [m^2]. What is left of the fit's own error is not
 // correlated with it: the shifts come from a fit together with the moduli.
-void add_boundary_error(FitResult& fitted, const Dataset& dataset, const BodyStiffness& body,
-                        const Eigen::MatrixXd& by_shift, const Eigen::MatrixXd& covariance);
+void add_boundary_error(Fit& fitted, const Experiment& experiment, const Eigen::MatrixXd& by_shift,
+                        const Eigen::MatrixXd& covariance);
 
 // Gives the key points of `regions` their standard errors: that of the nearest point of the lines,
 // across the boundary. `error` [m]: by point of the lines in turn, a closed line's end left out.

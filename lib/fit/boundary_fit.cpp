@@ -50,19 +50,18 @@ FieldGrid plan_nodes(const TetMesh& mesh, double step) {
 // The moduli of the regions and the shifts of the boundaries, fitted together.
 class BoundaryProblem {
  public:
-  BoundaryProblem(Model model, const Dataset& dataset, const BodyStiffness& stiffness,
-                  const TetMesh& mesh, const BoundaryGraph& graph, double spacing,
-                  const BoundaryOptions& options)
-      : model_(std::move(model)),
-        dataset_(dataset),
-        selection_(all_episodes(dataset)),
+  BoundaryProblem(const Fit& fitted, const Experiment& experiment, const TetMesh& mesh,
+                  const BoundaryGraph& graph, double spacing, const BoundaryOptions& options)
+      : model_(fitted.model),
+        dataset_(experiment.dataset),
+        selection_(all_episodes(dataset_)),
         graph_(graph),
         spacing_(spacing),
         options_(options),
-        contacts_(mesh, stiffness, dataset.recording.tool_radius(), material_of(model_).nu,
-                  plan_nodes(mesh, dataset.recording.tool_radius()), kKept),
-        measured_(measured_forces(dataset, selection_)),
-        weights_(dataset, selection_, model_forces(model_, dataset, selection_, stiffness, false).f,
+        contacts_(mesh, experiment.places, dataset_.recording.tool_radius(), material_of(model_).nu,
+                  plan_nodes(mesh, dataset_.recording.tool_radius()), kKept),
+        measured_(measured_forces(dataset_, selection_)),
+        weights_(dataset_, selection_, model_forces(fitted, experiment, selection_, false).f,
                  options.fit.noise, options.fit.floor) {
     for (Parameter& p : model_.parameters) {
       const bool modulus = p.effect == "elastic" && p.name == "E";
@@ -160,7 +159,7 @@ class BoundaryProblem {
       if (options_.progress) options_.progress();
     });
     const Signal signal = model_forces(
-        model_, dataset_, selection_, [&](std::size_t p) { return stiffness[p]; }, true,
+        model_, dataset_, [&](std::size_t p) { return stiffness[p]; }, selection_, true,
         options_.threads, static_cast<Eigen::Index>(graph_.size()));
     const Eigen::Index rows = measured_.size();
     const auto shifted = static_cast<Eigen::Index>(graph_.size());
@@ -206,8 +205,9 @@ std::vector<BoundaryLine> boundaries_of(const Model& model, const TetMesh& mesh,
 
 }  // namespace
 
-BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, BodyStiffness& body,
-                              const TetMesh& mesh, const BoundaryOptions& options) {
+BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, const TetMesh& mesh,
+                              const BoundaryOptions& options) {
+  const Dataset& dataset = experiment.dataset;
   const double tool_radius = dataset.recording.tool_radius();
   const double spacing = spacing_of(dataset.positions);
   BoundaryFit result{start, boundaries_of(start.model, mesh, tool_radius), {}, {}, false};
@@ -221,13 +221,13 @@ BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, Bo
       return region_at(material, {p.x(), p.y(), 0});
     };
     const BoundaryGraph graph(result.lines, classify, options.key_points, 4 * tool_radius);
-    BoundaryProblem problem(result.fitted.model, dataset, body, mesh, graph, spacing, options);
+    BoundaryProblem problem(result.fitted, experiment, mesh, graph, spacing, options);
     LeastSquaresOptions search;
     search.max_iterations = 12;
     search.step_tolerance = 0.1;       // of a tenth of the spacing
     search.decrease_tolerance = 1e-2;  // a tenth of a standard error
     if (options.fit.watch)
-      search.watch = [&](double) { return options.fit.watch({0, 1, result.fitted.rmse}); };
+      search.watch = [&](double) { return options.fit.watch({0, 1, result.fitted.error.pooled}); };
     const LeastSquaresResult solution = minimise(
         problem.unknowns(),
         [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
@@ -242,15 +242,15 @@ BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, Bo
     std::erase_if(moved.parameters, [](const Parameter& p) { return p.effect == "regions"; });
     place_key_points(
         moved, [&](const Plan& p) { return graph.region(p, shift); }, lines, options.key_points);
-    FitResult fitted = fit(moved, dataset, all_episodes(dataset), body, options.fit);
+    Fit fitted = fit(moved, experiment, all_episodes(dataset), options.fit);
     const auto tell_errors = [&](const std::vector<BoundaryLine>& where) {
       result.error.clear();
       for (Eigen::Index k = 0; k < shift.size(); ++k)
         result.error.push_back(std::sqrt(std::max(0.0, covariance(k, k))));
-      add_boundary_error(result.fitted, dataset, body, problem.by_shift(solution.x), covariance);
+      add_boundary_error(result.fitted, experiment, problem.by_shift(solution.x), covariance);
       tell_key_point_errors(result.fitted.model, where, result.error);
     };
-    if (fitted.rmse >= result.fitted.rmse) {
+    if (fitted.error.pooled >= result.fitted.error.pooled) {
       if (!fitted.stopped && round == 0)
         tell_errors(graph.lines(0 * shift));  // where they stay, no better known
       if (!fitted.stopped) break;

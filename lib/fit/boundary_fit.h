@@ -22,7 +22,7 @@ struct BoundaryOptions {
 struct BoundaryFit {
   // Its key points on both sides of the moved boundaries; the standard errors of the moduli and of
   // the key points have the boundaries' own in them.
-  FitResult fitted;
+  Fit fitted;
   std::vector<BoundaryLine> lines;  // through the key points
   std::vector<double> moved;        // distance of each key point from the boundaries of `start` [m]
   std::vector<double> error;        // standard error of its place [m]
@@ -39,7 +39,7 @@ struct BoundaryFit {
 // so is what it may err. Each shift is drawn to 0 by the error of a boundary that is only known to
 // lie between presses, half their spacing, and stays within one spacing, thesis (5.43).
 // One setup only. Error(kBadInput): no boundary between the regions of the model lies on the body.
-BoundaryFit refine_boundaries(const FitResult& start, const Dataset& dataset, BodyStiffness& body,
-                              const TetMesh& mesh, const BoundaryOptions& options);
+BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, const TetMesh& mesh,
+                              const BoundaryOptions& options);
 
 }  // namespace hapsim

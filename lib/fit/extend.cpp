@@ -63,11 +63,12 @@ bool comes_back(const PressView& view) {
 
 }  // namespace
 
-Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body) {
+Model elastic_model(const Experiment& experiment, const Selection& selection) {
+  const Dataset& dataset = experiment.dataset;
   const Effect& elastic = require_effect("elastic");
   Model model;
   model.parameters = effect_rows(elastic, 1, elastic.starts(summarise(dataset, 1), 1).front());
-  const Eigen::VectorXd f = model_forces(model, dataset, selection, body, false).f;
+  const Eigen::VectorXd f = solved_forces(model, experiment, selection, false).f;
   const double power = f.squaredNorm();
   if (power <= 0)
     fail_input(dataset.recording.name, "no row presses the body",
@@ -81,16 +82,18 @@ Model elastic_model(const Dataset& dataset, const Selection& selection, const Bo
   return model;
 }
 
-std::vector<Model> with_effect(const Model& fitted, const std::string& name, const Dataset& dataset,
-                               const Selection& selection, const BodyStiffness& body,
+std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
+                               const Experiment& experiment, const Selection& selection,
                                const ExtendOptions& options) {
+  const Dataset& dataset = experiment.dataset;
+  const Model& fitted = base_fit.model;
   const Effect& effect = require_effect(name);
   const EffectCard& card = effect.card();
   if (const std::string lack = lacking_for(card, dataset); !lack.empty())
     fail_input(dataset.recording.name, "the data cannot show " + name, lack);
   if (fitted.has(name) && !(card.terms && !card.from_locations))
     fail_usage("the model has " + name + " already", "remove it first (--remove " + name + ")");
-  if (card.from_locations) return {with_regions(fitted, dataset, selection, body, options)};
+  if (card.from_locations) return {with_regions(base_fit, experiment, selection, options)};
 
   Model base = fitted;
   // What the new effect contains gives way to it.
@@ -108,18 +111,19 @@ std::vector<Model> with_effect(const Model& fitted, const std::string& name, con
   }
   DataSummary summary = summarise(dataset, fitted.find("elastic", 0, "E")->value);
   if (card.solved && card.needs_positions)
-    for (const LocationSample& s :
-         location_samples(fitted, dataset, selection, body, options.noise, options.floor))
+    for (const LocationSample& s : location_samples(fitted, experiment, base_fit.about, selection,
+                                                    {options.noise, options.floor}))
       summary.places.push_back(
-          {s.point, body.contact(static_cast<std::size_t>(s.position)).normal, s.gain});
-  const Surface& surface = body.setup(0).surface();
+          {s.point, experiment.places.contact(static_cast<std::size_t>(s.position)).normal,
+           s.gain});
+  const Surface& surface = experiment.places.setup(0)->surface();
   summary.low = summary.high = surface.vertices.front();
   for (const Vec3& p : surface.vertices) {
     summary.low = summary.low.cwiseMin(p);
     summary.high = summary.high.cwiseMax(p);
   }
   if (card.stage == Stage::kSupport)
-    if (const RigidMove move = body.move(); move.significant()) {
+    if (const RigidMove move = experiment.places.move(); move.significant()) {
       summary.shift = move.shift;
       summary.rotation = move.rotation;
     }

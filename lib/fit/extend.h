@@ -17,14 +17,14 @@ struct ExtendOptions {
 };
 
 // Elastic with E from the overall gain of the forces and nu at its start.
-Model elastic_model(const Dataset& dataset, const Selection& selection, const BodyStiffness& body);
+Model elastic_model(const Experiment& experiment, const Selection& selection);
 
 // Starts of `fitted` with `effect` added (an effect already there gets one more term where it has
 // terms). Uses only the chosen episodes. Error(kUsage) when it is there and cannot be repeated,
 // Error(kBadInput) when the data cannot bear it (lacking_for()).
-std::vector<Model> with_effect(const Model& fitted, const std::string& effect,
-                               const Dataset& dataset, const Selection& selection,
-                               const BodyStiffness& body, const ExtendOptions& options);
+std::vector<Model> with_effect(const Fit& fitted, const std::string& effect,
+                               const Experiment& experiment, const Selection& selection,
+                               const ExtendOptions& options);
 
 // Empty when what the effect's parameters belong to (one body, one tool) is but one in these data,
 // else what to do, in words.

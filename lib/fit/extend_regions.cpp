@@ -71,22 +71,22 @@ std::optional<Model> with_boundary(const Model& fitted, const RegionBoundary& bo
 
 }  // namespace
 
-Model with_regions(const Model& fitted, const Dataset& dataset, const Selection& selection,
-                   const BodyStiffness& body, const ExtendOptions& options) {
+Model with_regions(const Fit& base, const Experiment& experiment, const Selection& selection,
+                   const ExtendOptions& options) {
   constexpr int kMost = 8;
-  const auto samples = merged_places(
-      location_samples(fitted, dataset, selection, body, options.noise, options.floor));
+  const auto samples = merged_places(location_samples(base.model, experiment, base.about, selection,
+                                                      {options.noise, options.floor}));
   const RegionLabels labels = region_labels(samples, options.regions, kMost);
   if (options.regions == kAutomaticRegions && !samples.empty()) {
     std::vector<std::vector<float>> share;
     for (const LocationSample& s : samples)
-      share.push_back(body.contact(static_cast<std::size_t>(s.position)).plan_share);
-    const PlanGrid& grid = body.setup(0).grid();
+      share.push_back(experiment.places.contact(static_cast<std::size_t>(s.position)).plan_share);
+    const PlanGrid& grid = experiment.places.setup(0)->grid();
     const auto boundary = find_boundary(samples, share, grid);
     if (boundary && boundary->criterion < labels.criterion)
-      if (auto model = with_boundary(fitted, *boundary, grid)) return *model;
+      if (auto model = with_boundary(base.model, *boundary, grid)) return *model;
   }
-  Model model = with_labels(fitted, samples, labels.label);
+  Model model = with_labels(base.model, samples, labels.label);
   if (options.regions == kEverySite) {
     // So many neighbouring moduli cannot be told apart through the body; each stands for its site.
     Parameter local = effect_rows(require_effect("regions"), 1, {0, 0, 1}).back();

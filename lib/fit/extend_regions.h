@@ -8,7 +8,7 @@ namespace hapsim {
 // Rows of E by region and of key points. With kAutomaticRegions either regions of nearest
 // positions, as many as their moduli ask for, or two with a boundary (find_boundary()), by the
 // information criterion.
-Model with_regions(const Model& fitted, const Dataset& dataset, const Selection& selection,
-                   const BodyStiffness& body, const ExtendOptions& options);
+Model with_regions(const Fit& fitted, const Experiment& experiment, const Selection& selection,
+                   const ExtendOptions& options);
 
 }  // namespace hapsim

@@ -49,9 +49,9 @@ void set_values(Model& model, const Eigen::VectorXd& x) {
 // the longest press. Bounds alone leave 24 and 9 decades, nearly all of which say nothing of the
 // data.
 std::vector<Unknown> spread(const Model& model, std::vector<Unknown> unknowns,
-                            const Dataset& dataset, const Selection& selection,
-                            const BodyStiffness& body) {
-  const double modulus = elastic_model(dataset, selection, body).find("elastic", 0, "E")->value;
+                            const Experiment& experiment, const Selection& selection) {
+  const Dataset& dataset = experiment.dataset;
+  const double modulus = elastic_model(experiment, selection).find("elastic", 0, "E")->value;
   double longest = 0;
   for (const int e : selection)
     if (!dataset.episodes[e].view.t.empty())
@@ -72,10 +72,6 @@ std::vector<Unknown> spread(const Model& model, std::vector<Unknown> unknowns,
   return unknowns;
 }
 
-double component_rms(const Eigen::VectorXd& r) {
-  return r.size() == 0 ? 0 : std::sqrt(r.squaredNorm() / static_cast<double>(r.size()));
-}
-
 std::string label(const Parameter& p) {
   return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
 }
@@ -83,7 +79,7 @@ std::string label(const Parameter& p) {
 constexpr double kLeastReach = 0.02;  // a trust region so small has found what there is
 
 // The parameters held at a bound are no part of it.
-void tell_what_is_not_seen(FitResult& result, const Eigen::MatrixXd& J, double noise) {
+void tell_what_is_not_seen(Fit& result, const Eigen::MatrixXd& J, double noise) {
   const std::vector<Unknown> all = unknowns(result.model);
   const std::vector<int> free = result.model.free_parameters();
   std::vector<Unknown> open;
@@ -102,7 +98,7 @@ void tell_what_is_not_seen(FitResult& result, const Eigen::MatrixXd& J, double n
     if (d.sentence.find(" and ") != std::string::npos) result.blind.push_back(d.sentence);
 }
 
-void tell_intervals(FitResult& result, const ResidualFunction& residuals,
+void tell_intervals(Fit& result, const ResidualFunction& residuals,
                     const LeastSquaresResult& solution, double variance) {
   const std::vector<Unknown> all = unknowns(result.model);
   const std::vector<int> free = result.model.free_parameters();
@@ -116,200 +112,261 @@ void tell_intervals(FitResult& result, const ResidualFunction& residuals,
   }
 }
 
-}  // namespace
+// One fit under way: the model as far as it has come, and the bodies about its material.
+class Fitting {
+ public:
+  Fitting(const Model& start, const Experiment& experiment, const Selection& selection,
+          const FitOptions& options, const Linearisation& known)
+      : experiment_(experiment),
+        dataset_(experiment.dataset),
+        selection_(selection),
+        options_(options),
+        measured_(measured_forces(dataset_, selection)),
+        has_offsets_(offset_effect(start) != nullptr),
+        progress_{options.skip, options.starts},
+        from_many_(options.starts > 1) {
+    result_.model = start;
+    result_.starts_done = options.starts;
+    if (has_offsets_) set_offsets(result_.model, dataset_, {}, {}, 0);
+    const MaterialSpec asked = material_of(start);
+    result_.about = experiment.places.estimate(asked, known);
+    // What is not solved for is estimated, over the whole range.
+    is_linearised_ = is_linearised(asked, options.exact_regions) &&
+                     (options.rounds > 0 || result_.about.is_solved_for(asked));
+    if (options.watch) search_.watch = [this](double sum) { return go_on(sum); };
+  }
 
-FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
-              BodyStiffness& body, const FitOptions& options) {
-  FitResult result;
-  result.model = start;
-  const Eigen::VectorXd measured = measured_forces(dataset, selection);
-  LeastSquaresResult solution;
-  const MaterialSpec asked = material_of(start);
-  const bool offsets = offset_effect(start) != nullptr;
-  if (offsets) set_offsets(result.model, dataset, {}, {}, 0);
-  // Without a solution the body is estimated, over the whole range.
-  const bool linearised =
-      is_linearised(asked, options.exact_regions) && (options.rounds > 0 || body.is_solved(asked));
-  Model trial = result.model;
-  const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
-                                         Eigen::MatrixXd* J) {
-    set_values(trial, x);
-    Signal signal;
-    try {
-      signal = model_forces(trial, dataset, selection, body, J != nullptr);
-    } catch (const Error& error) {
-      // A law without an equilibrium there: a step that far is not taken.
-      if (error.code() != ExitCode::kNoConvergence || J != nullptr) throw;
-      r.setConstant(measured.size(), std::numeric_limits<double>::quiet_NaN());
+  Fit run() {
+    if (is_linearised_ && options_.rounds > 0)
+      minimise_in_rounds();
+    else
+      minimise_within(1);
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  // Residuals over the noise, and their derivatives, of the model with these values.
+  ResidualFunction residuals_of(Model model) const {
+    return [this, model = std::move(model)](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                            Eigen::MatrixXd* J) mutable {
+      set_values(model, x);
+      Signal signal;
+      try {
+        signal = model_forces(model, experiment_, result_.about, selection_, J != nullptr);
+      } catch (const Error& error) {
+        // A law without an equilibrium there: a step that far is not taken.
+        if (error.code() != ExitCode::kNoConvergence || J != nullptr) throw;
+        r.setConstant(measured_.size(), std::numeric_limits<double>::quiet_NaN());
+        return;
+      }
+      r = (signal.f - measured_) / options_.noise;
+      if (J != nullptr) *J = signal.df / options_.noise;
+      if (!has_offsets_) return;
+      take_out_press_means(dataset_, selection_, r);
+      if (J != nullptr) take_out_press_means(dataset_, selection_, *J);
+    };
+  }
+
+  // Tells the watch; false when the fit is to end.
+  bool go_on(double sum) {
+    const double now = options_.noise * std::sqrt(sum / static_cast<double>(measured_.size()));
+    if (!(progress_.rmse <= now)) progress_.rmse = now;
+    return !options_.watch || options_.watch(progress_);
+  }
+
+  std::vector<Unknown> open_within(double reach) const {
+    std::vector<Unknown> open = unknowns(result_.model);
+    return is_linearised_ ? within_reach(std::move(open), result_.model, reach) : open;
+  }
+
+  void take(LeastSquaresResult solution) {
+    solution_ = std::move(solution);
+    set_values(result_.model, solution_.x);
+    result_.stopped = solution_.stopped;
+  }
+
+  // From many starts, once: later rounds improve on the valley found.
+  void search_valleys() {
+    Random random(options_.seed);
+    const std::vector<Unknown> open = unknowns(result_.model);
+    auto starts = latin_hypercube_starts(spread(result_.model, open, experiment_, selection_),
+                                         options_.starts, random);
+    for (std::vector<Unknown>& one : starts)  // spread so, but bounded as ever
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        one[i].lower = open[i].lower;
+        one[i].upper = open[i].upper;
+      }
+    // The given start is the first in any case.
+    const int skip = std::clamp(options_.skip - 1, 0, options_.starts - 1);
+    starts.erase(starts.begin() + 1, starts.begin() + 1 + skip);
+    MultiStartResult many = minimise_from_many(starts, residuals_of(result_.model), search_, 0.1,
+                                               [&](int number, double sum) {
+                                                 progress_.start = number == 0 ? 0 : number + skip;
+                                                 return std::isinf(sum) || go_on(sum);
+                                               });
+    take(std::move(many.best));
+    if (result_.stopped) result_.starts_done = many.starts == 0 ? 0 : many.starts + skip;
+    from_many_ = false;
+  }
+
+  // All unknowns; those that the body is linear in by no more than `reach` (within_reach()).
+  void minimise_within(double reach) {
+    if (from_many_) search_valleys();
+    if (result_.stopped) return;
+    const ResidualFunction residuals = residuals_of(result_.model);
+    std::vector<Unknown> open = open_within(reach);
+    if (options_.robust != RobustLoss::kNone) {
+      RobustResult robust = minimise_robustly(open, residuals, options_.robust, search_);
+      result_.discounted = robust.discounted;
+      take(std::move(robust.fit));
       return;
     }
-    r = (signal.f - measured) / options.noise;
-    if (J != nullptr) *J = signal.df / options.noise;
-    if (!offsets) return;
-    take_out_press_means(dataset, selection, r);
-    if (J != nullptr) take_out_press_means(dataset, selection, *J);
-  };
-  FitProgress progress{options.skip, options.starts};
-  const auto go_on = [&](double sum) {
-    const double now = options.noise * std::sqrt(sum / static_cast<double>(measured.size()));
-    if (!(progress.rmse <= now)) progress.rmse = now;
-    return !options.watch || options.watch(progress);
-  };
-  LeastSquaresOptions search;
-  if (options.watch) search.watch = go_on;
-  result.starts_done = options.starts;
-  bool from_many = options.starts > 1;  // once: later rounds improve on the valley found
-  const auto minimise_within = [&](double reach) {
-    trial = result.model;
-    if (from_many) {
-      Random random(options.seed);
-      const std::vector<Unknown> open = unknowns(result.model);
-      auto starts = latin_hypercube_starts(spread(result.model, open, dataset, selection, body),
-                                           options.starts, random);
-      for (std::vector<Unknown>& one : starts)  // spread so, but bounded as ever
-        for (std::size_t i = 0; i < one.size(); ++i) {
-          one[i].lower = open[i].lower;
-          one[i].upper = open[i].upper;
-        }
-      // The given start is the first in any case.
-      const int skip = std::clamp(options.skip - 1, 0, options.starts - 1);
-      starts.erase(starts.begin() + 1, starts.begin() + 1 + skip);
-      MultiStartResult many =
-          minimise_from_many(starts, residuals, search, 0.1, [&](int number, double sum) {
-            progress.start = number == 0 ? 0 : number + skip;
-            return std::isinf(sum) || go_on(sum);
-          });
-      result.stopped = many.best.stopped;
-      if (result.stopped) result.starts_done = many.starts == 0 ? 0 : many.starts + skip;
-      solution = std::move(many.best);
-      set_values(result.model, solution.x);
-      from_many = false;
-      if (result.stopped) return;
+    take(minimise(open, residuals, search_));
+    if (result_.stopped) return;
+    if (sort_terms(result_.model)) {
+      open = open_within(reach);
+      take(minimise(open, residuals, search_));
     }
-    std::vector<Unknown> open = unknowns(result.model);
-    if (linearised) open = within_reach(std::move(open), result.model, reach);
-    if (options.robust != RobustLoss::kNone) {
-      RobustResult robust = minimise_robustly(open, residuals, options.robust, search);
-      solution = std::move(robust.fit);
-      result.discounted = robust.discounted;
-    } else {
-      solution = minimise(open, residuals, search);
+    if (!options_.keep_apart || result_.stopped) return;
+    keep_terms_apart(result_.model, open, residuals, solution_);
+    set_values(result_.model, solution_.x);
+  }
+
+  // The sum of squares with the bodies solved for the model's material. What needs no solution is
+  // fitted anew: a modulus too large or too small for a new body must not hide that the body has
+  // become better.
+  double solved_sum() {
+    const MaterialSpec material = material_of(result_.model);
+    result_.about = experiment_.places.solve(material);
+    const ResidualFunction residuals = residuals_of(result_.model);
+    const std::vector<Unknown> open = unknowns(result_.model);
+    if (material.modulus.size() == 1) {
+      const LeastSquaresResult rest = minimise(within_reach(open, result_.model, 0), residuals);
+      set_values(result_.model, rest.x);
+      return rest.sum_of_squares;
     }
-    set_values(result.model, solution.x);
-    result.stopped = solution.stopped;
-    if (result.stopped) return;
-    if (options.robust != RobustLoss::kNone) return;
-    if (sort_terms(result.model)) {
-      open = unknowns(result.model);
-      if (linearised) open = within_reach(std::move(open), result.model, reach);
-      solution = minimise(open, residuals, search);
-      set_values(result.model, solution.x);
-      result.stopped = solution.stopped;
-    }
-    if (!options.keep_apart || result.stopped) return;
-    keep_terms_apart(result.model, open, residuals, solution);
-    set_values(result.model, solution.x);
-  };
-  if (!linearised || options.rounds == 0) {
-    minimise_within(1);
-  } else {
-    // The finite elements are solved again about each fit; a fit that their solution does not
-    // confirm is taken back and tried again closer by (a trust region).
-    // After each solution, what needs none is fitted anew: a modulus too large or too small for a
-    // new body must not hide that the body has become better.
-    const auto true_sum = [&] {
-      const MaterialSpec material = material_of(result.model);
-      body.solve(material);
-      trial = result.model;
-      const std::vector<Unknown> open = unknowns(result.model);
-      if (material.modulus.size() == 1) {
-        const LeastSquaresResult rest = minimise(within_reach(open, result.model, 0), residuals);
-        set_values(result.model, rest.x);
-        return rest.sum_of_squares;
-      }
-      Eigen::VectorXd x(static_cast<Eigen::Index>(open.size())), r;
-      for (std::size_t c = 0; c < open.size(); ++c) x[static_cast<Eigen::Index>(c)] = open[c].value;
-      residuals(x, r, nullptr);
-      return r.squaredNorm();
-    };
-    double sum = true_sum(), reach = 1;
+    Eigen::VectorXd x(static_cast<Eigen::Index>(open.size())), r;
+    for (std::size_t c = 0; c < open.size(); ++c) x[static_cast<Eigen::Index>(c)] = open[c].value;
+    residuals(x, r, nullptr);
+    return r.squaredNorm();
+  }
+
+  // The finite elements are solved again about each fit; a fit that their solution does not confirm
+  // is taken back and tried again closer by (a trust region).
+  void minimise_in_rounds() {
+    double sum = solved_sum(), reach = 1;
     bool settled = false;
-    for (int round = 0; round < options.rounds && !settled && !result.stopped; ++round) {
-      const Model before = result.model;
+    for (int round = 0; round < options_.rounds && !settled && !result_.stopped; ++round) {
+      const Model model_before = result_.model;
+      const Linearisation about_before = result_.about;
       minimise_within(reach);
-      if (result.stopped) break;
-      const double promised = sum - solution.sum_of_squares;
-      const double now = true_sum();
-      const double least = options.settled * sum;
+      if (result_.stopped) break;
+      const double promised = sum - solution_.sum_of_squares;
+      const double now = solved_sum();
+      const double least = options_.settled * sum;
       settled = promised < least || (now <= sum && sum - now < least) || reach < kLeastReach;
       if (now <= sum) {
         sum = now;
-        result.stopped = !go_on(sum);
+        result_.stopped = !go_on(sum);
         continue;
       }
-      result.model = before;
-      body.solve(material_of(before));
+      result_.model = model_before;
+      result_.about = about_before;
       reach /= 4;
     }
     // Bounds and covariance without the limits of the steps.
-    trial = result.model;
     LeastSquaresOptions once;
     once.max_iterations = 1;
-    const bool converged = solution.converged && settled;
-    const std::string message = solution.message;
-    solution = minimise(unknowns(result.model), residuals, once);
-    solution.converged = converged || options.rounds < kFullRounds;
-    solution.message = converged ? message : "the body does not settle";
-    solution.sum_of_squares = sum;
+    const bool converged = solution_.converged && settled;
+    const std::string message = solution_.message;
+    solution_ = minimise(unknowns(result_.model), residuals_of(result_.model), once);
+    solution_.converged = converged || options_.rounds < kFullRounds;
+    solution_.message = converged ? message : "the body does not settle";
+    solution_.sum_of_squares = sum;
   }
 
-  Signal signal = model_forces(result.model, dataset, selection, body, true);
-  Eigen::VectorXd residual = measured - signal.f;
-  if (offsets) {
-    const Eigen::MatrixXd means = press_means(dataset, selection, residual);
-    take_out_press_means(dataset, selection, residual);
-    set_offsets(result.model, dataset, selection, means,
-                std::max(options.noise, component_rms(residual)));
-    take_out_press_means(dataset, selection, signal.df);
+  // What is told of the model where the fit has ended.
+  void finish() {
+    Signal signal = model_forces(result_, experiment_, selection_, true);
+    Eigen::VectorXd residual = measured_ - signal.f;
+    if (has_offsets_) {
+      const Eigen::MatrixXd means = press_means(dataset_, selection_, residual);
+      take_out_press_means(dataset_, selection_, residual);
+      set_offsets(result_.model, dataset_, selection_, means,
+                  std::max(options_.noise, force_error(dataset_, residual).pooled));
+      take_out_press_means(dataset_, selection_, signal.df);
+    }
+    result_.error = force_error(dataset_, residual);
+    result_.residuals = residual.size();
+    result_.converged = solution_.converged && !result_.stopped;
+    result_.message = result_.stopped ? "interrupted" : solution_.message;
+    const auto free = static_cast<double>(result_.model.free_parameters().size());
+    const double freedom = std::max(1.0, static_cast<double>(result_.residuals) - free);
+    const double variance = std::max(1.0, solution_.sum_of_squares / freedom);
+    set_standard_errors(signal, variance);
+    tell_what_is_not_seen(result_, signal.df / options_.noise, std::sqrt(variance));
+    if (options_.profile && result_.converged)
+      tell_intervals(result_, residuals_of(result_.model), solution_, variance);
   }
-  result.rmse = component_rms(residual);
-  result.residuals = residual.size();
-  result.converged = solution.converged && !result.stopped;
-  result.message = result.stopped ? "interrupted" : solution.message;
-  const std::vector<int> free = result.model.free_parameters();
-  const double freedom =
-      std::max(1.0, static_cast<double>(result.residuals) - static_cast<double>(free.size()));
-  const double variance = std::max(1.0, solution.sum_of_squares / freedom);
-  // The robust covariance has the misfit in it.
-  Eigen::MatrixXd covariance =
-      options.robust == RobustLoss::kNone ? variance * solution.covariance : solution.covariance;
-  if (options.floor > 0) {
-    // A gain error of each position, carried through to the parameters (sandwich).
-    for (const GainBlock& block : gain_directions(dataset, selection, signal.f)) {
-      const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
-      const Eigen::MatrixXd through = solution.covariance * (rows.transpose() * block.Z) *
-                                      (options.floor / (options.noise * options.noise));
-      covariance += through * through.transpose();
+
+  void set_standard_errors(const Signal& signal, double variance) {
+    // The robust covariance has the misfit in it.
+    Eigen::MatrixXd covariance = options_.robust == RobustLoss::kNone
+                                     ? variance * solution_.covariance
+                                     : solution_.covariance;
+    if (options_.floor > 0) {
+      // A gain error of each position, carried through to the parameters (sandwich).
+      for (const GainBlock& block : gain_directions(dataset_, selection_, signal.f)) {
+        const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
+        const Eigen::MatrixXd through = solution_.covariance * (rows.transpose() * block.Z) *
+                                        (options_.floor / (options_.noise * options_.noise));
+        covariance += through * through.transpose();
+      }
+    }
+    const std::vector<int> free = result_.model.free_parameters();
+    for (std::size_t c = 0; c < free.size(); ++c) {
+      Parameter& p = result_.model.parameters[free[c]];
+      const auto k = static_cast<Eigen::Index>(c);
+      const bool unseen = solution_.undetermined[c];
+      p.std_error = solution_.at_bound[c] || unseen ? std::numeric_limits<double>::quiet_NaN()
+                                                    : std::sqrt(std::max(0.0, covariance(k, k)));
+      if (solution_.at_bound[c]) result_.at_bound.push_back(label(p));
+      if (unseen) result_.undetermined.push_back(label(p));
     }
   }
-  for (std::size_t c = 0; c < free.size(); ++c) {
-    Parameter& p = result.model.parameters[free[c]];
-    const auto k = static_cast<Eigen::Index>(c);
-    const bool unseen = solution.undetermined[c];
-    p.std_error = solution.at_bound[c] || unseen ? std::numeric_limits<double>::quiet_NaN()
-                                                 : std::sqrt(std::max(0.0, covariance(k, k)));
-    if (solution.at_bound[c]) result.at_bound.push_back(label(p));
-    if (unseen) result.undetermined.push_back(label(p));
-  }
-  tell_what_is_not_seen(result, signal.df / options.noise, std::sqrt(variance));
-  if (options.profile && result.converged) tell_intervals(result, residuals, solution, variance);
+
+  const Experiment& experiment_;
+  const Dataset& dataset_;
+  const Selection& selection_;
+  const FitOptions& options_;
+  const Eigen::VectorXd measured_;
+  const bool has_offsets_;
+  bool is_linearised_ = false;
+  FitProgress progress_;
+  LeastSquaresOptions search_;
+  bool from_many_;
+  LeastSquaresResult solution_;
+  Fit result_;
+};
+
+}  // namespace
+
+Fit as_it_is(const Model& model, const Experiment& experiment) {
+  Fit result;
+  result.model = model;
+  result.about = experiment.places.solve(material_of(model));
   return result;
 }
 
-double rmse(const Model& model, const Dataset& dataset, const Selection& selection,
-            const BodyStiffness& body) {
-  return component_rms(measured_forces(dataset, selection) -
-                       model_forces(model, dataset, selection, body, false).f);
+Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selection& selection,
+                    bool derivatives) {
+  return model_forces(fitted.model, experiment, fitted.about, selection, derivatives);
+}
+
+Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
+        const FitOptions& options, const Linearisation& known) {
+  return Fitting(start, experiment, selection, options, known).run();
 }
 
 Folds make_folds(const Dataset& dataset, int count) {
@@ -339,9 +396,11 @@ Folds make_press_folds(const Dataset& dataset, int count) {
   return folds;
 }
 
-HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
-                       BodyStiffness& body, const FitOptions& options) {
+HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment,
+                       const Folds& folds, const FitOptions& options) {
+  const Dataset& dataset = experiment.dataset;
   HeldOut result;
+  result.error.axes = dataset.axes;
   FitOptions about = options;
   about.rounds = 0;
   double squares = 0, components = 0;
@@ -349,17 +408,17 @@ HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, cons
     Selection training;
     for (const int e : all_episodes(dataset))
       if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
-    const FitResult fitted = fit_best(builder(training), dataset, training, body, about);
-    Eigen::VectorXd r = measured_forces(dataset, held_out) -
-                        model_forces(fitted.model, dataset, held_out, body, false).f;
+    const Starts starts = builder(training);
+    const Fit fitted = fit_best(starts.models, experiment, training, about, starts.known);
+    Eigen::VectorXd r =
+        measured_forces(dataset, held_out) - model_forces(fitted, experiment, held_out, false).f;
     if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);
     result.squares.push_back(r.squaredNorm());
     result.components.push_back(static_cast<double>(r.size()));
     squares += result.squares.back();
     components += result.components.back();
   }
-  result.rmse =
-      components > 0 ? std::sqrt(squares / components) : std::numeric_limits<double>::quiet_NaN();
+  if (components > 0) result.error.pooled = std::sqrt(squares / components);
   return result;
 }
 

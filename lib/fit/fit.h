@@ -30,8 +30,8 @@ struct FitOptions {
   std::uint64_t seed = 1;     // of the starts
   RobustLoss robust = RobustLoss::kNone;
   // Bodies with features are solved anew in up to so many rounds, until one changes the sum of
-  // squares by less than the share `settled`; 0: not at all (about the solution there is, or
-  // estimated where there is none).
+  // squares by less than the share `settled`; 0: not at all (about what is known, the rest
+  // estimated).
   int rounds = kFullRounds;
   double settled = 1e-6;
   bool keep_apart = true;  // relaxation times that coincide are moved apart (keep_terms_apart())
@@ -40,13 +40,14 @@ struct FitOptions {
   std::function<bool(const FitProgress&)> watch;
 };
 
-struct FitResult {
-  Model model;  // values, standard errors
+struct Fit {
+  Model model;          // values, standard errors
+  Linearisation about;  // of the bodies, for the model's material
+  ForceError error;     // on what was fitted
   bool converged = false;
   bool stopped = false;  // by the watch; never converged then
   int starts_done = 0;   // of FitOptions::starts, the skipped ones among them
   std::string message;
-  double rmse = 0;  // per force component [N], all three pooled; see per_measured_component()
   Eigen::Index residuals = 0;
   std::vector<std::string> at_bound;      // "elastic nu"
   std::vector<std::string> undetermined;  // parameters that the data cannot tell
@@ -55,25 +56,28 @@ struct FitResult {
   int discounted = 0;                     // force components that the robust loss halves or drops
 };
 
+// A model as it is, its bodies solved.
+Fit as_it_is(const Model& model, const Experiment& experiment);
+
+// Stacked forces of a fitted model, and their derivatives when asked.
+Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selection& selection,
+                    bool derivatives);
+
 // Fits on the chosen episodes by least squares of the forces. Standard errors come from the noise
-// (or the misfit, where that is larger) and from the gain error `floor` of each position. `body` is
-// solved again for inhomogeneous materials.
-FitResult fit(const Model& start, const Dataset& dataset, const Selection& selection,
-              BodyStiffness& body, const FitOptions& options);
+// (or the misfit, where that is larger) and from the gain error `floor` of each position. The
+// bodies are solved again as FitOptions says; `known`: what a fit that solves nothing stands on.
+Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
+        const FitOptions& options, const Linearisation& known = {});
 
 // From an estimate made from the `starts`, finite elements solved. Estimates are of first order and
 // may have led away from where they began: where much is left, from the nearest start as well.
-FitResult fit_solved(const Model& estimate, const std::vector<Model>& starts,
-                     const Dataset& dataset, const Selection& selection, BodyStiffness& body,
-                     const FitOptions& options);
+Fit fit_solved(const Model& estimate, const std::vector<Model>& starts,
+               const Experiment& experiment, const Selection& selection, const FitOptions& options);
 
 // The best of several starts, from which the search of FitOptions::starts begins.
-FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
-                   const Selection& selection, BodyStiffness& body, const FitOptions& options);
-
-// Root mean square of measured minus simulated force, per component [N].
-double rmse(const Model& model, const Dataset& dataset, const Selection& selection,
-            const BodyStiffness& body);
+Fit fit_best(const std::vector<Model>& starts, const Experiment& experiment,
+             const Selection& selection, const FitOptions& options,
+             const Linearisation& known = {});
 
 // Whole positions (or, with a single position, whole presses) left out in turn.
 struct Folds {
@@ -86,17 +90,21 @@ Folds make_folds(const Dataset& dataset, int count);
 // at a time. Says nothing of other positions.
 Folds make_press_folds(const Dataset& dataset, int count);
 
-// Builds the starts of a model from the episodes it may see.
-using ModelBuilder = std::function<std::vector<Model>(const Selection& training)>;
+// The starts of a model, and what fits that solve nothing stand on.
+struct Starts {
+  std::vector<Model> models;
+  Linearisation known;
+};
+// Builds them from the episodes it may see.
+using ModelBuilder = std::function<Starts(const Selection& training)>;
 
 struct HeldOut {
-  // [N] per component, over all held-out rows; NaN when nothing could be held out.
-  double rmse = std::numeric_limits<double>::quiet_NaN();
+  ForceError error;                // over all held-out rows; NaN when nothing could be held out
   std::vector<double> squares;     // sum of squares by fold [N^2]
   std::vector<double> components;  // 3 x rows by fold
 };
-// Truly refitted for every fold; a body with features stays linear about its last solution.
-HeldOut held_out_error(const ModelBuilder& builder, const Dataset& dataset, const Folds& folds,
-                       BodyStiffness& body, const FitOptions& options);
+// Truly refitted for every fold; bodies with features stay linear about what is known.
+HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment,
+                       const Folds& folds, const FitOptions& options);
 
 }  // namespace hapsim

@@ -28,34 +28,34 @@ const Model& nearest_start(const std::vector<Model>& starts, const Model& model)
   });
 }
 
-bool better_than(const FitResult& a, const FitResult& b) {
-  return a.converged != b.converged ? a.converged : a.rmse < b.rmse;
+bool better_than(const Fit& a, const Fit& b) {
+  return a.converged != b.converged ? a.converged : a.error.pooled < b.error.pooled;
 }
 
 }  // namespace
 
-FitResult fit_solved(const Model& estimate, const std::vector<Model>& starts,
-                     const Dataset& dataset, const Selection& selection, BodyStiffness& body,
-                     const FitOptions& options) {
+Fit fit_solved(const Model& estimate, const std::vector<Model>& starts,
+               const Experiment& experiment, const Selection& selection,
+               const FitOptions& options) {
   constexpr double kLeaves = 1.3;  // times the noise: not what is meant
   constexpr int kGlance = 2;       // rounds, to see whether the start is better
-  FitResult fitted = fit(estimate, dataset, selection, body, options);
-  if (fitted.stopped || (fitted.converged && fitted.rmse < kLeaves * options.noise)) return fitted;
+  Fit fitted = fit(estimate, experiment, selection, options);
+  if (fitted.stopped || (fitted.converged && fitted.error.pooled < kLeaves * options.noise))
+    return fitted;
   FitOptions glance = options;
   glance.rounds = std::min(options.rounds, kGlance);
   glance.starts = 1;
-  FitResult anew = fit(nearest_start(starts, estimate), dataset, selection, body, glance);
-  if (!anew.stopped && (anew.rmse < fitted.rmse || !fitted.converged)) {
+  Fit anew = fit(nearest_start(starts, estimate), experiment, selection, glance);
+  if (!anew.stopped && (anew.error.pooled < fitted.error.pooled || !fitted.converged)) {
     glance.rounds = options.rounds;
-    anew = fit(anew.model, dataset, selection, body, glance);
+    anew = fit(anew.model, experiment, selection, glance);
     if (better_than(anew, fitted)) fitted = std::move(anew);
   }
-  body.solve(material_of(fitted.model));
   return fitted;
 }
 
-FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
-                   const Selection& selection, BodyStiffness& body, const FitOptions& options) {
+Fit fit_best(const std::vector<Model>& starts, const Experiment& experiment,
+             const Selection& selection, const FitOptions& options, const Linearisation& known) {
   // Where each fit costs finite-element solutions, estimates choose the start.
   FitOptions each = options;
   const bool choose = starts.size() > 1 && is_linearised(material_of(starts[0]), false);
@@ -63,19 +63,20 @@ FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
   // All starts have the same bounds, over which the others are spread: one search is enough.
   const bool search = starts.size() > 1 && options.starts > 1;
   if (search) each.starts = 1;
-  FitResult best;
+  Fit best;
   bool found = false;
   for (std::size_t s = 0; s < starts.size(); ++s) {
-    FitResult result;
+    Fit result;
     try {
-      result = fit(starts[s], dataset, selection, body, each);
+      result = fit(starts[s], experiment, selection, each, known);
     } catch (const Error& error) {  // a start without forces; another one may have them
       const bool last = s + 1 == starts.size() && !found;
       if (error.code() != ExitCode::kNoConvergence || last) throw;
       continue;
     }
-    const bool better = !found || (result.converged && !best.converged) ||
-                        (result.converged == best.converged && result.rmse < best.rmse);
+    const bool better =
+        !found || (result.converged && !best.converged) ||
+        (result.converged == best.converged && result.error.pooled < best.error.pooled);
     const bool stopped = result.stopped;
     if (better) best = std::move(result);
     found = true;
@@ -87,8 +88,8 @@ FitResult fit_best(const std::vector<Model>& starts, const Dataset& dataset,
     return best;
   }
   if (choose && options.rounds > each.rounds)
-    return fit_solved(best.model, starts, dataset, selection, body, options);
-  return search ? fit(best.model, dataset, selection, body, options) : best;
+    return fit_solved(best.model, starts, experiment, selection, options);
+  return search ? fit(best.model, experiment, selection, options, known) : best;
 }
 
 }  // namespace hapsim

@@ -15,9 +15,9 @@ struct Sample {
   double E = 0, E_std = 0, nu = 0, nu_std = 0;
 };
 
-Sample fit_position(const Model& start, const Dataset& dataset, const Selection& selection,
-                    BodyStiffness& body, const FitOptions& options) {
-  const FitResult result = fit(start, dataset, selection, body, options);
+Sample fit_position(const Model& start, const Experiment& experiment, const Selection& selection,
+                    const FitOptions& options) {
+  const Fit result = fit(start, experiment, selection, options);
   const Parameter& e = *result.model.find("elastic", 0, "E");
   const Parameter& nu = *result.model.find("elastic", 0, "nu");
   Sample sample{result.converged && std::isfinite(e.std_error) && e.std_error > 0, e.value,
@@ -28,8 +28,9 @@ Sample fit_position(const Model& start, const Dataset& dataset, const Selection&
 
 }  // namespace
 
-LocationTable fit_locations(const Model& model, const Dataset& dataset, BodyStiffness& body,
+LocationTable fit_locations(const Model& model, const Experiment& experiment,
                             const FitOptions& options) {
+  const Dataset& dataset = experiment.dataset;
   Model start = model;
   if (start.has("regions")) remove_effect(start, "regions");
   const bool nu_is_free = start.find("elastic", 0, "nu")->state == ParameterState::kFree;
@@ -45,7 +46,7 @@ LocationTable fit_locations(const Model& model, const Dataset& dataset, BodyStif
         with_nu ? ParameterState::kFree : ParameterState::kFixed;
     std::vector<Sample> samples;
     for (const Selection& selection : at) {
-      samples.push_back(fit_position(start, dataset, selection, body, options));
+      samples.push_back(fit_position(start, experiment, selection, options));
       const Sample& s = samples.back();
       if (with_nu && !(s.found && s.nu_std > 0 && s.nu_std < kKnownNu))
         return std::vector<Sample>{};

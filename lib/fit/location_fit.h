@@ -11,7 +11,7 @@ namespace hapsim {
 // with nu_std 0 in all rows, when the model holds it or any position's presses alone do not
 // determine it to 0.1 (normal presses hardly do). Positions whose fit fails are left out and
 // counted in the metadata `failed`. Standard errors as fit()'s, with options.floor.
-LocationTable fit_locations(const Model& model, const Dataset& dataset, BodyStiffness& body,
+LocationTable fit_locations(const Model& model, const Experiment& experiment,
                             const FitOptions& options);
 
 }  // namespace hapsim

@@ -143,9 +143,10 @@ void set_windows(Model& model, const std::string& effect, const TimeWindows& win
   }
 }
 
-TermChoice choose_terms(const Model& base, const std::string& effect, int most,
-                        const Dataset& dataset, const Selection& selection, BodyStiffness& body,
+TermChoice choose_terms(const Fit& base, const std::string& effect, int most,
+                        const Experiment& experiment, const Selection& selection,
                         const FitOptions& fit_options, const ExtendOptions& options) {
+  const Dataset& dataset = experiment.dataset;
   const Folds all_folds = make_folds(dataset, 6);
   TermChoice choice;
   for (int terms = 1; terms <= most; ++terms) {
@@ -153,21 +154,19 @@ TermChoice choose_terms(const Model& base, const std::string& effect, int most,
     extend.terms = terms;
     TermTrial trial;
     trial.terms = terms;
-    trial.fit = fit_best(with_effect(base, effect, dataset, selection, body, extend), dataset,
-                         selection, body, fit_options);
-    trial.rmse = trial.fit.rmse;
+    trial.fit = fit_best(with_effect(base, effect, experiment, selection, extend), experiment,
+                         selection, fit_options, base.about);
     const double n = static_cast<double>(trial.fit.residuals);
-    trial.criterion = 2 * n * std::log(trial.rmse) +
+    trial.criterion = 2 * n * std::log(trial.fit.error.pooled) +
                       static_cast<double>(trial.fit.model.free_parameters().size()) * std::log(n);
-    trial.held_out = std::nan("");
     if (all_folds.held_out.size() > 1 && selection.size() == dataset.episodes.size()) {
       const ModelBuilder same = [&](const Selection&) {
-        return std::vector<Model>{trial.fit.model};
+        return Starts{{trial.fit.model}, trial.fit.about};
       };
       FitOptions quick = fit_options;
       quick.exact_regions = false;
       quick.starts = 1;
-      trial.held_out = held_out_error(same, dataset, all_folds, body, quick).rmse;
+      trial.held_out = held_out_error(same, experiment, all_folds, quick).error;
     }
     choice.trials.push_back(trial);
     if (terms == 1) {
@@ -175,8 +174,8 @@ TermChoice choose_terms(const Model& base, const std::string& effect, int most,
       continue;
     }
     const TermTrial& before = choice.trials[choice.trials.size() - 2];
-    const bool better = trial.fit.converged && trial.criterion < before.criterion - kDecisive &&
-                        !(trial.held_out >= before.held_out);
+    const bool better = trial.fit.converged && trial.criterion < before.criterion - kWorthATerm &&
+                        !(trial.held_out.pooled >= before.held_out.pooled);
     if (!better) break;
     choice.terms = terms;
   }

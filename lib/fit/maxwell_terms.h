@@ -31,21 +31,20 @@ void set_windows(Model& model, const std::string& effect, const TimeWindows& win
 
 struct TermTrial {
   int terms = 0;
-  double rmse = 0;       // [N]
-  double held_out = 0;   // [N] on what the fit has not seen; NaN when nothing could be held out
+  ForceError held_out;   // on what the fit has not seen; NaN when nothing could be held out
   double criterion = 0;  // BIC = n log(sum of squares / n) + parameters log n (Schwarz, 1978)
-  FitResult fit;
+  Fit fit;
 };
 struct TermChoice {
   std::vector<TermTrial> trials;  // one term, two, ... : one more than chosen, unless `most` is
   int terms = 0;                  // chosen
 };
 
-// One more term as long as it lowers the criterion by more than kDecisive and the held-out error.
-TermChoice choose_terms(const Model& base, const std::string& effect, int most,
-                        const Dataset& dataset, const Selection& selection, BodyStiffness& body,
+// One more term as long as it lowers the criterion by more than kWorthATerm and the held-out error.
+TermChoice choose_terms(const Fit& base, const std::string& effect, int most,
+                        const Experiment& experiment, const Selection& selection,
                         const FitOptions& fit_options, const ExtendOptions& options);
-constexpr double kDecisive = 10;  // Kass and Raftery, J. Am. Statist. Assoc. 90, 1995
+constexpr double kWorthATerm = 10;  // Kass and Raftery, J. Am. Statist. Assoc. 90, 1995
 
 // Free relaxation times that these presses cannot tell, in words: with a standard error above a
 // third, or longer than the longest press, which no press has seen the end of. A single term has a

@@ -44,10 +44,11 @@ Recording beginning_of_presses(const Recording& recording, double seconds,
   return cut;
 }
 
-LaterError later_error(const Model& model, const Dataset& whole, const BodyStiffness& body,
-                       double seconds) {
+LaterError later_error(const Fit& fitted, const Dataset& whole, double seconds) {
   const Selection all = all_episodes(whole);
-  const Eigen::VectorXd f = model_forces(model, whole, all, body, false).f;
+  const MaterialSpec material = material_of(fitted.model);
+  const auto stiffness_at = [&](std::size_t p) { return fitted.about.at(p, material); };
+  const Eigen::VectorXd f = model_forces(fitted.model, whole, stiffness_at, all, false).f;
   const Eigen::VectorXd left = measured_forces(whole, all) - f;
   LaterError error;
   std::vector<double> share;
@@ -64,8 +65,7 @@ LaterError later_error(const Model& model, const Dataset& whole, const BodyStiff
       ++error.rows;
     }
   }
-  error.rmse = std::sqrt(
-      squares / std::max(1.0, measured_axes(whole.recording.f) * static_cast<double>(error.rows)));
+  error.rmse = std::sqrt(squares / std::max(1.0, whole.axes * static_cast<double>(error.rows)));
   if (share.empty()) return error;
   const auto middle = share.begin() + static_cast<long>(share.size() / 2);
   std::nth_element(share.begin(), middle, share.end());

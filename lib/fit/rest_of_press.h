@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "experiment/forces.h"
+#include "fit/fit.h"
 
 namespace hapsim {
 
@@ -19,8 +19,8 @@ struct LaterError {
   double median = 0;     // of |measured - model| over the peak |measured| of the press
   std::size_t rows = 0;  // so many
 };
-// `whole`: the recording uncut, with its normals; its positions are those of `body`.
-LaterError later_error(const Model& model, const Dataset& whole, const BodyStiffness& body,
-                       double seconds);
+// `whole`: the recording uncut, with its normals; its positions are those of the experiment that
+// was fitted.
+LaterError later_error(const Fit& fitted, const Dataset& whole, double seconds);
 
 }  // namespace hapsim

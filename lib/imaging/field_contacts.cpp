@@ -5,21 +5,21 @@
 
 namespace hapsim {
 
-FieldContacts::FieldContacts(const TetMesh& body, const BodyStiffness& stiffness,
-                             double tool_radius, double nu, const FieldGrid& grid, std::size_t keep)
-    : stiffness_(stiffness),
+FieldContacts::FieldContacts(const TetMesh& body, const Places& places, double tool_radius,
+                             double nu, const FieldGrid& grid, std::size_t keep)
+    : places_(places),
       base_(make_contact_base(body)),
       tool_radius_(tool_radius),
       nu_(nu),
       grid_(grid),
       keep_(keep) {}
 
-FieldContacts::Prepared FieldContacts::take(std::size_t position) const {
+FieldContacts::Prepared FieldContacts::take(std::size_t position) {
   {
     const std::lock_guard lock(mutex_);
     if (auto node = kept_.extract(position); !node.empty()) return std::move(node.mapped());
   }
-  return {std::make_unique<FieldBody>(base_, stiffness_.position(position), tool_radius_,
+  return {std::make_unique<FieldBody>(base_, places_.position(position), tool_radius_,
                                       kFieldRim * tool_radius_, kGrowth, grid_),
           {},
           false};
@@ -27,11 +27,11 @@ FieldContacts::Prepared FieldContacts::take(std::size_t position) const {
 
 Eigen::Matrix3d FieldContacts::scale(std::size_t position, const Eigen::Matrix3d& K_coarse) const {
   Eigen::Matrix3d fine, by_nu;
-  stiffness_.contact(position).stiffness.evaluate(nu_, fine, by_nu);
+  places_.contact(position).stiffness.evaluate(nu_, fine, by_nu);
   return fine.llt().matrixL().toDenseMatrix() * K_coarse.llt().matrixL().toDenseMatrix().inverse();
 }
 
-FieldContacts::Contact FieldContacts::at(std::size_t position, const Eigen::VectorXd& field) const {
+FieldContacts::Contact FieldContacts::at(std::size_t position, const Eigen::VectorXd& field) {
   Prepared prepared = take(position);
   const Eigen::VectorXd homogeneous = Eigen::VectorXd::Zero(field.size());
   if (!prepared.has_S && field != homogeneous)

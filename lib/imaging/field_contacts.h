@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "contact/field_stiffness.h"
-#include "experiment/body_stiffness.h"
+#include "experiment/places.h"
 
 namespace hapsim {
 
@@ -17,9 +17,9 @@ constexpr double kFieldRim = 0.25;
 
 class FieldContacts {
  public:
-  // `stiffness` gives the positions and their homogeneous stiffness at `nu`. Meshes and matrices
+  // `places` gives the positions and their homogeneous stiffness at `nu`. Meshes and matrices
   // (some 40 MB a position) are kept for the next field, up to `keep` positions.
-  FieldContacts(const TetMesh& body, const BodyStiffness& stiffness, double tool_radius, double nu,
+  FieldContacts(const TetMesh& body, const Places& places, double tool_radius, double nu,
                 const FieldGrid& grid, std::size_t keep);
 
   // At one position, for a body whose modulus is exp(field) at the nodes of the grid [N/m]:
@@ -33,7 +33,7 @@ class FieldContacts {
     // dK in a direction of the field: `change` = by_node times the change at the nodes.
     Eigen::Matrix3d change_of(const Eigen::Matrix<double, 6, 1>& change) const;
   };
-  Contact at(std::size_t position, const Eigen::VectorXd& field) const;
+  Contact at(std::size_t position, const Eigen::VectorXd& field);
 
   const ContactBase& base() const { return base_; }
   const FieldGrid& grid() const { return grid_; }
@@ -44,17 +44,17 @@ class FieldContacts {
     Eigen::Matrix3d S;
     bool has_S = false;
   };
-  Prepared take(std::size_t position) const;
+  Prepared take(std::size_t position);
   // S of K_coarse, that of the homogeneous body.
   Eigen::Matrix3d scale(std::size_t position, const Eigen::Matrix3d& K_coarse) const;
 
-  const BodyStiffness& stiffness_;
+  Places places_;
   ContactBase base_;
   double tool_radius_, nu_;
   FieldGrid grid_;
   std::size_t keep_;
-  mutable std::mutex mutex_;
-  mutable std::map<std::size_t, Prepared> kept_;
+  std::mutex mutex_;
+  std::map<std::size_t, Prepared> kept_;
 };
 
 }  // namespace hapsim

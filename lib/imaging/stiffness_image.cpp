@@ -36,7 +36,7 @@ FieldGrid grid_about(const std::vector<PreparedContact>& contacts, const TetMesh
 }
 
 // Derivatives of the log gains by log E at the nodes: views x nodes.
-Eigen::MatrixXd sensitivities(const FieldContacts& contacts, std::size_t positions,
+Eigen::MatrixXd sensitivities(FieldContacts& contacts, std::size_t positions,
                               const std::vector<ImageView>& views, const ImageOptions& options) {
   const auto nodes = static_cast<Eigen::Index>(contacts.grid().size());
   Eigen::MatrixXd J(static_cast<Eigen::Index>(views.size()), nodes);
@@ -57,15 +57,17 @@ Eigen::MatrixXd sensitivities(const FieldContacts& contacts, std::size_t positio
 
 }  // namespace
 
-std::vector<ImageView> image_views(const Model& model, const Dataset& dataset,
-                                   const BodyStiffness& body, double noise) {
+std::vector<ImageView> image_views(const Model& model, const Experiment& experiment,
+                                   const Linearisation& about) {
+  const Dataset& dataset = experiment.dataset;
+  const double noise = experiment.noise.value;
   Model without_sensor = model;
   std::erase_if(without_sensor.parameters, [](const Parameter& p) {
     return require_effect(p.effect).card().stage == Stage::kSensor;
   });
   const Selection all = all_episodes(dataset);
-  const Eigen::VectorXd full = model_forces(model, dataset, all, body, false).f;
-  const Eigen::VectorXd f = model_forces(without_sensor, dataset, all, body, false).f;
+  const Eigen::VectorXd full = model_forces(model, experiment, about, all, false).f;
+  const Eigen::VectorXd f = model_forces(without_sensor, experiment, about, all, false).f;
   const Eigen::VectorXd target = measured_forces(dataset, all) - (full - f);
   const MaterialSpec material = material_of(model);
   struct Sums {
@@ -95,24 +97,24 @@ std::vector<ImageView> image_views(const Model& model, const Dataset& dataset,
   for (const Sums& s : sums) {
     const double power = s.ff.trace();
     if (power <= 0 || s.ft <= 0) continue;
-    const Eigen::Matrix3d K = body.at(static_cast<std::size_t>(s.position), material).K;
+    const Eigen::Matrix3d K = about.at(static_cast<std::size_t>(s.position), material).K;
     views.push_back(
         {s.position, K.inverse() * s.ff / power, s.ft / power, noise / std::sqrt(power)});
   }
   return views;
 }
 
-StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
-                               const BodyStiffness& stiffness, const TetMesh& body, double noise_N,
+StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
+                               const Linearisation& about, const TetMesh& body,
                                const ImageOptions& options) {
-  const double tool = dataset.recording.tool_radius();
+  const double tool = experiment.dataset.recording.tool_radius();
   const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
-  const std::vector<ImageView> views = image_views(model, dataset, stiffness, noise_N);
+  const std::vector<ImageView> views = image_views(model, experiment, about);
   const auto n = static_cast<Eigen::Index>(views.size());
-  const std::vector<PreparedContact>& pressed = stiffness.setup(0).contacts();
+  const std::vector<PreparedContact>& pressed = experiment.places.setup(0)->contacts();
   const FieldGrid grid =
       grid_about(pressed, body, tool, options.step > 0 ? options.step : 0.7 * tool, depth);
-  const FieldContacts contacts(body, stiffness, tool, material_of(model).nu, grid, 0);
+  FieldContacts contacts(body, experiment.places, tool, material_of(model).nu, grid, 0);
   const Eigen::MatrixXd J = sensitivities(contacts, pressed.size(), views, options);
   Eigen::VectorXd data(n), noise(n);
   std::vector<int> position;

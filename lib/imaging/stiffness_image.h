@@ -35,14 +35,14 @@ struct StiffnessImage {
 
 // Gains by position and direction (presses within 15 degrees are one view) by regression on the
 // model's forces; effects of the sensor are kept.
-std::vector<ImageView> image_views(const Model& model, const Dataset& dataset,
-                                   const BodyStiffness& body, double noise);
+std::vector<ImageView> image_views(const Model& model, const Experiment& experiment,
+                                   const Linearisation& about);
 
 // The sensitivities of all gains are the energies of the unit fields in every element: one solution
 // a position on the body of `model` with its modulus alone, linear from there on. From them come
-// the field (image_field.h) and the balls (ball_search.h). `noise` [N]. One setup only.
-StiffnessImage stiffness_image(const Model& model, const Dataset& dataset,
-                               const BodyStiffness& stiffness, const TetMesh& body, double noise,
+// the field (image_field.h) and the balls (ball_search.h). One setup only.
+StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
+                               const Linearisation& about, const TetMesh& body,
                                const ImageOptions& options);
 
 // In words: what was found and how deep these presses see.

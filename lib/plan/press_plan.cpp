@@ -24,10 +24,7 @@ constexpr std::size_t kMorePlaces = 6;
 struct Candidates {
   Dataset dataset;
   std::vector<std::string> names;             // one an episode
-  std::unique_ptr<SetupStiffness> elsewhere;  // when it has more positions than the recording
-  const SetupStiffness& body(const Workspace& w) const {
-    return elsewhere ? *elsewhere : w.body->setup(0);
-  }
+  std::shared_ptr<const SetupPlaces> places;  // the recording's, or more
 };
 
 // Whether the model says something of places that were not pressed that no other model says.
@@ -39,42 +36,39 @@ bool depends_on_place(const Model& model) {
   return false;
 }
 
-// The recording's positions and some between and around them, solved for every model. None that
-// cannot be pressed.
-std::unique_ptr<SetupStiffness> more_positions(const std::vector<Model>& models,
-                                               const Workspace& w) {
-  if (std::none_of(models.begin(), models.end(), depends_on_place)) return nullptr;
-  const SetupStiffness& pressed = w.body->setup(0);
-  std::vector<Vec3> places = pressed.positions();
-  for (const Vec3& p : unpressed_places(pressed.surface(), pressed.contacts(),
-                                        w.dataset.recording.tool_radius(), kMorePlaces)) {
+// The recording's positions, and some between and around them where the models say different things
+// of other places. None that cannot be pressed.
+std::shared_ptr<const SetupPlaces> places_for(const std::vector<Model>& models,
+                                              const Experiment& e) {
+  const std::shared_ptr<const SetupPlaces>& pressed = e.places.setup(0);
+  if (std::none_of(models.begin(), models.end(), depends_on_place)) return pressed;
+  std::vector<Vec3> places = pressed->positions();
+  for (const Vec3& p : unpressed_places(pressed->surface(), pressed->contacts(),
+                                        e.dataset.recording.tool_radius(), kMorePlaces)) {
     try {
-      pressed.with_positions({p});
+      pressed->with_positions({p});
       places.push_back(p);
     } catch (const Error&) {  // an edge, a gap: nothing to press on
     }
   }
-  std::unique_ptr<SetupStiffness> body = pressed.with_positions(places);
-  for (const Model& m : models) body->solve(material_of(m));
-  return body;
+  return pressed->with_positions(places);
 }
 
-std::vector<Vec3> normals_of(const SetupStiffness& body) {
+std::vector<Vec3> normals_of(const SetupPlaces& places) {
   std::vector<Vec3> normals;
-  for (const PreparedContact& c : body.contacts()) normals.push_back(c.normal);
+  for (const PreparedContact& c : places.contacts()) normals.push_back(c.normal);
   return normals;
 }
 
 // Every path at every position, each as if it came right after the recording.
-Candidates make_candidates(const std::vector<Model>& models, const Workspace& w) {
-  const Dataset& known = w.dataset;
+Candidates make_candidates(const std::vector<Model>& models, const Experiment& e) {
+  const Dataset& known = e.dataset;
   const DataSummary summary = summarise(known, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   Candidates candidates;
-  candidates.elsewhere = more_positions(models, w);
-  const SetupStiffness& body = candidates.body(w);
-  const std::vector<Vec3>& positions = body.positions();
-  const std::vector<Vec3> normals = normals_of(body);
+  candidates.places = places_for(models, e);
+  const std::vector<Vec3>& positions = candidates.places->positions();
+  const std::vector<Vec3> normals = normals_of(*candidates.places);
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
@@ -88,16 +82,16 @@ Candidates make_candidates(const std::vector<Model>& models, const Workspace& w)
     r.temp.assign(r.rows(),
                   std::accumulate(known.recording.temp.begin(), known.recording.temp.end(), 0.0) /
                       static_cast<double>(known.recording.temp.size()));
-  candidates.dataset = make_dataset(std::move(r));
-  set_normals(candidates.dataset, normals);
+  candidates.dataset = with_normals(make_dataset(std::move(r)), normals);
   std::vector<double> past(positions.size(), 0);
-  for (const Episode& e : known.episodes)
-    for (std::size_t i = 0; i < e.view.size(); ++i)
-      if (!e.view.in_air[i]) past[e.position] = std::max(past[e.position], e.view.u[i].norm());
-  for (Episode& e : candidates.dataset.episodes) {
-    e.view.past_depth = past[e.position];
-    for (std::size_t i = 0; i < e.view.session.size(); ++i)
-      e.view.session[i] = summary.session + kPauseBetweenPresses + e.view.t[i];
+  for (const Episode& press : known.episodes)
+    for (std::size_t i = 0; i < press.view.size(); ++i)
+      if (!press.view.in_air[i])
+        past[press.position] = std::max(past[press.position], press.view.u[i].norm());
+  for (Episode& press : candidates.dataset.episodes) {
+    press.view.past_depth = past[press.position];
+    for (std::size_t i = 0; i < press.view.session.size(); ++i)
+      press.view.session[i] = summary.session + kPauseBetweenPresses + press.view.t[i];
   }
   return candidates;
 }
@@ -123,11 +117,11 @@ Model without_press_offsets(Model model) {
 }
 
 // Information on the model's parameters in the recording, with a trace of what their bounds say.
-Eigen::MatrixXd known_information(const Model& model, const Workspace& w) {
+Eigen::MatrixXd known_information(const Model& model, const Experiment& e) {
   constexpr double kVague = 100;
-  const Selection all = all_episodes(w.dataset);
-  Signal signal = model_forces(model, w.dataset, all, *w.body, true);
-  Weights(w.dataset, all, signal.f, w.noise.value, w.floor).whiten(signal.df);
+  const Selection all = all_episodes(e.dataset);
+  Signal signal = solved_forces(model, e, all, true);
+  Weights(e.dataset, all, signal.f, e.noise.value, e.floor).whiten(signal.df);
   Eigen::MatrixXd H = signal.df.transpose() * signal.df;
   const std::vector<int> free = model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c) {
@@ -170,16 +164,19 @@ std::vector<std::size_t> choose(std::size_t candidates, std::size_t count, const
 
 }  // namespace
 
-MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& w,
+MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment& e,
                              std::size_t count) {
   std::vector<Model> plain;
   std::vector<Eigen::MatrixXd> known;
   for (const Model& m : models) {
     plain.push_back(without_press_offsets(m));
-    known.push_back(known_information(plain.back(), w));
+    known.push_back(known_information(plain.back(), e));
   }
-  const Candidates candidates = make_candidates(plain, w);
-  const SetupStiffness& body = candidates.body(w);
+  const Candidates candidates = make_candidates(plain, e);
+  const SetupPlaces& places = *candidates.places;
+  std::vector<SetupLinearisation> about;
+  for (const Model& m : plain)
+    about.push_back(SetupLinearisation::solve(candidates.places, material_of(m)));
   const std::size_t presses = candidates.dataset.episodes.size();
   // By press and ordered pair of models (a model with itself when it is alone).
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
@@ -190,14 +187,14 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
   for (std::size_t k = 0; k < presses; ++k) {
     const Selection one{static_cast<int>(k)};
     std::vector<Signal> signals;
-    for (const Model& m : plain) {
-      const MaterialSpec material = material_of(m);
-      signals.push_back(model_forces(
-          m, candidates.dataset, one, [&](std::size_t p) { return body.at(p, material); }, true,
-          body.threads()));
+    for (std::size_t m = 0; m < plain.size(); ++m) {
+      const MaterialSpec material = material_of(plain[m]);
+      const auto stiffness_at = [&](std::size_t p) { return about[m].at(p, material); };
+      signals.push_back(
+          model_forces(plain[m], candidates.dataset, stiffness_at, one, true, places.threads()));
     }
     for (const auto& [a, b] : pairs) {
-      const Weights weights(candidates.dataset, one, signals[b].f, w.noise.value, w.floor);
+      const Weights weights(candidates.dataset, one, signals[b].f, e.noise.value, e.floor);
       Eigen::MatrixXd r = signals[a].f - signals[b].f, J = signals[b].df;
       weights.whiten(r);
       weights.whiten(J);
@@ -249,24 +246,23 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& 
   }
 
   Recording& motion = plan.motion;
-  motion.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
-  const DataSummary summary = summarise(w.dataset, 1);
+  motion.metadata.set("tool_radius", format_number(e.dataset.recording.tool_radius()));
+  const DataSummary summary = summarise(e.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
-  const std::vector<Vec3> normals = normals_of(body);
+  const std::vector<Vec3> normals = normals_of(places);
   const std::vector<PressPath> all_paths = press_paths(summary.depth);
   double start = 0;
   for (const std::size_t k : chosen) {
-    const Episode& e = candidates.dataset.episodes[k];
-    const auto position = static_cast<std::size_t>(e.position);
+    const auto position = static_cast<std::size_t>(candidates.dataset.episodes[k].position);
     const int number = static_cast<int>(plan.presses.size()) + 1;
-    append_press(motion, number, start, step, body.positions()[position], normals[position],
+    append_press(motion, number, start, step, places.positions()[position], normals[position],
                  all_paths[k % all_paths.size()]);
     start = motion.t.back() + kPauseBetweenPresses;
     double alone = std::numeric_limits<double>::infinity();
     if (plain.size() > 1)
       for (std::size_t q = 0; q < pairs.size(); ++q)
         alone = std::min(alone, separation(evidence[k][q], known[pairs[q].second]));
-    plan.presses.push_back({candidates.names[k], body.positions()[position],
+    plan.presses.push_back({candidates.names[k], places.positions()[position],
                             plain.size() > 1 ? std::sqrt(std::max(0.0, alone)) : 0});
   }
   return plan;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 
 namespace hapsim {
 
@@ -32,9 +32,9 @@ struct MeasurementPlan {
 // as deep again; slowly, fast, and fast with a hold; pushed sideways along two directions and their
 // diagonal, and pushed to and fro. Picks them one by one, each the best on top of those before it
 // (greedy D- and T-optimal design: Atkinson and Fedorov, Biometrika 62, 1975). Differences below 1
-// % of the force count for nothing: no model is so good. `models` are fitted to the workspace's
+// % of the force count for nothing: no model is so good. `models` are fitted to the experiment's
 // recording.
-MeasurementPlan plan_presses(const std::vector<Model>& models, const Workspace& workspace,
+MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment& experiment,
                              std::size_t count = 3);
 
 }  // namespace hapsim

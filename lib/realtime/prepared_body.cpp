@@ -110,11 +110,11 @@ void PreparedBody::maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) c
            weight[2] * maxwell_[static_cast<std::size_t>(t[2]) * terms + j];
 }
 
-std::vector<KnownStiffness> known_contacts(const BodyStiffness& body,
-                                           const MaterialSpec& material) {
+std::vector<KnownStiffness> known_contacts(const Places& places, const MaterialSpec& material) {
+  const Linearisation about = places.solve(material);
   std::vector<KnownStiffness> known;
-  for (std::size_t p = 0; p < body.size(); ++p)
-    known.push_back({body.contact(p).point, body.contact(p).normal, body.at(p, material).K});
+  for (std::size_t p = 0; p < places.size(); ++p)
+    known.push_back({places.contact(p).point, places.contact(p).normal, about.at(p, material).K});
   return known;
 }
 

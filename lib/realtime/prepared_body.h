@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "experiment/body_stiffness.h"
+#include "experiment/places.h"
 #include "mesh/signed_distance.h"
 #include "model/model.h"
 #include "model/relaxation_steps.h"
@@ -58,7 +58,7 @@ class PreparedBody {
   std::unique_ptr<SignedDistance> distance_;
 };
 
-// The stiffnesses that the batch mode would take at the positions of `body`.
-std::vector<KnownStiffness> known_contacts(const BodyStiffness& body, const MaterialSpec& material);
+// The stiffnesses that the batch mode would take at these places, solved for the material.
+std::vector<KnownStiffness> known_contacts(const Places& places, const MaterialSpec& material);
 
 }  // namespace hapsim

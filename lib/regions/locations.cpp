@@ -9,15 +9,17 @@
 
 namespace hapsim {
 
-std::vector<LocationSample> location_samples(const Model& model, const Dataset& dataset,
-                                             const Selection& selection, const BodyStiffness& body,
-                                             double noise, double floor) {
+std::vector<LocationSample> location_samples(const Model& model, const Experiment& experiment,
+                                             const Linearisation& about, const Selection& selection,
+                                             const Allowance& allowance) {
+  const Dataset& dataset = experiment.dataset;
+  const auto& [noise, floor] = allowance;
   Model without_sensor = model;
   std::erase_if(without_sensor.parameters, [](const Parameter& p) {
     return require_effect(p.effect).card().stage == Stage::kSensor;
   });
-  const Eigen::VectorXd full = model_forces(model, dataset, selection, body, false).f;
-  const Eigen::VectorXd f = model_forces(without_sensor, dataset, selection, body, false).f;
+  const Eigen::VectorXd full = model_forces(model, experiment, about, selection, false).f;
+  const Eigen::VectorXd f = model_forces(without_sensor, experiment, about, selection, false).f;
   const Eigen::VectorXd target = measured_forces(dataset, selection) - (full - f);
 
   struct Sums {

@@ -16,10 +16,10 @@ struct LocationSample {
 
 // One gain a position, by regression of the measured on the model's force with the sensor's effects
 // kept; all other parameters as they are (thesis 5.2.1). The error has the residual's size at that
-// position and the gain error `floor` of mesh and geometry.
-std::vector<LocationSample> location_samples(const Model& model, const Dataset& dataset,
-                                             const Selection& selection, const BodyStiffness& body,
-                                             double noise, double floor);
+// position and the gain error of mesh and geometry.
+std::vector<LocationSample> location_samples(const Model& model, const Experiment& experiment,
+                                             const Linearisation& about, const Selection& selection,
+                                             const Allowance& allowance);
 
 // Samples of one place (by several tools) as one: the weighted mean of their log gains.
 std::vector<LocationSample> merged_places(const std::vector<LocationSample>& samples);

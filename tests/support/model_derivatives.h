@@ -6,13 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment/experiment.h"
 #include "experiment/forces.h"
-#include "experiment/workspace.h"
 
 namespace hapsim::test {
 
-inline void expect_derivatives(const Workspace& w, const Model& model, const Selection& selection) {
-  const Signal signal = model_forces(model, w.dataset, selection, *w.body, true);
+// About the model's own material; or about `known`, where it is given.
+inline void expect_derivatives(const Experiment& w, const Model& model, const Selection& selection,
+                               Linearisation known = {}) {
+  if (known.empty()) known = w.places.solve(material_of(model));
+  const Signal signal = model_forces(model, w, known, selection, true);
   const std::vector<int> free = model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c) {
     const double value = model.parameters[free[c]].value;
@@ -21,7 +24,7 @@ inline void expect_derivatives(const Workspace& w, const Model& model, const Sel
     const auto forces = [&](double change) {
       Model other = model;
       other.parameters[free[c]].value += change;
-      return model_forces(other, w.dataset, selection, *w.body, false).f;
+      return model_forces(other, w, known, selection, false).f;
     };
     const Eigen::VectorXd difference = (forces(step) - forces(-step)) / (2 * step);
     EXPECT_LT((signal.df.col(static_cast<Eigen::Index>(c)) - difference).norm(),

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "effects/catalogue.h"
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 #include "fit/extend.h"
 #include "support/block_mesh.h"
 
@@ -38,18 +38,18 @@ inline Recording presses() {
   return r;
 }
 
-inline Workspace workspace() {
-  WorkspaceOptions options;
+inline Experiment experiment() {
+  ExperimentOptions options;
   options.rim_edge = 0.3;
   options.noise = 0.01;
   options.floor = 0.01;
-  return make_workspace(block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), presses(), options);
+  return make_experiment(block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), presses(), options);
 }
 
 // Replaces the measured forces by the model's and noise.
-inline void measure(Workspace& w, const Model& model, double noise, std::uint64_t seed) {
+inline void measure(Experiment& w, const Model& model, double noise, std::uint64_t seed) {
   const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = model_forces(model, w.dataset, all, *w.body, false).f;
+  const Eigen::VectorXd f = solved_forces(model, w, all, false).f;
   const std::vector<int> rows = stacked_rows(w.dataset, all);
   Random random(seed);
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "experiment/workspace.h"
+#include "experiment/experiment.h"
 #include "fit/extend.h"
 #include "support/block_mesh.h"
 #include "support/finer_contact.h"
@@ -42,15 +42,15 @@ void press(Pressed& all, const ContactBase& truth, const Setup& setup, const Vec
   }
 }
 
-FitResult fitted(const std::vector<TetMesh>& bodies, const Pressed& pressed, double floor) {
-  WorkspaceOptions options;
+Fit fitted(const std::vector<TetMesh>& bodies, const Pressed& pressed, double floor) {
+  ExperimentOptions options;
   options.noise = 5e-4;
   options.floor = floor;
-  Workspace w = make_workspace(bodies, pressed.recording, pressed.setup_of_row, options);
+  const Experiment w =
+      make_experiment(bodies, make_dataset(pressed.recording, pressed.setup_of_row), options);
   EXPECT_EQ(w.dataset.positions.size(), w.dataset.setups.size());
   const Selection all = all_episodes(w.dataset);
-  return fit(elastic_model(w.dataset, all, *w.body), w.dataset, all, *w.body,
-             {w.noise.value, w.floor, true});
+  return fit(elastic_model(w, all), w, all, {w.noise.value, w.floor, true});
 }
 
 TEST(Together, TwoToolsTellPoissonsRatioWhereOneCannot) {
@@ -63,7 +63,7 @@ TEST(Together, TwoToolsTellPoissonsRatioWhereOneCannot) {
   one = two;
   press(two, truth, {0, 0.009}, {0.03, 0.03, 0.02}, 0.002, random);
   one.recording.name = two.recording.name = "block";
-  const FitResult by_one = fitted(bodies, one, 0.01), by_two = fitted(bodies, two, 0.01);
+  const Fit by_one = fitted(bodies, one, 0.01), by_two = fitted(bodies, two, 0.01);
   const Parameter& nu = *by_two.model.find("elastic", 0, "nu");
   const Parameter& alone = *by_one.model.find("elastic", 0, "nu");
   EXPECT_TRUE(by_two.converged);
@@ -90,7 +90,7 @@ TEST(Together, TwoBodiesOfOneMaterial) {
     press(pressed, test::finer_base(exact[b], kFiner), {b, 0.006}, places[b], 0.002, random);
   }
   pressed.recording.name = "bodies";
-  const FitResult result = fitted(bodies, pressed, 0.01);
+  const Fit result = fitted(bodies, pressed, 0.01);
   EXPECT_TRUE(result.converged);
   const Parameter& e = *result.model.find("elastic", 0, "E");
   const Parameter& nu = *result.model.find("elastic", 0, "nu");

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "base/error.h"
+#include "experiment/experiment.h"
 #include "experiment/forces.h"
-#include "experiment/workspace.h"
 #include "formats/tetmesh_io.h"
 #include "mesh/tetmesh.h"
 
@@ -26,12 +26,11 @@ int main(int argc, char** argv) try {
     motion.position.emplace_back(std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5]));
     motion.u.emplace_back(0, 0, -0.1 * i * std::atof(argv[7]));
   }
-  WorkspaceOptions options;
+  ExperimentOptions options;
   options.noise = 1;  // there are no measured forces that could tell it
   set_poisson_range(model, options);
-  Workspace w = make_workspace(body, motion, options);
-  w.body->solve(material_of(model));
-  const Signal force = model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false);
+  const Experiment w = make_experiment(body, motion, options);
+  const Signal force = solved_forces(model, w, all_episodes(w.dataset), false);
   for (int i = 0; i < 10; ++i)
     std::printf("%.6f %.6f %.6f %.6f\n", -motion.u[i].z(), force.f[3 * i], force.f[3 * i + 1],
                 force.f[3 * i + 2]);

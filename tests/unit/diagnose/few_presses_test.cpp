@@ -55,23 +55,23 @@ Recording press(const Material& m, std::uint64_t seed) {
   return r;
 }
 
-Workspace workspace(const Material& m, std::uint64_t seed) {
-  WorkspaceOptions options;
+Experiment experiment(const Material& m, std::uint64_t seed) {
+  ExperimentOptions options;
   options.rim_edge = 0.3;
   options.noise = m.noise;
   options.floor = 0.01;
-  return make_workspace(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), press(m, seed), options);
+  return make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), press(m, seed), options);
 }
 
-Model start_of(const Workspace& w) {
-  Model start = elastic_model(w.dataset, all_episodes(w.dataset), *w.body);
+Model start_of(const Experiment& w) {
+  Model start = elastic_model(w, all_episodes(w.dataset));
   start.find("elastic", 0, "nu")->state = ParameterState::kFixed;
   return start;
 }
 
 Diagnosis diagnosed(const Material& m, std::uint64_t seed = 1) {
-  Workspace w = workspace(m, seed);
-  return diagnose(start_of(w), w, {});
+  const Experiment w = experiment(m, seed);
+  return diagnose(start_of(w), w, w.allowance(), {});
 }
 
 std::vector<std::string> with_verdict(const Diagnosis& d, Verdict verdict) {
@@ -96,7 +96,7 @@ TEST(FewPresses, RelaxationAndStiffeningAreFoundTogether) {
     named.push_back(name);
   EXPECT_TRUE(holds(named, "tip") || holds(named, "hyperelastic"));
   EXPECT_FALSE(holds(named, "sensor-drift"));
-  EXPECT_LT(d.rmse_end, 0.05 * d.rmse);
+  EXPECT_LT(d.rmse_end.told(), 0.05 * d.rmse.told());
 }
 
 // At the ends of a ramp a dashpot's force comes and goes within a sample, that of the quickest
@@ -129,17 +129,17 @@ TEST(FewPresses, NothingIsFoundInNothing) {
 
 // The finite elements of one set's layer are no basis for what another set's layer does.
 TEST(EffectSets, AreComputedWithTheirOwnBody) {
-  Workspace w = workspace({1.2, 0.6, {{0.4, 1}}}, 1);
+  const Experiment w = experiment({1.2, 0.6, {{0.4, 1}}}, 1);
   const DiagnoseOptions options;
-  EffectSets sets(make_baseline(start_of(w), w, {}), w, options);
+  const TrialGround ground(w, w.allowance());
+  EffectSets sets(make_baseline(start_of(w), ground, {}), ground, options);
   const Effect& layer = require_effect("layer");
   const EffectSet* alone = sets.grown(*sets.find({}), layer);
   const EffectSet* beside = sets.grown(*sets.find({"viscoelastic"}), layer);
   ASSERT_TRUE(alone != nullptr && beside != nullptr);
   const Selection all = all_episodes(w.dataset);
   for (const EffectSet* set : {alone, beside, alone}) {
-    solve_body_of(*set, w);
-    const Eigen::VectorXd f = model_forces(set->fitted.model, w.dataset, all, *w.body, false).f;
+    const Eigen::VectorXd f = solved_forces(set->fitted.model, w, all, false).f;
     EXPECT_LT((measured_forces(w.dataset, all) - f - set->residual).norm(), 1e-9 * f.norm());
   }
 }

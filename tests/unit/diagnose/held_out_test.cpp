@@ -13,8 +13,8 @@ namespace {
 constexpr double kNoise = 0.01;
 
 // Two corners far from each other are stiffer: neither can be told from the positions around it.
-Workspace two_stiff_corners(const Model& model) {
-  Workspace w = test::workspace();
+Experiment two_stiff_corners(const Model& model) {
+  Experiment w = test::experiment();
   test::measure(w, model, kNoise, 5);
   for (const Episode& e : w.dataset.episodes)
     for (const int row : e.rows)
@@ -22,42 +22,45 @@ Workspace two_stiff_corners(const Model& model) {
   return w;
 }
 
-Model with_map(const Model& model, Workspace& w) {
+TrialGround ground(const Experiment& w) {
+  return {w, w.allowance()};
+}
+
+Fit with_map(const Model& model, const Experiment& w) {
   const Selection all = all_episodes(w.dataset);
-  ExtendOptions options = trial_extend_options(w);
+  ExtendOptions options = trial_extend_options(ground(w));
   options.regions = 2;
-  return fit(with_effect(model, "regions", w.dataset, all, *w.body, options).front(), w.dataset,
-             all, *w.body, trial_fit_options(w))
-      .model;
+  return fit(with_effect(as_it_is(model, w), "regions", w, all, options).front(), w, all,
+             trial_fit_options(ground(w)));
 }
 
 TEST(Unseen, OnAKnownMapOnlyTheRestIsUnseen) {
-  Workspace w = two_stiff_corners(test::elastic(1.5e4, 0.42));
+  const Experiment w = two_stiff_corners(test::elastic(1.5e4, 0.42));
   const Folds folds = make_folds(w.dataset, 6);
-  const Model model = with_map(test::elastic(1.5e4, 0.42), w);
-  ASSERT_TRUE(has_map(model));
-  EXPECT_GT(held_out_of(model, w, folds, Map::kAnew).rmse, 5 * kNoise);
-  EXPECT_LT(held_out_of(model, w, folds, Map::kKnown).rmse, 2 * kNoise);
+  const Fit fitted = with_map(test::elastic(1.5e4, 0.42), w);
+  ASSERT_TRUE(has_map(fitted.model));
+  EXPECT_GT(held_out_of(fitted, ground(w), folds, Map::kAnew).error.pooled, 5 * kNoise);
+  EXPECT_LT(held_out_of(fitted, ground(w), folds, Map::kKnown).error.pooled, 2 * kNoise);
 }
 
 TEST(Unseen, ARegionOfOnePositionIsMadeAnew) {
-  Workspace w = test::workspace();
+  Experiment w = test::experiment();
   test::measure(w, test::elastic(1.5e4, 0.42), kNoise, 5);
   for (const Episode& e : w.dataset.episodes)
     for (const int row : e.rows)
       if (e.position == 0) w.dataset.recording.f[row] *= 1.8;
   const Folds folds = make_folds(w.dataset, 6);
-  const Model model = with_map(test::elastic(1.5e4, 0.42), w);
-  EXPECT_GT(held_out_of(model, w, folds, Map::kKnown).rmse, 5 * kNoise);
+  const Fit fitted = with_map(test::elastic(1.5e4, 0.42), w);
+  EXPECT_GT(held_out_of(fitted, ground(w), folds, Map::kKnown).error.pooled, 5 * kNoise);
 }
 
 TEST(Unseen, WhatAnUnsureMapDrownsIsNotDropped) {
   const Model relaxing = test::with(test::elastic(1.5e4, 0.42), "viscoelastic", {1.8e3, 0.4});
-  Workspace w = two_stiff_corners(relaxing);
+  const Experiment w = two_stiff_corners(relaxing);
   const Folds folds = make_folds(w.dataset, 6);
-  const Baseline both = make_baseline(with_map(relaxing, w), w, folds);
-  EXPECT_GT(both.held_out.rmse, 3 * both.on_known_map.rmse);
-  EXPECT_FALSE(without_superfluous("viscoelastic", both, w, folds, Gates{}));
+  const Baseline both = make_baseline(with_map(relaxing, w).model, ground(w), folds);
+  EXPECT_GT(both.held_out.error.pooled, 3 * both.on_known_map.error.pooled);
+  EXPECT_FALSE(without_superfluous("viscoelastic", both, ground(w), folds, Gates{}));
 }
 
 }  // namespace

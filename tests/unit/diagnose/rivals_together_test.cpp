@@ -10,14 +10,15 @@ namespace hapsim {
 namespace {
 
 bool both_act_on(const Model& truth, const std::string& a, const std::string& b) {
-  Workspace w = test::workspace();
+  Experiment w = test::experiment();
   test::measure(w, truth, 0.01, 3);
-  const Baseline base = make_baseline(test::elastic(1.5e4, 0.42), w, {});
+  const TrialGround ground(w, w.allowance());
+  const Baseline base = make_baseline(test::elastic(1.5e4, 0.42), ground, {});
   std::string lack;
-  const auto first = try_effect(require_effect(a), base, w, lack);
-  const auto second = try_effect(require_effect(b), base, w, lack);
+  const auto first = try_effect(require_effect(a), base, ground, lack);
+  const auto second = try_effect(require_effect(b), base, ground, lack);
   EXPECT_TRUE(first && second) << lack;
-  return first && second && both_act(*first, *second, w);
+  return first && second && both_act(*first, *second, ground);
 }
 
 const Model kRelaxing = test::with(test::elastic(1.5e4, 0.42), "viscoelastic", {6e3, 0.4});

@@ -21,39 +21,44 @@ TetMesh bumpy_block() {
   return mesh;
 }
 
-Workspace workspace_of(const TetMesh& body, const Recording& recording) {
-  WorkspaceOptions options;
+Experiment experiment_of(const TetMesh& body, const Recording& recording) {
+  ExperimentOptions options;
   options.rim_edge = 0.3;
   options.noise = 0.01;
-  return make_workspace(body, recording, options);
+  return make_experiment(body, recording, options);
 }
 
 TEST(ShapeError, TellsHowFarContactPointsLieOffAndWhatAMoveLeaves) {
   Recording moved = test::presses();
   for (Vec3& p : moved.position) p.z() += 0.002;
-  const Workspace flat = workspace_of(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), moved);
+  const Experiment flat = experiment_of(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), moved);
   EXPECT_NEAR(flat.shape.before, 0.002, 1e-6);
   EXPECT_LT(flat.shape.after, 2e-5);  // all of them alike: the body has moved
   EXPECT_TRUE(flat.shape.plain());
   EXPECT_LT(flat.floor, flat.doubted_floor);
 
-  const Workspace bump = workspace_of(bumpy_block(), test::presses());
+  const Experiment bump = experiment_of(bumpy_block(), test::presses());
   EXPECT_NEAR(bump.shape.farthest, kBump * std::exp(-0.5 * 0.01 * 0.01 / (0.015 * 0.015)), 1e-3);
   EXPECT_GT(bump.shape.after, 5e-4);
   EXPECT_GT(bump.floor, 0.011);
 }
 
 TEST(ShapeError, NoEffectThatLooksLikeItIsNamedAlone) {
-  Workspace truth =
-      workspace_of(test::block_mesh({0.08, 0.08, 0.04}, 12, 12, 4, 1), test::presses());
+  Experiment truth =
+      experiment_of(test::block_mesh({0.08, 0.08, 0.04}, 12, 12, 4, 1), test::presses());
   const Model elastic = test::elastic(3e4, 0.42);
   test::measure(truth, elastic, 0.01, 5);
-  Workspace w = workspace_of(bumpy_block(), truth.dataset.recording);
-  const Diagnosis d = diagnose(elastic, w, {});
-  EXPECT_GT(d.rmse, 2 * d.noise) << "the bump is not seen";
+  const Experiment w = experiment_of(bumpy_block(), truth.dataset.recording);
+  const Diagnosis d = diagnose(elastic, w, w.allowance(), {});
+  EXPECT_GT(d.rmse.told(), 2 * d.noise) << "the bump is not seen";
   for (const Finding& f : d.findings)
     EXPECT_NE(f.verdict, Verdict::kMissing) << f.effect << ": " << f.evidence;
   EXPECT_NE(d.verdict, ModelVerdict::kIncomplete) << d.explanation;
+  EXPECT_TRUE(d.shape_in_doubt);
+  // Asked again, the shape is in doubt again.
+  const Diagnosis again = diagnose(elastic, w, w.allowance(), {});
+  EXPECT_TRUE(again.shape_in_doubt);
+  EXPECT_EQ(again.explanation, d.explanation);
 }
 
 }  // namespace

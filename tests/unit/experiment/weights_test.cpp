@@ -10,10 +10,9 @@ namespace hapsim {
 namespace {
 
 TEST(Weights, WhitenTheirOwnCovariance) {
-  Workspace w = test::workspace();
+  Experiment w = test::experiment();
   const Selection selection{0, 1, 4};  // two positions
-  const Eigen::VectorXd f =
-      model_forces(test::elastic(1e4, 0.4), w.dataset, selection, *w.body, false).f;
+  const Eigen::VectorXd f = solved_forces(test::elastic(1e4, 0.4), w, selection, false).f;
   const double noise = 0.02, floor = 0.05;
   Eigen::MatrixXd V = noise * noise * Eigen::MatrixXd::Identity(f.size(), f.size());
   for (const GainBlock& block : gain_directions(w.dataset, selection, f)) {
@@ -31,10 +30,9 @@ TEST(Weights, WhitenTheirOwnCovariance) {
 }
 
 TEST(Weights, AStiffnessErrorOfOnePositionIsSpannedByItsDirections) {
-  Workspace w = test::workspace();
+  Experiment w = test::experiment();
   const Selection selection{0, 1, 2};  // one position, sideways as well
-  const Eigen::VectorXd f =
-      model_forces(test::elastic(1e4, 0.4), w.dataset, selection, *w.body, false).f;
+  const Eigen::VectorXd f = solved_forces(test::elastic(1e4, 0.4), w, selection, false).f;
   Eigen::Matrix3d error;
   error << 0.01, 0.004, -0.02, 0.004, -0.03, 0.005, -0.02, 0.005, 0.02;
   Eigen::VectorXd change(f.size());

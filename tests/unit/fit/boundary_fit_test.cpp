@@ -80,15 +80,15 @@ TEST(BoundaryGraph, ItsDerivativesAreDifferences) {
 }
 
 TEST(FieldContacts, AHomogeneousFieldIsTheModelsOwnBody) {
-  const Workspace w = test::workspace();
+  const Experiment w = test::experiment();
   const TetMesh body = test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1);
   FieldGrid grid;
   grid.step = 0.004;
   grid.count = {21, 21, 1};
-  const FieldContacts contacts(body, *w.body, 0.004, 0.4, grid, 1);
+  FieldContacts contacts(body, w.places, 0.004, 0.4, grid, 1);
   const auto nodes = static_cast<Eigen::Index>(grid.size());
   Eigen::Matrix3d fine, by_nu;
-  w.body->contact(1).stiffness.evaluate(0.4, fine, by_nu);
+  w.places.contact(1).stiffness.evaluate(0.4, fine, by_nu);
   const auto plain = contacts.at(1, Eigen::VectorXd::Constant(nodes, std::log(3.0)));
   EXPECT_LT((plain.K() - 3 * fine).norm(), 1e-6 * fine.norm());
 
@@ -111,16 +111,14 @@ TEST(FieldContacts, AHomogeneousFieldIsTheModelsOwnBody) {
 // A shift that acts as a change of E by `c` a metre, known to sigma, adds (c sigma)^2 to E's
 // variance and leaves nu's, to which it is nothing.
 TEST(BoundaryError, GoesThroughToTheModuli) {
-  Workspace w = test::workspace();
+  Experiment w = test::experiment();
   test::measure(w, test::elastic(1.2e4, 0.4), 0.01, 3);
   const Selection all = all_episodes(w.dataset);
-  FitResult fitted = fit(test::elastic(1e4, 0.3), w.dataset, all, *w.body, {0.01, 0.01, true});
-  const FitResult before = fitted;
+  Fit fitted = fit(test::elastic(1e4, 0.3), w, all, {0.01, 0.01, true});
+  const Fit before = fitted;
   constexpr double c = 3e5, sigma = 2e-3;
-  const Eigen::MatrixXd by_shift =
-      c * model_forces(fitted.model, w.dataset, all, *w.body, true).df.leftCols(1);
-  add_boundary_error(fitted, w.dataset, *w.body, by_shift,
-                     Eigen::MatrixXd::Constant(1, 1, sigma * sigma));
+  const Eigen::MatrixXd by_shift = c * solved_forces(fitted.model, w, all, true).df.leftCols(1);
+  add_boundary_error(fitted, w, by_shift, Eigen::MatrixXd::Constant(1, 1, sigma * sigma));
   const double alone = before.model.find("elastic", 0, "E")->std_error;
   EXPECT_NEAR(fitted.model.find("elastic", 0, "E")->std_error, std::hypot(alone, c * sigma),
               1e-6 * alone);

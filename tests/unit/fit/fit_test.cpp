@@ -12,16 +12,16 @@
 namespace hapsim {
 namespace {
 
-class Fit : public ::testing::Test {
+class Fitted : public ::testing::Test {
  protected:
-  static Workspace& w() {
-    static Workspace workspace = test::workspace();
-    return workspace;
+  static Experiment& w() {
+    static Experiment experiment = test::experiment();
+    return experiment;
   }
   static FitOptions options() { return {0.01, 0, true}; }
 };
 
-TEST_F(Fit, DerivativesOfAWholeModelAreDifferences) {
+TEST_F(Fitted, DerivativesOfAWholeModelAreDifferences) {
   Model model = test::with(
       test::with(test::with(test::with(test::elastic(1.5e4, 0.42), "hyperelastic", {0.1, 1}),
                             "viscoelastic", {6e3, 0.4}),
@@ -31,17 +31,16 @@ TEST_F(Fit, DerivativesOfAWholeModelAreDifferences) {
   test::expect_derivatives(w(), model, selection);
 }
 
-TEST_F(Fit, StandardErrorsCoverTheTruthOverManySeeds) {
+TEST_F(Fitted, StandardErrorsCoverTheTruthOverManySeeds) {
   const Model truth = test::with(test::elastic(1.5e4, 0.4), "viscoelastic", {8e3, 0.5});
   int covered = 0, counted = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     test::measure(w(), truth, 0.01, seed);
     Model start = truth;
     for (Parameter& p : start.parameters) p.value *= p.name == "nu" ? 0.9 : 1.3;
-    const FitResult result =
-        fit(start, w().dataset, all_episodes(w().dataset), *w().body, options());
+    const Fit result = fit(start, w(), all_episodes(w().dataset), options());
     ASSERT_TRUE(result.converged) << result.message;
-    EXPECT_NEAR(result.rmse, 0.01, 0.0008);
+    EXPECT_NEAR(result.error.pooled, 0.01, 0.0008);
     for (std::size_t i = 0; i < truth.parameters.size(); ++i) {
       const double error = result.model.parameters[i].value - truth.parameters[i].value;
       covered += std::abs(error) < 1.96 * result.model.parameters[i].std_error;
@@ -54,61 +53,62 @@ TEST_F(Fit, StandardErrorsCoverTheTruthOverManySeeds) {
   EXPECT_LE(share, 1.0);
 }
 
-TEST_F(Fit, AnEffectAndItsAbsenceShowInHeldOutPositions) {
+TEST_F(Fitted, AnEffectAndItsAbsenceShowInHeldOutPositions) {
   const Model truth = test::with(test::elastic(1.5e4, 0.4), "viscoelastic", {8e3, 0.5});
   test::measure(w(), truth, 0.01, 3);
   const Folds folds = make_folds(w().dataset, 6);
   EXPECT_EQ(folds.by, "positions");
   const auto held_out = [&](const Model& start) {
-    return held_out_error([&](const Selection&) { return std::vector<Model>{start}; }, w().dataset,
-                          folds, *w().body, options())
-        .rmse;
+    return held_out_error(
+               [&](const Selection&) {
+                 return Starts{{start}, {}};
+               },
+               w(), folds, options())
+        .error.pooled;
   };
   EXPECT_GT(held_out(test::elastic(1.5e4, 0.4)), 0.02);
   EXPECT_LT(held_out(truth), 0.0115);
 }
 
-TEST_F(Fit, PoissonsRatioFixedStaysFixed) {
+TEST_F(Fitted, PoissonsRatioFixedStaysFixed) {
   test::measure(w(), test::elastic(1.2e4, 0.4), 0.01, 5);
   Model start = test::elastic(1e4, 0.4);
   start.find("elastic", 0, "nu")->state = ParameterState::kFixed;
-  const FitResult result = fit(start, w().dataset, all_episodes(w().dataset), *w().body, options());
+  const Fit result = fit(start, w(), all_episodes(w().dataset), options());
   EXPECT_EQ(result.model.find("elastic", 0, "nu")->value, 0.4);
   EXPECT_NEAR(result.model.find("elastic", 0, "E")->value, 1.2e4, 150);
 }
 
-TEST_F(Fit, RegionsAreFoundFromThePositionsOwnModuli) {
+TEST_F(Fitted, RegionsAreFoundFromThePositionsOwnModuli) {
   // Positions with x > 0.05 m twice as stiff, by gains on the homogeneous forces.
   test::measure(w(), test::elastic(1e4, 0.4), 0.002, 9);
   for (std::size_t i = 0; i < w().dataset.rows(); ++i)
     if (w().dataset.recording.position[i].x() > 0.05) w().dataset.recording.f[i] *= 2;
   const Selection all = all_episodes(w().dataset);
-  const FitResult base = fit(test::elastic(1e4, 0.4), w().dataset, all, *w().body, options());
+  const Fit base = fit(test::elastic(1e4, 0.4), w(), all, options());
   ExtendOptions extend;
   extend.noise = 0.002;
   extend.floor = 0.01;
-  const Model model =
-      with_effect(base.model, "regions", w().dataset, all, *w().body, extend).front();
+  const Model model = with_effect(base, "regions", w(), all, extend).front();
   const MaterialSpec material = material_of(model);
   ASSERT_EQ(material.modulus.size(), 2u);
   EXPECT_NEAR(material.modulus[1] / material.modulus[0], 2, 0.05);
   for (std::size_t k = 0; k < material.key_point.size(); ++k)
     EXPECT_EQ(material.key_region[k], material.key_point[k].x() > 0.05 ? 1 : 0);
   // Truly solved, the stiff side's share of a soft position's stiffness is there but small.
-  const FitResult fitted = fit(model, w().dataset, all, *w().body, options());
+  const Fit fitted = fit(model, w(), all, options());
   EXPECT_TRUE(fitted.converged);
-  EXPECT_LT(fitted.rmse, 0.2 * base.rmse);
+  EXPECT_LT(fitted.error.pooled, 0.2 * base.error.pooled);
 }
 
-TEST_F(Fit, WithoutTimeRelaxationCannotBeAdded) {
-  Workspace still = test::workspace();
+TEST_F(Fitted, WithoutTimeRelaxationCannotBeAdded) {
+  Experiment still = test::experiment();
   still.dataset.recording.t.clear();
   const Model model = test::elastic(1e4, 0.4);
-  EXPECT_NE(
-      error_of([&] { with_effect(model, "viscoelastic", still.dataset, {0}, *still.body, {}); },
-               ExitCode::kBadInput)
-          .find("no column t"),
-      std::string::npos);
+  EXPECT_NE(error_of([&] { with_effect(as_it_is(model, still), "viscoelastic", still, {0}, {}); },
+                     ExitCode::kBadInput)
+                .find("no column t"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -43,11 +43,11 @@ TEST(Terms, WindowsBecomeBounds) {
 }
 
 TEST(Terms, AsManyAreChosenAsTheDataHold) {
-  Workspace w = test::workspace();
+  Experiment w = test::experiment();
   const Model truth = test::with(test::elastic(1.5e4, 0.4), "viscoelastic", {8e3, 0.4});
   test::measure(w, truth, 0.01, 4);
-  const TermChoice choice = choose_terms(test::elastic(1.5e4, 0.4), "viscoelastic", 3, w.dataset,
-                                         all_episodes(w.dataset), *w.body, {0.01, 0, true}, {});
+  const TermChoice choice = choose_terms(as_it_is(test::elastic(1.5e4, 0.4), w), "viscoelastic", 3,
+                                         w, all_episodes(w.dataset), {0.01, 0, true}, {});
   EXPECT_EQ(choice.terms, 1);
   EXPECT_EQ(choice.trials.size(), 2u);
   const Model& two = choice.trials[1].fit.model;
@@ -56,7 +56,7 @@ TEST(Terms, AsManyAreChosenAsTheDataHold) {
 }
 
 TEST(Terms, ATimeLongerThanThePressesIsNotIdentifiable) {
-  const Workspace w = test::workspace();  // presses of 2 s
+  const Experiment w = test::experiment();  // presses of 2 s
   Model model = two_terms(0.3, 10);
   for (Parameter& p : model.parameters) p.std_error = 0.01 * p.value;
   const auto said = untold_times(model, w.dataset);

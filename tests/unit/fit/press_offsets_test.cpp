@@ -14,9 +14,9 @@ constexpr double kNoise = 0.01;
 
 class PressOffsets : public ::testing::Test {
  protected:
-  static Workspace& w() {
-    static Workspace workspace = test::workspace();
-    return workspace;
+  static Experiment& w() {
+    static Experiment experiment = test::experiment();
+    return experiment;
   }
   static std::vector<Vec3> disturb(double size) {
     test::measure(w(), test::elastic(1.5e4, 0.4), kNoise, 4);
@@ -29,19 +29,18 @@ class PressOffsets : public ::testing::Test {
     return offsets;
   }
   static Model with_offsets() {
-    return with_effect(test::elastic(1e4, 0.35), "tare", w().dataset, all_episodes(w().dataset),
-                       *w().body, {})
+    return with_effect(as_it_is(test::elastic(1e4, 0.35), w()), "tare", w(),
+                       all_episodes(w().dataset), {})
         .front();
   }
 };
 
 TEST_F(PressOffsets, AreFoundTogetherWithTheMaterial) {
   const std::vector<Vec3> truth = disturb(0.1);
-  const FitResult result =
-      fit(with_offsets(), w().dataset, all_episodes(w().dataset), *w().body, {kNoise, 0, true});
+  const Fit result = fit(with_offsets(), w(), all_episodes(w().dataset), {kNoise, 0, true});
   ASSERT_TRUE(result.converged) << result.message;
   EXPECT_NEAR(result.model.find("elastic", 0, "E")->value, 1.5e4, 400);
-  EXPECT_LT(result.rmse, 1.05 * kNoise);
+  EXPECT_LT(result.error.pooled, 1.05 * kNoise);
   int close = 0;
   for (std::size_t p = 0; p < truth.size(); ++p) {
     const Parameter& b = *result.model.find("tare", 0, "bz" + std::to_string(p + 1));
@@ -56,9 +55,12 @@ TEST_F(PressOffsets, OfUnseenPressesComeFromTheirOwnOtherStretches) {
   disturb(0.1);
   const Folds folds = make_folds(w().dataset, 3);
   const auto held_out = [&](const Model& model) {
-    return held_out_error([&](const Selection&) { return std::vector<Model>{model}; }, w().dataset,
-                          folds, *w().body, {kNoise, 0, true})
-        .rmse;
+    return held_out_error(
+               [&](const Selection&) {
+                 return Starts{{model}, {}};
+               },
+               w(), folds, {kNoise, 0, true})
+        .error.pooled;
   };
   EXPECT_GT(held_out(test::elastic(1e4, 0.35)), 0.08);
   EXPECT_LT(held_out(with_offsets()), 1.2 * kNoise);

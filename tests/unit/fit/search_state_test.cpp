@@ -15,12 +15,12 @@ namespace {
 
 class Search : public ::testing::Test {
  protected:
-  static Workspace& w() {
-    static Workspace workspace = test::workspace();
-    return workspace;
+  static Experiment& w() {
+    static Experiment experiment = test::experiment();
+    return experiment;
   }
-  static FitResult search(const Model& start, const FitOptions& options) {
-    return fit(start, w().dataset, all_episodes(w().dataset), *w().body, options);
+  static Fit search(const Model& start, const FitOptions& options) {
+    return fit(start, w(), all_episodes(w().dataset), options);
   }
   static Model two_terms(Model model, const std::vector<double>& values) {
     for (const Parameter& p : effect_rows(require_effect("viscoelastic"), 2, values))
@@ -39,11 +39,11 @@ TEST_F(Search, TheWatchSeesTheErrorFall) {
     errors.push_back(p.rmse);
     return true;
   };
-  const FitResult result = search(start(), options);
+  const Fit result = search(start(), options);
   ASSERT_TRUE(result.converged) << result.message;
   ASSERT_GT(errors.size(), 2u);
   for (std::size_t i = 1; i < errors.size(); ++i) EXPECT_LE(errors[i], errors[i - 1] * (1 + 1e-9));
-  EXPECT_NEAR(errors.back(), result.rmse, 0.05 * result.rmse);
+  EXPECT_NEAR(errors.back(), result.error.pooled, 0.05 * result.error.pooled);
 }
 
 TEST_F(Search, AnEndedFitHasTheBestSoFarAndIsNotConverged) {
@@ -51,13 +51,15 @@ TEST_F(Search, AnEndedFitHasTheBestSoFarAndIsNotConverged) {
   FitOptions options{0.01, 0, true};
   int asked = 0;
   options.watch = [&](const FitProgress&) { return ++asked < 3; };
-  const FitResult result = search(start(), options);
+  const Fit result = search(start(), options);
   EXPECT_TRUE(result.stopped);
   EXPECT_FALSE(result.converged);
   EXPECT_EQ(result.message, "interrupted");
-  EXPECT_LT(result.rmse, 0.9 * rmse(start(), w().dataset, all_episodes(w().dataset), *w().body));
-  const FitResult best =
-      fit_best({start(), truth()}, w().dataset, all_episodes(w().dataset), *w().body, options);
+  const Selection all = all_episodes(w().dataset);
+  const Eigen::VectorXd at_start =
+      measured_forces(w().dataset, all) - solved_forces(start(), w(), all, false).f;
+  EXPECT_LT(result.error.pooled, 0.9 * force_error(w().dataset, at_start).pooled);
+  const Fit best = fit_best({start(), truth()}, w(), all_episodes(w().dataset), options);
   EXPECT_TRUE(best.stopped) << "of several starts as well";
 }
 
@@ -66,13 +68,13 @@ TEST_F(Search, AResumedSearchFindsWhatAnUninterruptedOneFinds) {
   FitOptions options{0.01, 0, true};
   options.starts = 6;
   options.seed = 5;
-  const FitResult whole = search(start(), options);
+  const Fit whole = search(start(), options);
   ASSERT_TRUE(whole.converged) << whole.message;
   EXPECT_EQ(whole.starts_done, 6);
 
   FitOptions cut = options;
   cut.watch = [](const FitProgress& p) { return p.start < 3; };
-  FitResult part = search(start(), cut);
+  Fit part = search(start(), cut);
   ASSERT_TRUE(part.stopped);
   EXPECT_EQ(part.starts_done, 3);
   mark_unfinished(part.model, {part.starts_done, options.starts, options.seed});
@@ -87,9 +89,9 @@ TEST_F(Search, AResumedSearchFindsWhatAnUninterruptedOneFinds) {
     if (seen.empty() || seen.back() != p.start) seen.push_back(p.start);
     return true;
   };
-  const FitResult resumed = search(part.model, rest);
+  const Fit resumed = search(part.model, rest);
   ASSERT_TRUE(resumed.converged) << resumed.message;
-  EXPECT_NEAR(resumed.rmse, whole.rmse, 1e-4 * whole.rmse);
+  EXPECT_NEAR(resumed.error.pooled, whole.error.pooled, 1e-4 * whole.error.pooled);
   for (const int s : seen) EXPECT_TRUE(s == 0 || s >= 3) << "start " << s << " was done";
   EXPECT_EQ(seen.back() >= 3 || seen.size() == 1, true);
 }

@@ -16,9 +16,9 @@ namespace {
 
 class FeaturedModel : public ::testing::Test {
  protected:
-  static Workspace& w() {
-    static Workspace workspace = test::workspace();
-    return workspace;
+  static Experiment& w() {
+    static Experiment experiment = test::experiment();
+    return experiment;
   }
   static FitOptions options() { return {0.01, 0, true}; }
 };
@@ -26,7 +26,6 @@ class FeaturedModel : public ::testing::Test {
 TEST_F(FeaturedModel, DerivativesAboutTheSolutionAreDifferences) {
   const Model model = test::with(test::with(test::elastic(1.5e4, 0.42), "layer", {0.003, 2}),
                                  "viscoelastic", {6e3, 0.4});
-  w().body->solve(material_of(model));
   const Selection selection{0, 2, 7, 8};
   test::expect_derivatives(w(), model, selection);
 }
@@ -40,11 +39,9 @@ TEST_F(FeaturedModel, ExtrapolationIsRightToTheSecondOrder) {
     model.parameters[0].value *= 1.7;             // exact, whatever its size
     model.parameters[1].value += 0.02 * size;     // nu
     model.parameters[3].value *= 1 + 0.2 * size;  // ratio
-    w().body->solve(material_of(about));
-    const Eigen::VectorXd predicted =
-        model_forces(model, w().dataset, selection, *w().body, false).f;
-    w().body->solve(material_of(model));
-    const Eigen::VectorXd solved = model_forces(model, w().dataset, selection, *w().body, false).f;
+    const Linearisation known = w().places.solve(material_of(about));
+    const Eigen::VectorXd predicted = model_forces(model, w(), known, selection, false).f;
+    const Eigen::VectorXd solved = solved_forces(model, w(), selection, false).f;
     return (predicted - solved).norm() / solved.norm();
   };
   const double far = error(1), near = error(0.5);
@@ -57,14 +54,13 @@ TEST_F(FeaturedModel, ALayerIsFoundFromFarAway) {
   const Model truth = test::with(test::elastic(1.5e4, 0.42), "layer", {0.002, 3});
   test::measure(w(), truth, 0.005, 1);
   const Selection all = all_episodes(w().dataset);
-  const FitResult plain = fit(test::elastic(2e4, 0.4), w().dataset, all, *w().body, options());
-  const FitResult found =
-      fit_best(with_effect(plain.model, "layer", w().dataset, all, *w().body, {}), w().dataset, all,
-               *w().body, options());
+  const Fit plain = fit(test::elastic(2e4, 0.4), w(), all, options());
+  const Fit found =
+      fit_best(with_effect(plain, "layer", w(), all, {}), w(), all, options(), plain.about);
   ASSERT_TRUE(found.converged) << found.message;
-  std::printf("elastic alone %.4f N, with a layer %.4f N (noise 0.005 N)\n", plain.rmse,
-              found.rmse);
-  EXPECT_LT(found.rmse, 1.05 * 0.005);
+  std::printf("elastic alone %.4f N, with a layer %.4f N (noise 0.005 N)\n", plain.error.pooled,
+              found.error.pooled);
+  EXPECT_LT(found.error.pooled, 1.05 * 0.005);
   for (const char* name : {"thickness", "ratio"}) {
     const Parameter& p = *found.model.find("layer", 0, name);
     EXPECT_LT(std::abs(p.value - truth.find("layer", 0, name)->value), 4 * p.std_error) << name;

@@ -28,7 +28,7 @@ Recording two_presses() {
 
 Dataset dataset_of(const Recording& recording) {
   Dataset d = make_dataset(recording);
-  set_normals(d, {Vec3::UnitZ()});
+  d = with_normals(std::move(d), {Vec3::UnitZ()});
   return d;
 }
 
@@ -48,13 +48,13 @@ TEST(Dataset, KnowsThePressesBefore) {
   EXPECT_EQ(dataset_of(healed).episodes[1].view.past_depth, 0);
 }
 
-TEST(Workspace, RefusesDisplacementsBeyondTheBody) {
+TEST(Experiment, RefusesDisplacementsBeyondTheBody) {
   Recording wild = two_presses();
   wild.u[2] = {0.6, 0, -1e-3};
   const auto prepare = [](const Recording& r) {
-    WorkspaceOptions options;
+    ExperimentOptions options;
     options.rim_edge = 0.5;
-    return make_workspace(test::block_mesh({0.08, 0.08, 0.04}, 4, 4, 3, 1), r, options);
+    return make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 4, 4, 3, 1), r, options);
   };
   EXPECT_NE(error_of([&] { prepare(wild); }).find("two:4: a displacement of 0.6 m on a body of"),
             std::string::npos);

@@ -14,27 +14,27 @@ namespace {
 
 class Plan : public ::testing::Test {
  protected:
-  static Workspace& w() {
-    static Workspace workspace = test::workspace();
-    return workspace;
+  static Experiment& w() {
+    static Experiment experiment = test::experiment();
+    return experiment;
   }
   static Model fitted(const Model& start) {
-    return fit(start, w().dataset, all_episodes(w().dataset), *w().body, {0.01, 0.01, true}).model;
+    return fit(start, w(), all_episodes(w().dataset), {0.01, 0.01, true}).model;
   }
   // Chi-square that is left when the model is fitted to forces of the truth along the motion alone,
   // from its own fit to the recording.
   static double left_along(const Recording& motion, const Model& truth, const Model& model) {
     Recording r = motion;
     r.f.assign(r.rows(), Vec3::Zero());
-    WorkspaceOptions options;
+    ExperimentOptions options;
     options.rim_edge = 0.3;
     options.noise = 0.01;
     options.floor = 0.01;
-    Workspace next =
-        make_workspace(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), std::move(r), options);
+    Experiment next =
+        make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), std::move(r), options);
     const Selection all = all_episodes(next.dataset);
-    const Eigen::VectorXd f = model_forces(truth, next.dataset, all, *next.body, false).f;
-    Eigen::VectorXd d = f - model_forces(model, next.dataset, all, *next.body, false).f;
+    const Eigen::VectorXd f = solved_forces(truth, next, all, false).f;
+    Eigen::VectorXd d = f - solved_forces(model, next, all, false).f;
     Weights(next.dataset, all, f, 0.01, 0.01).whiten(d);
     return d.squaredNorm();
   }

@@ -43,14 +43,14 @@ PreparedBodyOptions tool(double radius = 0.004) {
 }
 
 TEST(ForceLoop, IsTheBatchModeAtPreparedContacts) {
-  const Workspace w = test::workspace();
+  const Experiment w = test::experiment();
   for (const int terms : {0, 1, 3}) {
     const Model model = viscoelastic_model(terms);
     PreparedBodyOptions options = tool();
-    options.contacts = [&](const MaterialSpec& m) { return known_contacts(*w.body, m); };
+    options.contacts = [&](const MaterialSpec& m) { return known_contacts(w.places, m); };
     const PreparedBody body(body_mesh(), model, options);
     const Selection all = all_episodes(w.dataset);
-    const Eigen::VectorXd batch = model_forces(model, w.dataset, all, *w.body, false).f;
+    const Eigen::VectorXd batch = solved_forces(model, w, all, false).f;
     ForceLoop loop(body);
     Eigen::Index at = 0;
     double largest = 0;
@@ -187,10 +187,10 @@ TEST(ForceLoop, EachRegionRelaxesInItsOwnWay) {
 }
 
 TEST(Batch, RefusesRegionsThatRelaxEachInItsOwnWay) {
-  const Workspace w = test::workspace();
+  const Experiment w = test::experiment();
   const Model model = regional_model({2e4, 1e4}, {{8e3, 0.05}, {2e4, 0.4}});
   try {
-    model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false);
+    solved_forces(model, w, all_episodes(w.dataset), false);
     FAIL() << "nothing was thrown";
   } catch (const Error& error) {
     EXPECT_EQ(error.code(), ExitCode::kBadInput);

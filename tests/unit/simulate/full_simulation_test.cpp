@@ -7,8 +7,8 @@
 
 #include "effects/catalogue.h"
 #include "expect_error.h"
+#include "experiment/experiment.h"
 #include "experiment/forces.h"
-#include "experiment/workspace.h"
 #include "simulate/own_mesh.h"
 #include "support/block_mesh.h"
 
@@ -52,13 +52,11 @@ const TetMesh& block() {
 }
 
 std::vector<Vec3> condensed(const Model& model, const Recording& r) {
-  WorkspaceOptions options;
+  ExperimentOptions options;
   set_poisson_range(model, options);
   options.noise = 1e-3;
-  Workspace w = make_workspace(block(), r, options);
-  w.body->solve(material_of(model));
-  const Eigen::VectorXd f =
-      model_forces(model, w.dataset, all_episodes(w.dataset), *w.body, false).f;
+  const Experiment w = make_experiment(block(), r, options);
+  const Eigen::VectorXd f = solved_forces(model, w, all_episodes(w.dataset), false).f;
   std::vector<Vec3> forces;
   for (Eigen::Index i = 0; i < f.size(); i += 3) forces.push_back(f.segment<3>(i));
   return forces;
@@ -132,7 +130,7 @@ TEST(FullSimulation, RegionsThatRelaxApartAreTheLimitOfItsSteps) {
     EXPECT_TRUE(body.is_regional());
     const Eigen::VectorXd f =
         model_forces(
-            model, dataset, all_episodes(dataset), [&](std::size_t p) { return body.at(p); }, false)
+            model, dataset, [&](std::size_t p) { return body.at(p); }, all_episodes(dataset), false)
             .f;
     FullOptions options;
     options.own_mesh = true;

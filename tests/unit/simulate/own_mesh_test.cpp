@@ -111,10 +111,10 @@ TEST_F(OwnMeshField, RelaxesAsTheForceDoes) {
   const OwnMesh plain(mesh, elastic, dataset.positions, radius, SolverKind::kDirect);
   const OwnMesh body(mesh, relaxing, dataset.positions, radius, SolverKind::kIterative);
   const Selection all = all_episodes(dataset);
-  set_normals(dataset, body.normals());
+  dataset = with_normals(std::move(dataset), body.normals());
   const auto forces = [&](const Model& model, const OwnMesh& own) {
     return model_forces(
-               model, dataset, all, [&](std::size_t p) { return own.at(p); }, false)
+               model, dataset, [&](std::size_t p) { return own.at(p); }, all, false)
         .f;
   };
   const Eigen::VectorXd f = forces(relaxing, body), f_e = forces(elastic, plain);

@@ -1,0 +1,92 @@
+#include "experiment/experiment.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace hapsim {
+namespace {
+
+// Nothing is pressed in by more than the body's size: a wrong digit or unit, of which contact laws
+// find no equilibrium.
+void require_small_displacements(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+  std::vector<double> size;
+  for (const TetMesh& body : bodies) {
+    Eigen::AlignedBox3d box;
+    for (const Vec3& p : body.nodes) box.extend(p);
+    size.push_back(box.diagonal().norm());
+  }
+  const Recording& recording = dataset.recording;
+  for (const Episode& e : dataset.episodes) {
+    const int setup = dataset.setup_of[static_cast<std::size_t>(e.position)];
+    const double most = size[static_cast<std::size_t>(dataset.setups[setup].body)];
+    for (std::size_t i = 0; i < e.rows.size(); ++i)
+      if (!e.view.in_air[i] && e.view.u[i].norm() > most)
+        fail_input(fmt::format("{}:{}", recording.name, recording.line[e.rows[i]]),
+                   fmt::format("a displacement of {:.3g} m on a body of {:.3g} m",
+                               e.view.u[i].norm(), most),
+                   "correct or remove the row; all lengths are in metres");
+  }
+}
+
+}  // namespace
+
+Experiment make_experiment(const TetMesh& body, Recording recording,
+                           const ExperimentOptions& options) {
+  return make_experiment(std::vector<TetMesh>{body}, make_dataset(std::move(recording)), options);
+}
+
+Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
+                           const ExperimentOptions& options) {
+  require_small_displacements(bodies, dataset);
+  ContactLibraryOptions library;
+  library.threads = options.threads;
+  library.cache = options.cache;
+  library.rim_edge = options.rim_edge;
+  library.draft = options.draft;
+  if (options.kept == 0) library.kept = 0;
+  if (options.progress) library.step = options.progress(dataset.positions.size());
+  std::vector<std::shared_ptr<const ContactLibrary>> libraries;
+  for (const Setup& s : dataset.setups)
+    libraries.push_back(std::make_shared<ContactLibrary>(bodies[static_cast<std::size_t>(s.body)],
+                                                         s.tool_radius, library));
+  const auto places = [&] {
+    try {
+      return Places(libraries, dataset, options.nu_low, options.nu_high, options.kept);
+    } catch (const Error& error) {  // names the contact, not the file in which it stands
+      if (error.code() != ExitCode::kBadInput) throw;
+      throw Error(error.code(), dataset.recording.name, error.what(), "");
+    }
+  }();
+  Noise noise;
+  if (options.noise > 0)
+    noise = {options.noise, false};
+  else if (!dataset.recording.f.empty())
+    noise = force_noise(dataset.recording);
+  const ShapeError shape = shape_error(places);
+  double floor = options.floor, doubted_floor = options.floor;
+  if (options.floor < 0) {
+    const double mesh = places.mesh_uncertainty();
+    floor = std::max(kLeastFloor, std::hypot(mesh, shape.share()));
+    doubted_floor = std::max(kLeastFloor, std::hypot(mesh, shape.share_unmoved()));
+  }
+  return {with_normals(std::move(dataset), places.normals()),
+          places,
+          noise,
+          shape,
+          floor,
+          doubted_floor};
+}
+
+void set_poisson_range(const Model& model, ExperimentOptions& options) {
+  const Parameter* nu = model.find("elastic", 0, "nu");
+  if (nu == nullptr) return;
+  options.nu_low = nu->state == ParameterState::kFree ? nu->lower : nu->value;
+  options.nu_high = nu->state == ParameterState::kFree ? nu->upper : nu->value;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,63 @@
+// A recording on prepared bodies: what every question about a model and measured forces needs.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiment/dataset.h"
+#include "experiment/places.h"
+#include "experiment/shape_error.h"
+#include "model/model.h"
+
+namespace hapsim {
+
+// What a model is not blamed for.
+struct Allowance {
+  double noise = 1;  // standard deviation of the force noise, one component [N]
+  double floor = 0;  // relative gain error by position: of mesh and geometry
+};
+
+// Complete when it is made and never changed after; any number of threads may read it.
+struct Experiment {
+  Dataset dataset;  // with normals
+  Places places;
+  Noise noise;
+  ShapeError shape;
+  double floor = 0;          // Allowance::floor, as the meshes and the shape let expect it
+  double doubted_floor = 0;  // the same, if distances of points from the surface are none of a
+                             // move's
+
+  Allowance allowance() const { return {noise.value, floor}; }
+};
+
+struct ExperimentOptions {
+  int threads = 0;                     // 0: as many as the machine has
+  std::string cache;                   // directory, "" for none
+  double rim_edge = kRimEdge;          // share of the tool's radius
+  bool draft = false;                  // ContactLibraryOptions::draft
+  double noise = 0;                    // [N]; 0: declared by the recording or measured from it
+  double floor = -1;                   // relative; negative: from the meshes and the shape
+  double nu_low = 0, nu_high = 0.499;  // the range of Poisson's ratio that will be asked
+  std::size_t kept = 32;               // solutions and the like kept in memory; see SetupPlaces
+  std::function<std::function<void()>(std::size_t)> progress;  // from the count, a step function
+};
+
+// Least floor: bodies come from scans, whose shape is uncertain even where the points lie on it.
+constexpr double kLeastFloor = 0.01;
+
+// Reads nothing; prepares (or finds in the cache) the stiffness at each position of the recording.
+// Error(kBadInput), with the recording's name: displacements beyond the size of the body, a contact
+// off its surface or on what is bonded.
+Experiment make_experiment(const TetMesh& body, Recording recording,
+                           const ExperimentOptions& options);
+// Of several bodies or tools: Setup::body of the dataset numbers `bodies`.
+Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
+                           const ExperimentOptions& options);
+
+// [nu, nu] when the model's Poisson's ratio is fixed, else its bounds.
+void set_poisson_range(const Model& model, ExperimentOptions& options);
+
+}  // namespace hapsim

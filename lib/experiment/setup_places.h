@@ -1,0 +1,78 @@
+// The places where one body is pressed with one tool, prepared once and never changed.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/memo.h"
+#include "contact/contact_library.h"
+#include "effects/effect.h"
+#include "experiment/registration.h"
+
+namespace hapsim {
+
+// The finite-element solutions of all places for one material, from which others are extrapolated.
+struct SolvedPlaces {
+  MaterialSpec material;                     // its moduli over that of region 0
+  std::vector<StiffnessSolution> solutions;  // by place
+};
+using RegionShares = std::vector<std::vector<double>>;  // [place][region], sums to 1
+using FeatureEstimates = std::vector<std::shared_ptr<const FeatureEstimate>>;  // by place
+
+// Everything it gives depends on its constructor's arguments and on what is asked alone. What is
+// dear and constant (solutions, shares, estimates, moved bodies) is kept by content, up to `kept`
+// of each; keeping nothing costs time and changes no result. Safe for threads.
+class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
+ public:
+  // Prepares all positions for Poisson's ratios in [nu_low, nu_high].
+  static std::shared_ptr<const SetupPlaces> prepare(std::shared_ptr<const ContactLibrary> library,
+                                                    const std::vector<Vec3>& positions,
+                                                    double nu_low, double nu_high,
+                                                    std::size_t kept);
+  // The same body pressed by the same tool at other positions.
+  std::shared_ptr<const SetupPlaces> with_positions(const std::vector<Vec3>& positions) const;
+  // The body where it lay when it was scanned: its places under those pressed since it has moved.
+  // Itself where the material has not moved.
+  std::shared_ptr<const SetupPlaces> before_move(const MaterialSpec& material) const;
+
+  // For a material that has not moved, whatever else it is.
+  std::shared_ptr<const SolvedPlaces> solve(const MaterialSpec& material) const;
+  // Shares of the homogeneous body's strain energy in the material's regions.
+  std::shared_ptr<const RegionShares> shares(const MaterialSpec& material) const;
+  // What features do at each place, to first order.
+  std::shared_ptr<const FeatureEstimates> estimates() const;
+
+  int threads() const { return library_->threads(); }
+  const std::vector<PreparedContact>& contacts() const { return contacts_; }
+  const std::vector<Vec3>& positions() const { return positions_; }
+  const Surface& surface() const { return library_->surface(); }
+  const PlanGrid& grid() const { return library_->grid(); }  // of the contacts' plan_share
+  // The move that the contact points' distances from the surface show.
+  RigidMove move() const { return register_points(positions_, library_->surface()); }
+
+ private:
+  SetupPlaces(std::shared_ptr<const ContactLibrary> library, const std::vector<Vec3>& positions,
+              double nu_low, double nu_high, std::size_t kept);
+
+  std::shared_ptr<const ContactLibrary> library_;
+  std::vector<Vec3> positions_;
+  std::vector<PreparedContact> contacts_;
+  double nu_low_, nu_high_;
+  std::size_t kept_;
+  template <class Value>
+  using Kept = std::unique_ptr<Memo<std::string, std::shared_ptr<const Value>>>;
+  Kept<SetupPlaces> moved_;
+  Kept<SolvedPlaces> solved_;
+  Kept<RegionShares> shares_;
+  Kept<FeatureEstimates> estimates_;
+};
+
+bool has_moved(const MaterialSpec& material);
+// The material as it is on the body that has not moved.
+MaterialSpec in_place(const MaterialSpec& material);
+// Several moduli, each in its region of the body.
+bool has_regions(const MaterialSpec& material);
+bool same_regions(const MaterialSpec& a, const MaterialSpec& b);
+
+}  // namespace hapsim
