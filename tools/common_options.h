@@ -33,7 +33,8 @@ inline std::vector<Option> workspace_flags() {
        .kind = OptionKind::kNumber,
        .value = "N",
        .help = "Standard deviation of the force noise per component [N]; otherwise the metadata "
-               "force_noise, otherwise measured from second differences in time.",
+               "force_noise, otherwise measured from differences of neighbours in time and the "
+               "samples in the air.",
        .minimum = 1e-12},
       {.flag = "--floor",
        .kind = OptionKind::kNumber,

@@ -22,8 +22,12 @@ inline ToolSpec compare_specification() {
       "rows, the measured components pooled (those that are not 0 in every row). So it compares "
       "with the noise of one component. Per cent "
       "are of the same mean of the measured force, and of its peak.",
-      "Noise is the recording's metadata force_noise, otherwise estimated from second differences "
-      "in time, median(|d2|) / (0.6745 sqrt 6), which is too small when the noise is not white.",
+      "Noise is the recording's metadata force_noise, otherwise estimated as hs-import does: from "
+      "second differences in time, median(|d2|) / (0.6745 sqrt 6), of third ones where presses "
+      "have "
+      "few rows, or from the samples in the air where their scatter is larger. Without such "
+      "samples "
+      "it is too small when the noise is not white.",
       "Within a group of rows the measured force is fitted as gain times simulated force; 'too "
       "stiff by 18 %' is a simulated force 18 % too large. Standard errors are clustered by press. "
       "A sentence is told only when pure noise would bring forth any in under 2 of 100 recordings; "

@@ -155,7 +155,7 @@ void summarise(const Arguments& arguments, const std::vector<Version>& versions,
       c.size.rmse_axis[2], percent_of(c.size.rmse, c.size.force_rms),
       percent_of(c.size.rmse, c.size.force_peak), newtons(c.size.force_peak)));
   line(fmt::format("sensor noise {} ({}): the error is {} times that", newtons(c.noise.value),
-                   c.noise.estimated ? "estimated from second differences in time: there is no "
+                   c.noise.estimated ? "estimated from differences in time: there is no "
                                        "force_noise in the recording"
                                      : "force_noise of the recording",
                    times_noise(c)));

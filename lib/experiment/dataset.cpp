@@ -107,27 +107,6 @@ void set_normals(Dataset& dataset, const std::vector<Vec3>& normals) {
   }
 }
 
-Noise force_noise(const Recording& recording) {
-  if (const auto declared = recording.force_noise()) return {*declared, false};
-  std::vector<double> second;
-  for (const Press& press : recording.presses())
-    for (std::size_t i = 1; i + 1 < press.rows.size(); ++i) {
-      const Vec3 d = recording.f[press.rows[i - 1]] - 2 * recording.f[press.rows[i]] +
-                     recording.f[press.rows[i + 1]];
-      for (int k = 0; k < 3; ++k) second.push_back(std::abs(d[k]));
-    }
-  double noise = upper_median(second) / (0.6745 * std::sqrt(6.0));
-  double peak = 0;
-  for (const Vec3& f : recording.f) peak = std::max(peak, f.norm());
-  // Forces on one axis only leave zeros on the others; quantised forces do as well.
-  if (noise < 1e-6 * peak) {
-    second.erase(std::remove_if(second.begin(), second.end(), [](double d) { return d == 0; }),
-                 second.end());
-    noise = std::max(upper_median(second) / (0.6745 * std::sqrt(6.0)), 1e-4 * peak);
-  }
-  return {noise, true};
-}
-
 DataSummary summarise(const Dataset& dataset, double modulus) {
   DataSummary summary;
   summary.has_time = !dataset.recording.t.empty();

@@ -10,6 +10,7 @@
 #include "experiment/dataset.h"
 #include "experiment/shape_error.h"
 #include "model/model.h"
+#include "recording/force_noise.h"
 
 namespace hapsim {
 
