@@ -24,13 +24,13 @@ inline std::vector<Option> workspace_flags() {
                "Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn).",
        .required = true},
       {.flag = "--tool-radius",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
        .minimum = 1e-6,
        .maximum = 1},
       {.flag = "--noise",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kForce,
        .value = "N",
        .help = "Standard deviation of the force noise per component [N]; otherwise the metadata "
                "force_noise, otherwise measured from differences of neighbours in time and the "

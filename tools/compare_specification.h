@@ -83,7 +83,7 @@ inline ToolSpec compare_specification() {
            "Writes the body's surface coloured by the local error (vertex properties red, green, "
            "blue, and float error [N], NaN where nothing was pressed near). Needs --body."},
       {.flag = "--reach",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "How far from a pressed position the surface is coloured [m]; otherwise one and a "
                "half times the usual distance between positions.",

@@ -13,6 +13,7 @@
 #include "compare_specification.h"
 #include "formats/surface_io.h"
 #include "formats/tetmesh_io.h"
+#include "io/quantity.h"
 #include "mesh/tetmesh.h"
 #include "report/figures.h"
 #include "report/junit.h"
@@ -39,7 +40,9 @@ Limit parse_limit(const std::string& text) {
     limit.unit = Limit::Unit::kPercent;
   else if (unit == "noise" || unit == "xnoise")
     limit.unit = Limit::Unit::kNoise;
-  if (!number || limit.factor < 0 || (limit.unit == Limit::Unit::kNewton && unit != "N"))
+  else if (number && !unit.empty())
+    limit.factor = parse_quantity(text, Quantity::kForce, "--fail-above");
+  if (!number || unit.empty() || limit.factor < 0)
     fail_usage(
         "--fail-above " + shown(text) + " is not a limit",
         "give newtons, per cent of the force or multiples of the noise: 0.05N, 5%, 1.5noise");

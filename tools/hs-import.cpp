@@ -10,8 +10,8 @@
 #include "import/block.h"
 #include "import/import.h"
 #include "io/csv.h"
-#include "io/length.h"
 #include "io/number.h"
+#include "io/quantity.h"
 
 namespace hapsim {
 namespace {
@@ -76,18 +76,25 @@ std::vector<Option> options() {
              "along the normal (for "
              "vectors in the frame of a sensor that turns with the tool).",
              "vector", {"vector", "normal", "magnitude"}),
-      text(
-          "--at", "X,Y,Z",
-          "Contact point of a machine that presses on one place [m]; with --block its top centre."),
+      {.flag = "--at",
+       .kind = OptionKind::kLengths,
+       .value = "X,Y,Z",
+       .help = "Contact point of a machine that presses on one place [m]; with --block its top "
+               "centre."},
       text("--direction", "X,Y,Z", "Along which a machine's travel counts.", "0,0,-1"),
-      text("--tool-radius", "LENGTH", "Radius of the tool, written as tool_radius: 0.004 or 4mm."),
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kLength,
+       .value = "M",
+       .help = "Radius of the tool [m], written as tool_radius."},
       {.flag = "--tool",
        .kind = OptionKind::kChoice,
        .value = "SHAPE",
        .help = "Shape of the tool, written as tool.",
        .choices = {"flat", "sphere"}},
-      text("--block", "LxWxH",
-           "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0."),
+      {.flag = "--block",
+       .kind = OptionKind::kLengths,
+       .value = "LxWxH",
+       .help = "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0."},
       {.flag = "--surface",
        .kind = OptionKind::kFile,
        .value = "FILE",
@@ -212,7 +219,7 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   if (options.direction.norm() < 1e-9)
     fail_usage("--direction has no length", "write for example 0,0,-1");
   if (arguments.given("--tool-radius")) {
-    options.tool_radius = parse_length(arguments.text("--tool-radius"), "--tool-radius");
+    options.tool_radius = arguments.number("--tool-radius");
     if (!(*options.tool_radius > 0 && *options.tool_radius < 1))
       fail_usage("--tool-radius is not between 0 and 1 m", "write it with its unit: 4mm");
   }

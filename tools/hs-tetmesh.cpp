@@ -55,7 +55,7 @@ ToolSpec specification() {
       "counts and the ten worst with their places."};
   spec.options = {
       {.flag = "--edge",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "Wished edge length [m].",
        .minimum = 1e-6,
@@ -104,7 +104,7 @@ ToolSpec specification() {
                "else triangles flat on the lowest plane; within 0.5 % of the height), plane:Z, "
                "plane:NX,NY,NZ,H (where n.x = H), below:Z, box:X0,Y0,Z0,X1,Y1,Z1, file:PATH (CSV "
                "with x,y,z: the nodes nearest to these points; or with node: their numbers from "
-               "0), none; several joined by +. Metres.",
+               "0), none; several joined by +. Metres, or with a unit: below:4mm.",
        .default_text = "bottom"},
       {.flag = "--region",
        .kind = OptionKind::kFile,
@@ -119,13 +119,13 @@ ToolSpec specification() {
        .help = "Recording whose pressed positions become nodes and are refined about. Only needed "
                "when this mesh itself is to be pressed."},
       {.flag = "--tool-radius",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "Radius of the tool [m]; otherwise the recording's metadata tool_radius.",
        .minimum = 1e-6,
        .maximum = 1},
       {.flag = "--size",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "Edge length about the contacts [m]; otherwise half the tool's radius.",
        .minimum = 1e-6,
@@ -152,7 +152,7 @@ ToolSpec specification() {
        .kind = OptionKind::kSwitch,
        .help = "Of a mesh of tetrahedra, take the boundary and mesh it anew."},
       {.flag = "--time-limit",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kTime,
        .value = "S",
        .help = "Ends TetGen after this time [s].",
        .default_text = "600",

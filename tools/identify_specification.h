@@ -91,6 +91,7 @@ inline ToolSpec identify_specification() {
                "fall; auto:3 offers at most three.",
        .default_text = "1"},
       {.flag = "--windows",
+       .kind = OptionKind::kTimes,
        .value = "LIST",
        .help = "Windows of the relaxation times [s], disjoint, from short to long, one a term: "
                "0.05:1,2:30.",

@@ -15,7 +15,7 @@ namespace hapsim {
 
 inline Option until_flag() {
   return {.flag = "--until",
-          .kind = OptionKind::kNumber,
+          .kind = OptionKind::kTime,
           .value = "S",
           .help =
               "Fits to the first S seconds of each press alone (counted from its first row) "

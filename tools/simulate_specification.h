@@ -65,7 +65,7 @@ inline ToolSpec simulate_specification() {
                           .help = "Model from hs-identify, also one of its --acfm.",
                           .required = true});
   spec.options.push_back({.flag = "--add-noise",
-                          .kind = OptionKind::kNumber,
+                          .kind = OptionKind::kForce,
                           .value = "N",
                           .help = "Adds Gaussian noise of this standard deviation [N] to every "
                                   "force component and declares it as force_noise.",

@@ -25,6 +25,7 @@ inline std::vector<Option> online_flags(const std::string& who) {
            .minimum = 0,
            .maximum = 0.499},
           {.flag = "--times",
+           .kind = OptionKind::kTimes,
            .value = "LIST",
            .help = who + ": relaxation times whose moduli are identified too [s], at most five.",
            .repeatable = true}};

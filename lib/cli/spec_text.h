@@ -6,9 +6,17 @@
 #include <utility>
 #include <vector>
 
+#include "base/units.h"
 #include "cli/tool.h"
 
 namespace hapsim {
+
+// One number: kNumber, kInteger and single quantities.
+bool is_number(const Option& option);
+
+// The quantities of a value's numbers in order, the last also of those that follow; none where a
+// value takes no unit.
+std::vector<Quantity> quantities_of(const Option& option);
 
 // The tool's own flags, then those that every tool has.
 std::vector<Option> all_options(const ToolSpec& spec);

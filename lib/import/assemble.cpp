@@ -9,7 +9,7 @@
 
 #include "base/median.h"
 #include "import/block.h"
-#include "io/length.h"
+#include "io/quantity.h"
 #include "io/number.h"
 #include "recording/force_noise.h"
 
