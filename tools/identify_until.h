@@ -21,6 +21,7 @@ inline Option until_flag() {
               "Fits to the first S seconds of each press alone (counted from its first row) "
               "and tells the error on what comes later, its median also over the peak of "
               "the press.",
+          .group = "Fit",
           .minimum = 1e-6};
 }
 

@@ -1,5 +1,7 @@
 #include "cli/spec_text.h"
 
+#include <algorithm>
+
 #include "io/number.h"
 #include "io/quantity.h"
 
@@ -71,26 +73,36 @@ std::vector<Quantity> quantities_of(const Option& option) {
 }
 
 std::vector<Option> all_options(const ToolSpec& spec) {
+  constexpr const char *kOutput = "Output", *kGeneral = "General";
+  std::vector<std::string> groups;
+  for (const Option& option : spec.options)
+    if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
+      groups.push_back(option.group);
+  const bool grouped = groups.size() > 1 || (groups.size() == 1 && !groups[0].empty());
+  const bool has_output = std::find(groups.begin(), groups.end(), kOutput) != groups.end();
+  std::erase(groups, kGeneral);
+  if (grouped) groups.emplace_back(kGeneral);
+  const std::string general = grouped ? kGeneral : "";
+
   std::vector<Option> options = spec.options;
-  const auto add = [&](const char* flag, const char* help) {
-    Option option;
-    option.flag = flag;
-    option.kind = OptionKind::kSwitch;
-    option.help = help;
-    options.push_back(option);
+  options.push_back(
+      {.flag = "--output",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Write the result to FILE, complete or not at all; - is standard output.",
+       .group = has_output ? kOutput : general,
+       .default_text = "-"});
+  for (const auto& [flag, help] :
+       {std::pair{"--quiet", "Print errors only."},
+        std::pair{"--verbose", "Print more about what is done."},
+        std::pair{"--help", "Print this help."}, std::pair{"--man", "Print the manual page."},
+        std::pair{"--version", "Print the version."}})
+    options.push_back({.flag = flag, .kind = OptionKind::kSwitch, .help = help, .group = general});
+  const auto place = [&groups](const Option& option) {
+    return std::find(groups.begin(), groups.end(), option.group);
   };
-  Option output;
-  output.flag = "--output";
-  output.kind = OptionKind::kFile;
-  output.value = "FILE";
-  output.help = "Write the result to FILE, complete or not at all; - is standard output.";
-  output.default_text = "-";
-  options.push_back(output);
-  add("--quiet", "Print errors only.");
-  add("--verbose", "Print more about what is done.");
-  add("--help", "Print this help.");
-  add("--man", "Print the manual page.");
-  add("--version", "Print the version.");
+  std::stable_sort(options.begin(), options.end(),
+                   [&](const Option& a, const Option& b) { return place(a) < place(b); });
   return options;
 }
 

@@ -18,7 +18,8 @@ bool is_number(const Option& option);
 // value takes no unit.
 std::vector<Quantity> quantities_of(const Option& option);
 
-// The tool's own flags, then those that every tool has.
+// The tool's own flags, then those that every tool has. With groups: group by group, in the order
+// in which these are first named, "General" last; --output stands in "Output" where that is.
 std::vector<Option> all_options(const ToolSpec& spec);
 
 // "-o," for "--output", "" for a flag without a short form: what precedes the long flag.

@@ -34,8 +34,9 @@ enum class OptionKind {
 struct Option {
   std::string flag = {};  // "--unit"
   OptionKind kind = OptionKind::kText;
-  std::string value = {};                 // name of the value in the help: "UNIT"
-  std::string help = {};                  // one or two sentences
+  std::string value = {};  // name of the value in the help: "UNIT"
+  std::string help = {};   // one or two sentences
+  std::string group = {};  // heading of --help and man page that it stands under; "" for none
   std::string default_text = {};          // value when not given, "" for none
   std::vector<std::string> choices = {};  // kChoice
   double minimum = -1e300;                // of one number: checked bounds (SI)

@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "cli/completion.h"
 #include "cli/help.h"
 #include "expect_error.h"
 
@@ -112,6 +113,30 @@ TEST(Help, ShowsRequiredFlagsInTheUsage) {
       << help;
   EXPECT_EQ(help.find("Input:"), std::string::npos);
   EXPECT_EQ(help.find("Examples:"), std::string::npos);
+}
+
+// Options of one group stand together wherever they were declared, "General" last.
+TEST(Help, ShowsGroups) {
+  ToolSpec spec = sample();
+  const char* const groups[] = {"Input", "General", "Mesh", "Output", "Input", "Mesh"};
+  ASSERT_EQ(spec.options.size(), std::size(groups));
+  for (std::size_t i = 0; i < std::size(groups); ++i) spec.options[i].group = groups[i];
+  const std::string help = help_text(spec);
+  std::size_t at = 0;
+  for (const char* part : {"\nOptions, Input:\n", "--body FILE", "--mount X", "\nOptions, Mesh:\n",
+                           "--edge M", "--data FILE", "\nOptions, Output:\n", "--times LIST",
+                           "--output FILE", "\nOptions, General:\n", "--depth M", "--quiet"}) {
+    const std::size_t found = help.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part << help;
+    at = found;
+  }
+  const std::string page = man_page(spec);
+  for (const char* part : {".SH OPTIONS\n.SS Input\n", ".SS Mesh\n", ".SS General\n"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const char* shell : {"bash", "zsh", "fish"})
+    EXPECT_NE(completion(spec, shell).find("mount"), std::string::npos) << shell;
+  EXPECT_EQ(help_text(sample()).find("Options, "), std::string::npos);
+  EXPECT_NE(help_text(sample()).find("\nOptions:\n"), std::string::npos);
 }
 
 }  // namespace
