@@ -22,18 +22,22 @@ inline std::vector<Option> experiment_flags() {
        .value = "FILE",
        .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: VTU, "
                "Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn).",
+       .group = "Input",
        .required = true},
       {.flag = "--tool-radius",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
+       .group = "Input",
        .minimum = 1e-6,
        .maximum = 1},
       {.flag = "--noise",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kForce,
        .value = "N",
        .help = "Standard deviation of the force noise per component [N]; otherwise the metadata "
-               "force_noise, otherwise measured from second differences in time.",
+               "force_noise, otherwise measured from differences of neighbours in time and the "
+               "samples in the air.",
+       .group = "Fit",
        .minimum = 1e-12},
       {.flag = "--floor",
        .kind = OptionKind::kNumber,
@@ -41,6 +45,7 @@ inline std::vector<Option> experiment_flags() {
        .help = "Gain error by position that mesh and scanned shape may cause and no effect is "
                "blamed for; otherwise the mesh's own uncertainty and that of a surface off the "
                "contact points, at least 0.01.",
+       .group = "Fit",
        .minimum = 0,
        .maximum = 1},
       {.flag = "--rim-edge",
@@ -48,12 +53,14 @@ inline std::vector<Option> experiment_flags() {
        .value = "SHARE",
        .help = "Edge length of the finer contact mesh at the tool's rim, as a share of the radius; "
                "otherwise a sixth.",
+       .group = "Fit",
        .minimum = 0.02,
        .maximum = 0.5},
       {.flag = "--threads",
        .kind = OptionKind::kInteger,
        .value = "N",
        .help = "Contact positions solved side by side; 0: as many as the machine has cores.",
+       .group = "General",
        .default_text = "0",
        .minimum = 0,
        .maximum = 1024},
@@ -61,7 +68,8 @@ inline std::vector<Option> experiment_flags() {
        .kind = OptionKind::kText,
        .value = "DIR",
        .help = "Where prepared stiffnesses are kept by content ('none': nowhere); otherwise the "
-               "user's cache folder."},
+               "user's cache folder.",
+       .group = "General"},
   };
 }
 

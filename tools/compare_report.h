@@ -237,7 +237,7 @@ inline void add_numbers(const Comparison& c, const Metadata& simulated, Report& 
                                  percent_of(c.size.rmse, c.size.force_rms),
                                  percent_of(c.size.rmse, c.size.force_peak))},
                     {"sensor noise", c.noise.value > 0 ? newtons(c.noise.value) : "unknown",
-                     c.noise.estimated ? "estimated from second differences in time"
+                     c.noise.estimated ? "estimated from differences in time"
                                        : "declared in the recording (force_noise)"},
                     {"error over noise", c.noise.value > 0 ? times_noise(c) + " ×" : "-",
                      "1 × when nothing but noise is left"}};

@@ -22,8 +22,12 @@ inline ToolSpec compare_specification() {
       "rows, the measured components pooled (those that are not 0 in every row). So it compares "
       "with the noise of one component. Per cent "
       "are of the same mean of the measured force, and of its peak.",
-      "Noise is the recording's metadata force_noise, otherwise estimated from second differences "
-      "in time, median(|d2|) / (0.6745 sqrt 6), which is too small when the noise is not white.",
+      "Noise is the recording's metadata force_noise, otherwise estimated as hs-import does: from "
+      "second differences in time, median(|d2|) / (0.6745 sqrt 6), of third ones where presses "
+      "have "
+      "few rows, or from the samples in the air where their scatter is larger. Without such "
+      "samples "
+      "it is too small when the noise is not white.",
       "Within a group of rows the measured force is fitted as gain times simulated force; 'too "
       "stiff by 18 %' is a simulated force 18 % too large. Standard errors are clustered by press. "
       "A sentence is told only when pure noise would bring forth any in under 2 of 100 recordings; "
@@ -53,68 +57,80 @@ inline ToolSpec compare_specification() {
        .value = "[NAME=]FILE",
        .help = "Simulated forces of the same rows, from hs-simulate ('-': standard input). Given "
                "several times, the last is compared and the others are drawn beside it.",
+       .group = "Input",
        .repeatable = true},
       {.flag = "--html",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the report: one file that needs no network."},
+       .help = "Writes the report: one file that needs no network.",
+       .group = "Output"},
       {.flag = "--figures",
        .kind = OptionKind::kFile,
        .value = "PREFIX",
        .help = "Writes the plots as SVG files for papers: PREFIXversions.svg, PREFIXresidual-1.svg "
-               "..., PREFIXpress-ID.svg of the six presses with the largest error."},
+               "..., PREFIXpress-ID.svg of the six presses with the largest error.",
+       .group = "Output"},
       {.flag = "--json",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes numbers, observations and breakdowns as JSON."},
+       .help = "Writes numbers, observations and breakdowns as JSON.",
+       .group = "Output"},
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help =
-           "Body from hs-tetmesh, or a surface (PLY, STL), for --ply and the report's picture."},
+       .help = "Body from hs-tetmesh, or a surface (PLY, STL), for --ply and the report's picture.",
+       .group = "Input"},
       {.flag = "--ply",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help =
            "Writes the body's surface coloured by the local error (vertex properties red, green, "
-           "blue, and float error [N], NaN where nothing was pressed near). Needs --body."},
+           "blue, and float error [N], NaN where nothing was pressed near). Needs --body.",
+       .group = "Output"},
       {.flag = "--reach",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "How far from a pressed position the surface is coloured [m]; otherwise one and a "
                "half times the usual distance between positions.",
+       .group = "Output",
        .minimum = 1e-6,
        .maximum = 10},
       {.flag = "--history",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "CSV of model versions and their errors (any columns; step, model, effects, rmse, "
-               "heldout, noise are known), shown in the report."},
+               "heldout, noise are known), shown in the report.",
+       .group = "Input"},
       {.flag = "--diagnosis",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "effects.csv from hs-diagnose, shown in the report; NAME=FILE names the model "
                "version it belongs to, and may be repeated. The last one gives the verdict.",
+       .group = "Input",
        .repeatable = true},
       {.flag = "--model",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "model.csv of the compared version: the report shows its parameters with their "
                "intervals, and its regions on the body. With --follow the model that the stream is "
-               "compared with."},
+               "compared with.",
+       .group = "Input"},
       {.flag = "--junit",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers."},
+       .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers.",
+       .group = "Output"},
       {.flag = "--title",
        .kind = OptionKind::kText,
        .value = "TEXT",
-       .help = "Title of the report."},
+       .help = "Title of the report.",
+       .group = "Output"},
       {.flag = "--fail-above",
        .kind = OptionKind::kText,
        .value = "X",
        .help = "Exit code 1 when the typical error exceeds X: 0.05N, 5% (of the force's rms), or "
-               "1.5noise."}};
+               "1.5noise.",
+       .group = "Output"}};
   for (const Option& option : follow_flags()) spec.options.push_back(option);
   spec.tables = {
       {"Residuals (output)",

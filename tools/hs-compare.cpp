@@ -13,6 +13,7 @@
 #include "compare_specification.h"
 #include "formats/surface_io.h"
 #include "formats/tetmesh_io.h"
+#include "io/quantity.h"
 #include "mesh/tetmesh.h"
 #include "report/figures.h"
 #include "report/junit.h"
@@ -39,7 +40,9 @@ Limit parse_limit(const std::string& text) {
     limit.unit = Limit::Unit::kPercent;
   else if (unit == "noise" || unit == "xnoise")
     limit.unit = Limit::Unit::kNoise;
-  if (!number || limit.factor < 0 || (limit.unit == Limit::Unit::kNewton && unit != "N"))
+  else if (number && !unit.empty())
+    limit.factor = parse_quantity(text, Quantity::kForce, "--fail-above");
+  if (!number || unit.empty() || limit.factor < 0)
     fail_usage(
         "--fail-above " + shown(text) + " is not a limit",
         "give newtons, per cent of the force or multiples of the noise: 0.05N, 5%, 1.5noise");
@@ -155,7 +158,7 @@ void summarise(const Arguments& arguments, const std::vector<Version>& versions,
       c.size.rmse_axis[2], percent_of(c.size.rmse, c.size.force_rms),
       percent_of(c.size.rmse, c.size.force_peak), newtons(c.size.force_peak)));
   line(fmt::format("sensor noise {} ({}): the error is {} times that", newtons(c.noise.value),
-                   c.noise.estimated ? "estimated from second differences in time: there is no "
+                   c.noise.estimated ? "estimated from differences in time: there is no "
                                        "force_noise in the recording"
                                      : "force_noise of the recording",
                    times_noise(c)));

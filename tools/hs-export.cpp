@@ -59,7 +59,7 @@ ToolSpec specification() {
        .value = "ID",
        .help = "Which press of it; otherwise the first."},
       {.flag = "--tool-radius",
-       .kind = OptionKind::kNumber,
+       .kind = OptionKind::kLength,
        .value = "M",
        .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
        .minimum = 1e-6,

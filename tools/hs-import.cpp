@@ -10,94 +10,115 @@
 #include "import/block.h"
 #include "import/import.h"
 #include "io/csv.h"
-#include "io/length.h"
 #include "io/number.h"
+#include "io/quantity.h"
 
 namespace hapsim {
 namespace {
 
-Option choice(const std::string& flag, const std::string& help, const std::string& usual,
-              const std::vector<std::string>& choices) {
+Option choice(const std::string& group, const std::string& flag, const std::string& help,
+              const std::string& usual, const std::vector<std::string>& choices) {
   return {.flag = flag,
           .kind = OptionKind::kChoice,
           .value = "HOW",
           .help = help,
+          .group = group,
           .default_text = usual,
           .choices = choices};
 }
 
-Option text(const std::string& flag, const std::string& value, const std::string& help,
-            const std::string& usual = "") {
-  return {
-      .flag = flag, .kind = OptionKind::kText, .value = value, .help = help, .default_text = usual};
+Option text(const std::string& group, const std::string& flag, const std::string& value,
+            const std::string& help, const std::string& usual = "") {
+  return {.flag = flag,
+          .kind = OptionKind::kText,
+          .value = value,
+          .help = help,
+          .group = group,
+          .default_text = usual};
 }
 
 std::vector<Option> options() {
   return {
       {.flag = "--list",
        .kind = OptionKind::kSwitch,
-       .help = "Prints what each column is taken for and what is missing, and converts nothing."},
+       .help = "Prints what each column is taken for and what is missing, and converts nothing.",
+       .group = "Columns"},
       {.flag = "--column",
        .kind = OptionKind::kText,
        .value = "ROLE=NAME",
        .help = "What a column is, where its name does not say. Roles: press, t, depth, force, "
                "temp, contact, fail, "
                "sample; x, tipx, contactx, ballx, ux, nx, fx and the same with y and z; skip.",
+       .group = "Columns",
        .repeatable = true},
       {.flag = "--names",
        .kind = OptionKind::kText,
        .value = "NAME",
        .help = "Names of the columns of a table without a header, or instead of its header.",
+       .group = "Columns",
        .repeatable = true},
-      text("--unit", "UNIT",
+      text("Columns", "--unit", "UNIT",
            "Unit of lengths whose name has none: m, mm, cm, um, in. Without it m, or mm where the "
            "size allows nothing else (a warning)."),
-      text("--force-unit", "UNIT",
+      text("Columns", "--force-unit", "UNIT",
            "Unit of forces whose name has none: N, mN, kN, gf, kgf, lbf. Without it N."),
-      text("--time-unit", "UNIT",
+      text("Columns", "--time-unit", "UNIT",
            "Unit of a time whose name has none: s, ms, us, ns, min. Without it s."),
       text(
-          "--split-by", "HOW",
+          "Presses", "--split-by", "HOW",
           "How presses are told apart: names of columns (with commas), or force (where it returns "
           "to zero), jump (where the tip moves sideways), none (one press a recording). Without it "
           "all that the table offers."),
-      choice("--contact",
+      choice("Presses", "--contact",
              "Where a press begins: given (the table's contact point, zero of its depth), find "
              "(from the force), auto (find "
              "where the table gives none, or shows the tool in the air at depth zero).",
              "auto", {"auto", "given", "find"}),
-      choice("--tip",
+      choice("Presses", "--tip",
              "What a tip position is: surface (the touching point), centre (of the ball), auto "
              "(centre where it stays "
              "outside the contact points while it presses).",
              "auto", {"auto", "surface", "centre"}),
-      choice("--force",
+      choice("Presses", "--force",
              "Which force is taken: the vector, its part along the normal, or its magnitude put "
              "along the normal (for "
              "vectors in the frame of a sensor that turns with the tool).",
              "vector", {"vector", "normal", "magnitude"}),
-      text(
-          "--at", "X,Y,Z",
-          "Contact point of a machine that presses on one place [m]; with --block its top centre."),
-      text("--direction", "X,Y,Z", "Along which a machine's travel counts.", "0,0,-1"),
-      text("--tool-radius", "LENGTH", "Radius of the tool, written as tool_radius: 0.004 or 4mm."),
+      {.flag = "--at",
+       .kind = OptionKind::kLengths,
+       .value = "X,Y,Z",
+       .help = "Contact point of a machine that presses on one place [m]; with --block its top "
+               "centre.",
+       .group = "Presses"},
+      text("Presses", "--direction", "X,Y,Z", "Along which a machine's travel counts.", "0,0,-1"),
+      {.flag = "--tool-radius",
+       .kind = OptionKind::kLength,
+       .value = "M",
+       .help = "Radius of the tool [m], written as tool_radius.",
+       .group = "Tool and body"},
       {.flag = "--tool",
        .kind = OptionKind::kChoice,
        .value = "SHAPE",
        .help = "Shape of the tool, written as tool.",
+       .group = "Tool and body",
        .choices = {"flat", "sphere"}},
-      text("--block", "LxWxH",
-           "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0."),
+      {.flag = "--block",
+       .kind = OptionKind::kLengths,
+       .value = "LxWxH",
+       .help = "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0.",
+       .group = "Tool and body"},
       {.flag = "--surface",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the block as a closed surface (PLY) for hs-tetmesh. Needs --block."},
+       .help = "Writes the block as a closed surface (PLY) for hs-tetmesh. Needs --block.",
+       .group = "Output"},
       {.flag = "--scan",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the contact points (with normals where the table has them) as a scan for "
-               "hs-scan2ply."},
-      choice("--estimate-noise",
+               "hs-scan2ply.",
+       .group = "Output"},
+      choice("Output", "--estimate-noise",
              "Whether the noise of the force is estimated and written as force_noise: from "
              "differences of neighbours "
              "and the samples in the air; auto does it where there are enough and the table says "
@@ -107,11 +128,13 @@ std::vector<Option> options() {
        .kind = OptionKind::kNumber,
        .value = "HZ",
        .help = "Keeps at most so many samples a second (the noise is estimated from all).",
+       .group = "Output",
        .minimum = 1e-3,
        .maximum = 1e6},
       {.flag = "--drop-air",
        .kind = OptionKind::kSwitch,
-       .help = "Leaves out the samples in the air."},
+       .help = "Leaves out the samples in the air.",
+       .group = "Output"},
   };
 }
 
@@ -212,7 +235,7 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   if (options.direction.norm() < 1e-9)
     fail_usage("--direction has no length", "write for example 0,0,-1");
   if (arguments.given("--tool-radius")) {
-    options.tool_radius = parse_length(arguments.text("--tool-radius"), "--tool-radius");
+    options.tool_radius = arguments.number("--tool-radius");
     if (!(*options.tool_radius > 0 && *options.tool_radius < 1))
       fail_usage("--tool-radius is not between 0 and 1 m", "write it with its unit: 4mm");
   }

@@ -13,6 +13,7 @@
 #include "identify_recordings.h"
 #include "io/stream.h"
 #include "mesh/signed_distance.h"
+#include "recording/force_noise.h"
 
 namespace hapsim {
 

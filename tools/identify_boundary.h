@@ -21,6 +21,7 @@ inline Option boundary_flag() {
               "Refines the boundaries between the regions in turn with their moduli: N key "
               "points along each move across it, as the forces along and across the surface "
               "ask.",
+          .group = "Fit",
           .minimum = 2,
           .maximum = 100};
 }

@@ -18,11 +18,13 @@ inline std::vector<Option> follow_flags() {
       {.flag = "--follow",
        .kind = OptionKind::kSwitch,
        .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
-               "stream of rows, and writes a line of estimates every --every rows at once."},
+               "stream of rows, and writes a line of estimates every --every rows at once.",
+       .group = "Follow"},
       {.flag = "--every",
        .kind = OptionKind::kInteger,
        .value = "N",
        .help = "Follow: rows from one line of estimates to the next.",
+       .group = "Follow",
        .default_text = "100",
        .minimum = 1,
        .maximum = 1e9},
@@ -30,6 +32,7 @@ inline std::vector<Option> follow_flags() {
        .kind = OptionKind::kInteger,
        .value = "N",
        .help = "Follow: rows in which older ones fade; otherwise all count.",
+       .group = "Follow",
        .minimum = 10,
        .maximum = 1e9}};
   flags.insert(flags.begin(), own.begin(), own.end());

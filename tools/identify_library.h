@@ -18,13 +18,16 @@ inline std::vector<Option> library_flags() {
            .value = "FILE",
            .help = "Library of identified models (made when absent): the values of its nearest "
                    "entry are one more start of a new model, and the result is added to it; see "
-                   "hs-library(1)."},
+                   "hs-library(1).",
+           .group = "Library"},
           {.flag = "--material",
            .value = "NAME",
-           .help = "Material, for --library; otherwise the recording's metadata material."},
+           .help = "Material, for --library; otherwise the recording's metadata material.",
+           .group = "Library"},
           {.flag = "--object",
            .value = "NAME",
-           .help = "Object, for --library; otherwise the recording's metadata object."}};
+           .help = "Object, for --library; otherwise the recording's metadata object.",
+           .group = "Library"}};
 }
 
 class IdentifyLibrary {

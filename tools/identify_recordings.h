@@ -31,6 +31,7 @@ inline std::vector<Option> recording_flags() {
            .value = "FILE",
            .help = "One more recording, fitted together with the first; may be given several "
                    "times. Another tool_radius is another tool on the same material.",
+           .group = "Input",
            .repeatable = true},
           {.flag = "--body",
            .kind = OptionKind::kFile,
@@ -39,6 +40,7 @@ inline std::vector<Option> recording_flags() {
                    "VTU, Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn). Once: the "
                    "body of all recordings; or once for each recording, in their order (the main "
                    "input, then --data): bodies of one material.",
+           .group = "Input",
            .required = true,
            .repeatable = true}};
 }

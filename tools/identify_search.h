@@ -20,16 +20,19 @@ inline std::vector<Option> search_flags() {
            .value = "N",
            .help = "Starts of the fit: the usual ones and N - 1 spread evenly over the bounds; the "
                    "least error wins.",
+           .group = "Fit",
            .default_text = "1",
            .minimum = 1,
            .maximum = 100000},
           {.flag = "--resume",
            .kind = OptionKind::kSwitch,
-           .help = "Goes on with the search of --starts in which --model was interrupted."},
+           .help = "Goes on with the search of --starts in which --model was interrupted.",
+           .group = "Fit"},
           {.flag = "--seed",
            .kind = OptionKind::kInteger,
            .value = "N",
            .help = "Seed of --starts.",
+           .group = "Fit",
            .default_text = "1",
            .minimum = 0}};
 }

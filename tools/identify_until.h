@@ -15,12 +15,13 @@ namespace hapsim {
 
 inline Option until_flag() {
   return {.flag = "--until",
-          .kind = OptionKind::kNumber,
+          .kind = OptionKind::kTime,
           .value = "S",
           .help =
               "Fits to the first S seconds of each press alone (counted from its first row) "
               "and tells the error on what comes later, its median also over the peak of "
               "the press.",
+          .group = "Fit",
           .minimum = 1e-6};
 }
 

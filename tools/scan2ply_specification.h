@@ -19,6 +19,10 @@ inline Option number_option(const char* flag, const char* value, const char* hel
           .minimum = minimum,
           .maximum = maximum};
 }
+inline Option of_kind(OptionKind kind, Option option) {
+  option.kind = kind;
+  return option;
+}
 inline Option switch_option(const char* flag, const char* help) {
   return {.flag = flag, .kind = OptionKind::kSwitch, .help = help};
 }
@@ -28,88 +32,120 @@ inline Option text_option(const char* flag, const char* value, const char* help,
 }
 
 inline std::vector<Option> scan2ply_options() {
-  return {
-      {.flag = "--unit",
-       .kind = OptionKind::kChoice,
-       .value = "UNIT",
-       .help = "Unit of coordinates, distances and sliding joints (not of volumes).",
-       .default_text = "m",
-       .choices = {"m", "mm", "cm", "um", "in"}},
-      number_option("--spacing", "M",
-                    "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1),
-      switch_option("--keep-outliers", "Removes only points that are given twice."),
-      switch_option("--ascii", "Writes an ASCII PLY."),
-      {.flag = "--json",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "Writes the summary, with every zone's motion, as JSON."},
-      // zones
-      {.flag = "--zone",
-       .kind = OptionKind::kFile,
-       .value = "FILE",
-       .help = "A further zone or view of the same object.",
-       .repeatable = true},
-      switch_option("--register", "Moves the zones so that they agree where they overlap."),
-      text_option("--fix-zone", "NAME", "Zone that stays, else the one with most overlap."),
-      number_option("--most-drift", "M", "Largest drift looked for [m].", 1e-5, 1, "0.01"),
-      number_option("--most-shift-error", "M", "Standard error of a shift that is accepted [m].",
-                    1e-6, 1, "0.001"),
-      // touch
-      number_option("--touch-force", "N",
-                    "Force of the touching probe, where no column touch_force says it [N].", 0,
-                    100),
-      number_option("--touch-stiffness", "N/M", "Undoes the indentation by this stiffness [N/m].",
-                    1e-3, 1e9),
-      number_option("--touch-modulus", "PA", "... or by Hertz with this modulus E [Pa].", 1, 1e13),
-      number_option("--touch-nu", "NU", "Poisson's ratio with --touch-modulus.", 0, 0.5, "0.5"),
-      number_option("--tip-radius", "M", "Radius of the probe's tip with --touch-modulus [m].",
-                    1e-6, 1),
-      switch_option("--flat-tip", "The tip is flat instead of a ball."),
-      // robots
-      {.flag = "--robot",
-       .kind = OptionKind::kFile,
-       .value = "URDF",
-       .help = "The input holds joint angles of this robot."},
-      text_option("--root", "LINK", "Link in whose frame points are, else the robot's first."),
-      text_option("--tip", "LINK", "Link that carries the sensor, else the robot's only end."),
-      text_option("--mount", "X,Y,Z[,R,P,Y]",
-                  "Place [m] and roll, pitch, yaw [rad] of the sensor on the tip.", "0,0,0"),
-      text_option("--beam", "X,Y,Z", "Direction of laser or bar in the sensor's frame.", "0,0,1"),
-      number_option("--bar", "M",
-                    "Length of a touching bar along the beam, instead of a laser [m].", 1e-6, 10),
-      text_option("--object", "X,Y,Z[,R,P,Y]",
-                  "Frame of the object in the robot's root, in which points are written.", "0,0,0"),
-      {.flag = "--angle-unit",
-       .kind = OptionKind::kChoice,
-       .value = "UNIT",
-       .help = "Unit of the joint angles read.",
-       .default_text = "rad",
-       .choices = {"rad", "deg"}},
-      text_option("--range", "MIN,MAX",
-                  "Distances outside [m], and cells without one, mean that nothing was seen."),
-      // planning
-      {.flag = "--plan",
-       .kind = OptionKind::kChoice,
-       .value = "WHAT",
-       .help = "Writes joint angles instead: a raster over the input's surface, a level grid over "
-               "--region, or one pose a row of the input.",
-       .choices = {"surface", "grid", "positions"}},
-      number_option("--pitch", "M", "Distance of raster points [m].", 1e-5, 1, "0.005"),
-      number_option("--standoff", "M",
-                    "Distance of the sensor from the surface [m], else --bar or 0.1.", 0, 10),
-      text_option("--region", "X0,Y0,X1,Y1", "Plan view of the raster in the object's frame [m]."),
-      number_option("--height", "Z", "Height of the grid [m].", -10, 10, "0"),
-      number_option("--steepest", "DEG", "Leaves out places steeper than this.", 0, 180, "80"),
-      switch_option("--check", "Exit code 1 when a pose is out of reach."),
-      // CT
-      number_option("--threshold", "V", "Value at a volume's surface.", -1e30, 1e30),
-      switch_option("--below", "The body is where values are below the threshold."),
-      switch_option("--all-parts", "Takes every part of a volume, not the largest alone."),
-      switch_option("--cavities", "Takes surfaces of cavities too."),
-      switch_option("--sections", "Rows of equal z are contours, in their order."),
-      number_option("--section-distance", "M", "Distance of sections given without z [m].", 1e-6,
-                    1),
+  std::vector<Option> all;
+  const auto add = [&all](const char* group, const std::vector<Option>& options) {
+    for (Option option : options) {
+      option.group = group;
+      all.push_back(std::move(option));
+    }
   };
+  add("Points",
+      {{.flag = "--unit",
+        .kind = OptionKind::kChoice,
+        .value = "UNIT",
+        .help = "Unit of coordinates, distances and sliding joints (not of volumes).",
+        .default_text = "m",
+        .choices = {"m", "mm", "cm", "um", "in"}},
+       of_kind(
+           OptionKind::kLength,
+           number_option("--spacing", "M",
+                         "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1)),
+       switch_option("--keep-outliers", "Removes only points that are given twice."),
+       switch_option("--ascii", "Writes an ASCII PLY."),
+       {.flag = "--json",
+        .kind = OptionKind::kFile,
+        .value = "FILE",
+        .help = "Writes the summary, with every zone's motion, as JSON."}});
+  add("Zones",
+      {{.flag = "--zone",
+        .kind = OptionKind::kFile,
+        .value = "FILE",
+        .help = "A further zone or view of the same object.",
+        .repeatable = true},
+       switch_option("--register", "Moves the zones so that they agree where they overlap."),
+       text_option("--fix-zone", "NAME", "Zone that stays, else the one with most overlap."),
+       of_kind(
+           OptionKind::kLength,
+           number_option("--most-drift", "M", "Largest drift looked for [m].", 1e-5, 1, "0.01")),
+       of_kind(OptionKind::kLength, number_option("--most-shift-error", "M",
+                                                  "Standard error of a shift that is accepted [m].",
+                                                  1e-6, 1, "0.001"))});
+  add("Touch",
+      {of_kind(
+           OptionKind::kForce,
+           number_option("--touch-force", "N",
+                         "Force of the touching probe, where no column touch_force says it [N].", 0,
+                         100)),
+       number_option("--touch-stiffness", "N/M", "Undoes the indentation by this stiffness [N/m].",
+                     1e-3, 1e9),
+       of_kind(OptionKind::kPressure,
+               number_option("--touch-modulus", "PA", "... or by Hertz with this modulus E [Pa].",
+                             1, 1e13)),
+       number_option("--touch-nu", "NU", "Poisson's ratio with --touch-modulus.", 0, 0.5, "0.5"),
+       of_kind(OptionKind::kLength,
+               number_option("--tip-radius", "M",
+                             "Radius of the probe's tip with --touch-modulus [m].", 1e-6, 1)),
+       switch_option("--flat-tip", "The tip is flat instead of a ball.")});
+  add("Robot",
+      {{.flag = "--robot",
+        .kind = OptionKind::kFile,
+        .value = "URDF",
+        .help = "The input holds joint angles of this robot."},
+       text_option("--root", "LINK", "Link in whose frame points are, else the robot's first."),
+       text_option("--tip", "LINK", "Link that carries the sensor, else the robot's only end."),
+       of_kind(
+           OptionKind::kPose,
+           text_option("--mount", "X,Y,Z[,R,P,Y]",
+                       "Place [m] and roll, pitch, yaw [rad] of the sensor on the tip.", "0,0,0")),
+       text_option("--beam", "X,Y,Z", "Direction of laser or bar in the sensor's frame.", "0,0,1"),
+       of_kind(OptionKind::kLength,
+               number_option("--bar", "M",
+                             "Length of a touching bar along the beam, instead of a laser [m].",
+                             1e-6, 10)),
+       of_kind(OptionKind::kPose,
+               text_option("--object", "X,Y,Z[,R,P,Y]",
+                           "Frame of the object in the robot's root, in which points are written.",
+                           "0,0,0")),
+       {.flag = "--angle-unit",
+        .kind = OptionKind::kChoice,
+        .value = "UNIT",
+        .help = "Unit of the joint angles read.",
+        .default_text = "rad",
+        .choices = {"rad", "deg"}},
+       of_kind(OptionKind::kLengths,
+               text_option(
+                   "--range", "MIN,MAX",
+                   "Distances outside [m], and cells without one, mean that nothing was seen."))});
+  add("Plan",
+      {{.flag = "--plan",
+        .kind = OptionKind::kChoice,
+        .value = "WHAT",
+        .help = "Writes joint angles instead: a raster over the input's surface, a level grid over "
+                "--region, or one pose a row of the input.",
+        .choices = {"surface", "grid", "positions"}},
+       of_kind(OptionKind::kLength,
+               number_option("--pitch", "M", "Distance of raster points [m].", 1e-5, 1, "0.005")),
+       of_kind(
+           OptionKind::kLength,
+           number_option("--standoff", "M",
+                         "Distance of the sensor from the surface [m], else --bar or 0.1.", 0, 10)),
+       of_kind(OptionKind::kLengths,
+               text_option("--region", "X0,Y0,X1,Y1",
+                           "Plan view of the raster in the object's frame [m].")),
+       of_kind(OptionKind::kLength,
+               number_option("--height", "Z", "Height of the grid [m].", -10, 10, "0")),
+       number_option("--steepest", "DEG", "Leaves out places steeper than this.", 0, 180, "80"),
+       switch_option("--check", "Exit code 1 when a pose is out of reach.")});
+  add("Volume",
+      {number_option("--threshold", "V", "Value at a volume's surface.", -1e30, 1e30),
+       switch_option("--below", "The body is where values are below the threshold."),
+       switch_option("--all-parts", "Takes every part of a volume, not the largest alone."),
+       switch_option("--cavities", "Takes surfaces of cavities too."),
+       switch_option("--sections", "Rows of equal z are contours, in their order."),
+       of_kind(OptionKind::kLength,
+               number_option("--section-distance", "M", "Distance of sections given without z [m].",
+                             1e-6, 1))});
+  return all;
 }
 
 inline ToolSpec scan2ply_specification() {

@@ -63,60 +63,70 @@ inline ToolSpec simulate_specification() {
                           .kind = OptionKind::kFile,
                           .value = "FILE",
                           .help = "Model from hs-identify, also one of its --acfm.",
+                          .group = "Input",
                           .required = true});
   spec.options.push_back({.flag = "--add-noise",
-                          .kind = OptionKind::kNumber,
+                          .kind = OptionKind::kForce,
                           .value = "N",
                           .help = "Adds Gaussian noise of this standard deviation [N] to every "
                                   "force component and declares it as force_noise.",
+                          .group = "Output",
                           .minimum = 0});
   spec.options.push_back({.flag = "--seed",
                           .kind = OptionKind::kInteger,
                           .value = "N",
                           .help = "Seed of the added noise.",
+                          .group = "Output",
                           .default_text = "1",
                           .minimum = 0});
-  spec.options.push_back(
-      {.flag = "--own-mesh",
-       .kind = OptionKind::kSwitch,
-       .help = "Presses the body's own mesh instead of meshes of its contacts."});
+  spec.options.push_back({.flag = "--own-mesh",
+                          .kind = OptionKind::kSwitch,
+                          .help = "Presses the body's own mesh instead of meshes of its contacts.",
+                          .group = "Solution"});
   spec.options.push_back({.flag = "--full",
                           .kind = OptionKind::kSwitch,
                           .help = "Finite elements at every step; a step that does not converge "
-                                  "ends it (exit 4)."});
+                                  "ends it (exit 4).",
+                          .group = "Solution"});
   spec.options.push_back({.flag = "--force-control",
                           .kind = OptionKind::kSwitch,
                           .help = "Full: the motion's forces are given, its displacements are "
-                                  "found and written."});
+                                  "found and written.",
+                          .group = "Solution"});
   spec.options.push_back({.flag = "--solver",
                           .kind = OptionKind::kChoice,
                           .value = "NAME",
                           .help = "Own mesh: how it is solved.",
+                          .group = "Solution",
                           .default_text = "by-size",
                           .choices = {"by-size", "direct", "iterative"}});
   spec.options.push_back({.flag = "--vtu",
                           .kind = OptionKind::kText,
                           .value = "PREFIX",
-                          .help =
-                              "Own mesh: writes PREFIX-ROW.vtu with displacement, stress and "
-                              "energy density at the deepest row of each press, or at --rows."});
+                          .help = "Own mesh: writes PREFIX-ROW.vtu with displacement, stress and "
+                                  "energy density at the deepest row of each press, or at --rows.",
+                          .group = "Output"});
   spec.options.push_back({.flag = "--rows",
                           .kind = OptionKind::kText,
                           .value = "LIST",
-                          .help = "Rows of the motion to write with --vtu, from 1: 20,40,60."});
+                          .help = "Rows of the motion to write with --vtu, from 1: 20,40,60.",
+                          .group = "Output"});
   spec.options.push_back({.flag = "--live",
                           .kind = OptionKind::kSwitch,
-                          .help = "Answers each line as it comes; latencies on standard error."});
+                          .help = "Answers each line as it comes; latencies on standard error.",
+                          .group = "Live"});
   spec.options.push_back({.flag = "--contacts",
                           .kind = OptionKind::kFile,
                           .value = "FILE",
                           .help = "Live: a recording whose contact positions are solved finely "
-                                  "before the first line."});
+                                  "before the first line.",
+                          .group = "Live"});
   spec.options.push_back({.flag = "--rate",
                           .kind = OptionKind::kNumber,
                           .value = "HZ",
                           .help = "Live: takes the lines at this rate by the clock, with memory "
                                   "locked and real-time scheduling where they are permitted.",
+                          .group = "Live",
                           .minimum = 0.001,
                           .maximum = 100000});
   spec.options.push_back({.flag = "--binary",
@@ -124,6 +134,7 @@ inline ToolSpec simulate_specification() {
                           .value = "KIND",
                           .help = "Live: records instead of lines in and out; tip positions or "
                                   "presses come in.",
+                          .group = "Live",
                           .choices = {"tip", "press"}});
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},

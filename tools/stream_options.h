@@ -21,12 +21,15 @@ inline std::vector<Option> online_flags(const std::string& who) {
            .kind = OptionKind::kNumber,
            .value = "NU",
            .help = who + ": Poisson's ratio of the body that is identified.",
+           .group = who,
            .default_text = "0.45",
            .minimum = 0,
            .maximum = 0.499},
           {.flag = "--times",
+           .kind = OptionKind::kTimes,
            .value = "LIST",
            .help = who + ": relaxation times whose moduli are identified too [s], at most five.",
+           .group = who,
            .repeatable = true}};
 }
 

@@ -15,7 +15,7 @@
 #include "batch/option_files.h"
 #include "batch/shell_words.h"
 #include "io/csv.h"
-#include "io/length.h"
+#include "io/quantity.h"
 
 namespace hapsim {
 namespace {

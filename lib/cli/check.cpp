@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "cli/spec_text.h"
 #include "io/number.h"
+#include "io/quantity.h"
 
 namespace hapsim {
 namespace {
@@ -39,15 +40,16 @@ void check_choice(const Option& option, const std::string& text) {
 void check_value(const Option& option, const std::string& text) {
   if (text.empty())
     fail_usage("a value of " + option.flag + " is empty", "give a value " + option.value);
-  switch (option.kind) {
-    case OptionKind::kNumber:
-    case OptionKind::kInteger:
-      return check_number(option, text);
-    case OptionKind::kChoice:
-      return check_choice(option, text);
-    default:
-      return;
-  }
+  if (is_number(option)) check_number(option, text);
+  if (option.kind == OptionKind::kChoice) check_choice(option, text);
+}
+
+std::string in_si(const Option& option, const std::string& text) {
+  const std::vector<Quantity> quantities = quantities_of(option);
+  double value;
+  if (quantities.empty() || text.empty() || parse_number(text, value)) return text;
+  if (is_number(option)) return format_number(parse_quantity(text, quantities[0], option.flag));
+  return list_in_si(text, quantities, option.flag);
 }
 
 }  // namespace hapsim

@@ -7,6 +7,10 @@
 
 namespace hapsim {
 
+// A quantity with a unit in SI ("4mm": "0.004"); everything else as it is. Throws Error(kUsage)
+// when `text` is no quantity of the option's kind.
+std::string in_si(const Option& option, const std::string& text);
+
 // Throws Error(kUsage) when `text` is no value of the option: not a finite number, not whole, out
 // of bounds, not a choice, empty.
 void check_value(const Option& option, const std::string& text);

@@ -34,10 +34,6 @@ std::string letter(const Option& option) {
   return short_flag(option.flag).substr(0, 2);
 }
 
-bool is_number(const Option& option) {
-  return option.kind == OptionKind::kNumber || option.kind == OptionKind::kInteger;
-}
-
 std::string bash(const ToolSpec& spec) {
   std::string flags, cases;
   for (const Option& option : all_options(spec)) {

@@ -57,8 +57,12 @@ std::string help_text(const ToolSpec& spec) {
           wrapped(synopsis(spec), 8 + spec.name.size(), 8 + spec.name.size());
   for (const std::string& p : spec.description) text += "\n" + paragraph(p, 0);
   if (!spec.input.empty()) text += "\nInput:\n" + paragraph(input_text(spec), 2);
-  text += "\nOptions:\n";
+  std::string group = "-";
   for (const Option& option : all_options(spec)) {
+    if (option.group != group) {
+      group = option.group;
+      text += group.empty() ? "\nOptions:\n" : "\nOptions, " + group + ":\n";
+    }
     std::string term = short_flag(option.flag);
     term += (term.empty() ? "" : " ") + option.flag;
     if (!option.value.empty()) term += " " + option.value;

@@ -95,8 +95,12 @@ std::string man_page(const ToolSpec& spec) {
   for (const std::string& text : spec.description) add_paragraph(text);
   if (!spec.input.empty()) add_paragraph("Input: " + input_text(spec));
   page += ".SH OPTIONS\n";
-  for (const Option& option : all_options(spec))
+  std::string group;
+  for (const Option& option : all_options(spec)) {
+    if (option.group != group) page += ".SS " + escaped(option.group) + "\n";
+    group = option.group;
     page += entry(option_term(option), full_help(option));
+  }
   if (!spec.tables.empty()) page += ".SH COLUMNS\n";
   for (const auto& [title, rows] : spec.tables) {
     page += ".SS " + escaped(title) + "\n";

@@ -85,7 +85,10 @@ Arguments::Value make_value(const Option& option, std::vector<std::string> texts
     fail_usage(option.flag + " is given twice", "give it once");
   if (option.repeatable && option.kind != OptionKind::kFile)
     value.texts = split_at_commas(value.texts);
-  for (const std::string& text : value.texts) check_value(option, text);
+  for (std::string& text : value.texts) {
+    text = in_si(option, text);
+    check_value(option, text);
+  }
   return value;
 }
 
@@ -112,7 +115,7 @@ void check_words(const std::vector<Option>& options, const std::vector<std::stri
 
 CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
   const std::vector<Option> options = all_options(spec);
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   CommandLine line;
   for (const std::string& word : words) {
     if (word == "--") break;
@@ -126,6 +129,7 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
       }
     if (line.request != Request::kRun) return line;
   }
+  if (std::erase(words, "--parsed") > 0) line.request = Request::kParsed;
   check_words(options, words);
   Found found = find_all(options, words);
   if (!found.unknown.empty()) fail_unknown(spec, found.unknown.front());

@@ -1,6 +1,9 @@
 #include "cli/spec_text.h"
 
+#include <algorithm>
+
 #include "io/number.h"
+#include "io/quantity.h"
 
 namespace hapsim {
 namespace {
@@ -11,6 +14,17 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
   return text;
+}
+
+// "A length from 0 to 1 m, as 0.004 or 4mm".
+std::string quantity_text(const Option& option) {
+  const QuantityWords& words = words_of(quantities_of(option).front());
+  if (option.kind == OptionKind::kPose) return "In m and rad, or with units, as 4mm and 30deg";
+  if (!is_number(option))
+    return std::string("In ") + words.unit + ", or with a unit, as " + words.example;
+  const std::string bounds = bounds_text(option);
+  return std::string("A ") + words.name + " " +
+         (bounds.empty() ? std::string("in ") + words.unit : bounds) + ", as " + words.example;
 }
 
 void add_sentence(std::string& text, const std::string& sentence) {
@@ -33,27 +47,62 @@ const std::array<std::pair<const char*, const char*>, 6> kExitCodes{{
     {"5", "reading or writing failed"},
 }};
 
+bool is_number(const Option& option) {
+  return option.kind == OptionKind::kNumber || option.kind == OptionKind::kInteger ||
+         (quantities_of(option).size() == 1 && option.kind != OptionKind::kLengths &&
+          option.kind != OptionKind::kTimes);
+}
+
+std::vector<Quantity> quantities_of(const Option& option) {
+  switch (option.kind) {
+    case OptionKind::kLength:
+    case OptionKind::kLengths:
+      return {Quantity::kLength};
+    case OptionKind::kTime:
+    case OptionKind::kTimes:
+      return {Quantity::kTime};
+    case OptionKind::kForce:
+      return {Quantity::kForce};
+    case OptionKind::kPressure:
+      return {Quantity::kPressure};
+    case OptionKind::kPose:
+      return {Quantity::kLength, Quantity::kLength, Quantity::kLength, Quantity::kAngle};
+    default:
+      return {};
+  }
+}
+
 std::vector<Option> all_options(const ToolSpec& spec) {
+  constexpr const char *kOutput = "Output", *kGeneral = "General";
+  std::vector<std::string> groups;
+  for (const Option& option : spec.options)
+    if (std::find(groups.begin(), groups.end(), option.group) == groups.end())
+      groups.push_back(option.group);
+  const bool grouped = groups.size() > 1 || (groups.size() == 1 && !groups[0].empty());
+  const bool has_output = std::find(groups.begin(), groups.end(), kOutput) != groups.end();
+  std::erase(groups, kGeneral);
+  if (grouped) groups.emplace_back(kGeneral);
+  const std::string general = grouped ? kGeneral : "";
+
   std::vector<Option> options = spec.options;
-  const auto add = [&](const char* flag, const char* help) {
-    Option option;
-    option.flag = flag;
-    option.kind = OptionKind::kSwitch;
-    option.help = help;
-    options.push_back(option);
+  options.push_back(
+      {.flag = "--output",
+       .kind = OptionKind::kFile,
+       .value = "FILE",
+       .help = "Write the result to FILE, complete or not at all; - is standard output.",
+       .group = has_output ? kOutput : general,
+       .default_text = "-"});
+  for (const auto& [flag, help] :
+       {std::pair{"--quiet", "Print errors only."},
+        std::pair{"--verbose", "Print more about what is done."},
+        std::pair{"--help", "Print this help."}, std::pair{"--man", "Print the manual page."},
+        std::pair{"--version", "Print the version."}})
+    options.push_back({.flag = flag, .kind = OptionKind::kSwitch, .help = help, .group = general});
+  const auto place = [&groups](const Option& option) {
+    return std::find(groups.begin(), groups.end(), option.group);
   };
-  Option output;
-  output.flag = "--output";
-  output.kind = OptionKind::kFile;
-  output.value = "FILE";
-  output.help = "Write the result to FILE, complete or not at all; - is standard output.";
-  output.default_text = "-";
-  options.push_back(output);
-  add("--quiet", "Print errors only.");
-  add("--verbose", "Print more about what is done.");
-  add("--help", "Print this help.");
-  add("--man", "Print the manual page.");
-  add("--version", "Print the version.");
+  std::stable_sort(options.begin(), options.end(),
+                   [&](const Option& a, const Option& b) { return place(a) < place(b); });
   return options;
 }
 
@@ -71,20 +120,24 @@ bool is_flag(const std::string& word, const Option& option) {
 }
 
 std::string bounds_text(const Option& option) {
+  const std::vector<Quantity> quantities = quantities_of(option);
+  const std::string unit =
+      quantities.empty() ? "" : std::string(" ") + words_of(quantities.front()).unit;
   const bool below = option.minimum > -kUnbounded, above = option.maximum < kUnbounded;
   if (below && above)
-    return "from " + format_number(option.minimum) + " to " + format_number(option.maximum);
-  if (below) return "of at least " + format_number(option.minimum);
-  if (above) return "of at most " + format_number(option.maximum);
+    return "from " + format_number(option.minimum) + " to " + format_number(option.maximum) + unit;
+  if (below) return "of at least " + format_number(option.minimum) + unit;
+  if (above) return "of at most " + format_number(option.maximum) + unit;
   return "";
 }
 
 std::string full_help(const Option& option) {
   std::string text = option.help;
-  const bool number = option.kind == OptionKind::kNumber || option.kind == OptionKind::kInteger;
   if (option.kind == OptionKind::kChoice)
     add_sentence(text, "One of: " + joined(option.choices, ", ") + ".");
-  if (number && !bounds_text(option).empty())
+  if (!quantities_of(option).empty())
+    add_sentence(text, quantity_text(option) + ".");
+  else if (is_number(option) && !bounds_text(option).empty())
     add_sentence(text, (option.kind == OptionKind::kInteger ? "A whole number " : "A number ") +
                            bounds_text(option) + ".");
   if (option.repeatable)

@@ -6,11 +6,20 @@
 #include <utility>
 #include <vector>
 
+#include "base/units.h"
 #include "cli/tool.h"
 
 namespace hapsim {
 
-// The tool's own flags, then those that every tool has.
+// One number: kNumber, kInteger and single quantities.
+bool is_number(const Option& option);
+
+// The quantities of a value's numbers in order, the last also of those that follow; none where a
+// value takes no unit.
+std::vector<Quantity> quantities_of(const Option& option);
+
+// The tool's own flags, then those that every tool has. With groups: group by group, in the order
+// in which these are first named, "General" last; --output stands in "Output" where that is.
 std::vector<Option> all_options(const ToolSpec& spec);
 
 // "-o," for "--output", "" for a flag without a short form: what precedes the long flag.

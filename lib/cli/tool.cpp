@@ -55,6 +55,18 @@ int print(const std::string& text) {
   return static_cast<int>(ExitCode::kDone);
 }
 
+// A line a flag that has values.
+std::string parsed_text(const Arguments& arguments) {
+  std::string text;
+  for (const Arguments::Value& v : arguments.values_) {
+    if (v.texts.empty()) continue;
+    text += v.flag;
+    for (const std::string& one : v.texts) text += " " + one;
+    text += "\n";
+  }
+  return text;
+}
+
 int parse_and_run(const ToolSpec& spec, int argc, char** argv,
                   const std::function<int(const Arguments&)>& run) {
   const CommandLine line = parse_command_line(spec, argc, argv);
@@ -67,6 +79,8 @@ int parse_and_run(const ToolSpec& spec, int argc, char** argv,
       return print(spec.name + " (hapsim) " + version() + "\n");
     case Request::kCompletion:
       return print(completion(spec, line.shell));
+    case Request::kParsed:
+      return print(parsed_text(line.arguments));
     case Request::kRun:
       break;
   }

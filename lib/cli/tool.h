@@ -10,18 +10,36 @@
 
 namespace hapsim {
 
-enum class OptionKind { kSwitch, kText, kNumber, kInteger, kChoice, kFile };
+// Those from kLength on are quantities: in SI, or with a unit ("0.004", "4mm"). What Arguments
+// tells of them is in SI. kLengths and kTimes are several numbers in one value ("0,0,0.05",
+// "1ms:2ms"), kPose is X,Y,Z[,R,P,Y]: lengths, then angles.
+enum class OptionKind {
+  kSwitch,
+  kText,
+  kNumber,
+  kInteger,
+  kChoice,
+  kFile,
+  kLength,
+  kTime,
+  kForce,
+  kPressure,
+  kLengths,
+  kTimes,
+  kPose
+};
 
 // One long flag. Every tool also has -o/--output, -q/--quiet, -v/--verbose, -h/--help,
 // -V/--version, which run_tool adds.
 struct Option {
   std::string flag = {};  // "--unit"
   OptionKind kind = OptionKind::kText;
-  std::string value = {};                 // name of the value in the help: "UNIT"
-  std::string help = {};                  // one or two sentences
+  std::string value = {};  // name of the value in the help: "UNIT"
+  std::string help = {};   // one or two sentences
+  std::string group = {};  // heading of --help and man page that it stands under; "" for none
   std::string default_text = {};          // value when not given, "" for none
   std::vector<std::string> choices = {};  // kChoice
-  double minimum = -1e300;                // kNumber, kInteger: checked bounds
+  double minimum = -1e300;                // of one number: checked bounds (SI)
   double maximum = 1e300;
   bool required = false;
   // Values gathered in order; also split at commas (kFile is not: names may hold commas).

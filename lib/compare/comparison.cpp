@@ -75,7 +75,7 @@ std::string comparison_json(const Comparison& c, const std::string& measured_nam
                      {"force_rms", c.size.force_rms},
                      {"force_peak", c.size.force_peak},
                      {"noise", c.noise.value},
-                     {"noise_source", c.noise.estimated ? "second differences" : "force_noise"},
+                     {"noise_source", c.noise.estimated ? "measured" : "force_noise"},
                      {"observations", observations},
                      {"breakdowns", breakdowns}};
   // A file name need not be UTF-8; what is not becomes a replacement character.

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "experiment/dataset.h"
 #include "io/number.h"
+#include "recording/force_noise.h"
 
 namespace hapsim {
 namespace {
@@ -23,13 +23,8 @@ constexpr double kSameNumber = 1e-5;  // [m]; a file with five decimals still ma
 }  // namespace
 
 NoiseLevel noise_level(const Recording& measured) {
-  const std::vector<Press> presses = measured.presses();
-  const bool known =
-      measured.force_noise() || std::any_of(presses.begin(), presses.end(),
-                                            [](const Press& p) { return p.rows.size() >= 3; });
-  if (!known) return {0, true};
-  const Noise noise = force_noise(measured);
-  return {noise.value, noise.measured};
+  if (const auto declared = measured.force_noise()) return {*declared, false};
+  return {measure_force_noise(measured).sigma, true};
 }
 
 ErrorSize error_size(const std::vector<Vec3>& measured, const std::vector<Vec3>& simulated) {

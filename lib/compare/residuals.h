@@ -11,10 +11,10 @@ namespace hapsim {
 // Sensor noise: standard deviation of one force component [N].
 struct NoiseLevel {
   double value = 0;
-  bool estimated = false;  // from second differences in time, not from `force_noise`
+  bool estimated = false;  // from the recording itself, not from `force_noise`
 };
 
-// As model/dataset.h has it; 0 when it is not declared and no press has three rows.
+// As recording/force_noise.h has it; 0 when it is not declared and no press has three rows.
 NoiseLevel noise_level(const Recording& measured);
 
 // Error sizes in newtons. rmse = sqrt(mean of all squared component residuals): all rows, the

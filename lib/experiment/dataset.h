@@ -46,17 +46,6 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
 // press before it at its place (none with `recovery: full`).
 Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals);
 
-// Standard deviation of the force noise per component [N]: metadata `force_noise`, or second
-// differences in time, median(|d2|) / (0.6745 sqrt 6), pooled over the components that were
-// measured and the presses: a smooth force has small second differences, white noise of standard
-// deviation s has sqrt(6) s. Coloured noise makes the estimate too small. At least 1e-4 of the
-// peak.
-struct Noise {
-  double value = 0;
-  bool measured = false;  // from the data, not declared
-};
-Noise force_noise(const Recording& recording);
-
 // The temperature to count from is the metadata `temp_ref`, else the mean.
 DataSummary summarise(const Dataset& dataset, double modulus);
 

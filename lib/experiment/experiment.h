@@ -11,6 +11,7 @@
 #include "experiment/places.h"
 #include "experiment/shape_error.h"
 #include "model/model.h"
+#include "recording/force_noise.h"
 
 namespace hapsim {
 

@@ -1,6 +1,6 @@
 #include "experiment/places.h"
 
-#include <algorithm>
+#include "base/median.h"
 
 namespace hapsim {
 
@@ -51,8 +51,7 @@ std::vector<Vec3> Places::normals() const {
 double Places::mesh_uncertainty() const {
   std::vector<double> values;
   for (std::size_t p = 0; p < size(); ++p) values.push_back(contact(p).mesh_uncertainty);
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
+  return upper_median(std::move(values));
 }
 
 RigidMove Places::move() const {

@@ -7,10 +7,11 @@
 #include <limits>
 #include <set>
 
+#include "base/median.h"
 #include "import/block.h"
-#include "import/force_noise.h"
-#include "io/length.h"
+#include "io/quantity.h"
 #include "io/number.h"
+#include "recording/force_noise.h"
 
 namespace hapsim {
 namespace {
@@ -53,8 +54,7 @@ std::vector<char> contact_flags(const Samples& samples, const PressTrack& track,
   std::vector<double> air;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (track.travel[i] < lift) air.push_back(track.force[i]);
-  std::sort(air.begin(), air.end());
-  const double rest = air.empty() ? 0 : air[air.size() / 2];
+  const double rest = upper_median(std::move(air));
   std::vector<char> flags;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool feels = std::abs(track.force[i] - rest) > 6 * noise + 0.02 * top;
@@ -109,6 +109,20 @@ Vec3 rounded(const Vec3& v, double per_unit) {
   return ((v * per_unit).array().round() / per_unit + 0.0).matrix();
 }
 
+// Of all samples, also those that --rate or --drop-air leave out. None from fewer differences than
+// would tell it to a fifth.
+NoiseEstimate noise_of(const std::vector<PressTrack>& tracks) {
+  constexpr std::size_t kFewest = 30;
+  Recording all;
+  for (std::size_t p = 0; p < tracks.size(); ++p) {
+    all.press.insert(all.press.end(), tracks[p].f.size(), static_cast<int>(p));
+    for (const Vec3& u : tracks[p].u) all.u.push_back(rounded(u, 1e10));
+    for (const Vec3& f : tracks[p].f) all.f.push_back(rounded(f, 1e9));
+  }
+  const NoiseEstimate noise = measure_force_noise(all);
+  return noise.differences < kFewest ? NoiseEstimate{} : noise;
+}
+
 class Assembler {
  public:
   Assembler(const RawTable& table, const ColumnMap& map, const Samples& samples,
@@ -119,9 +133,9 @@ class Assembler {
     Recording& out = result_.recording;
     out.name = table_.name;
     set_metadata();
-    const NoiseEstimate noise = estimate_noise(tracks, samples_[VectorRole::kForce].empty());
-    note_noise(noise);
     const std::vector<int> ids = press_ids(table_, map_, tracks);
+    const NoiseEstimate noise = noise_of(tracks);
+    note_noise(noise);
     carried_ =
         carried_columns(table_, map_, map_.press.size() == 1 && ids_are_table_ids(tracks, ids));
     for (const std::size_t c : carried_) out.extra_header.push_back(carried_name(table_.header[c]));
@@ -129,7 +143,7 @@ class Assembler {
     double limit = 0;
     for (const PressTrack& track : tracks)
       limit = std::max(limit, *std::max_element(track.force.begin(), track.force.end()));
-    for (std::size_t p = 0; p < tracks.size(); ++p) add(tracks[p], ids[p], noise.sigma, limit);
+    for (std::size_t p = 0; p < tracks.size(); ++p) add(tracks[p], ids[p], noise.along, limit);
     if (std::all_of(out.contact.begin(), out.contact.end(), [](char c) { return c != 0; }))
       out.contact.clear();
     if (dropped_)

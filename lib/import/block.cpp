@@ -3,23 +3,19 @@
 #include <array>
 
 #include "base/error.h"
-#include "io/length.h"
 #include "io/number.h"
+#include "io/quantity.h"
 
 namespace hapsim {
 
 Vec3 parse_block(const std::string& text) {
-  // A unit at the end holds for all three: 120x80x40mm.
-  const std::size_t digits = text.find_last_of("0123456789.");
-  const std::string unit = digits == text.npos ? "" : text.substr(digits + 1);
+  const std::string si = list_in_si(text, {Quantity::kLength}, "--block");
   Vec3 size;
   std::size_t from = 0;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    const std::size_t to = std::min(text.find_first_of("xX,", from), text.size());
-    std::string part = text.substr(from, to - from);
-    if (part.find_first_of("mcui") == part.npos) part += unit;
-    size[i] = parse_length(part, "--block");
-    if (!(size[i] > 0) || (to == text.size()) != (i == 2))
+    const std::size_t to = std::min(si.find_first_of("xX,", from), si.size());
+    if (!parse_number(si.substr(from, to - from), size[i]) || !(size[i] > 0) ||
+        (to == si.size()) != (i == 2))
       fail_usage("--block: '" + text + "' is not three positive lengths",
                  "write for example 120x80x40mm");
     from = to + 1;

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/csv.h"
+#include "io/quantity.h"
 #include "io/stream.h"
 
 namespace hapsim {
@@ -18,7 +19,7 @@ namespace {
 [[noreturn]] void fail_text(const std::string& text) {
   fail_usage("'" + text + "' names no support",
              "give bottom, plane:Z, plane:NX,NY,NZ,H, below:Z, box:X0,Y0,Z0,X1,Y1,Z1, file:PATH or "
-             "none, in metres, several joined by +");
+             "none, in metres or with a unit (below:4mm), several joined by +");
 }
 
 std::vector<double> numbers_of(const std::string& list, const std::string& text) {
@@ -64,7 +65,13 @@ Support parse_one(const std::string& text) {
     read_file(rest, support);
     return support;
   }
-  const std::vector<double> n = numbers_of(rest, text);
+  // All are lengths but a plane's normal.
+  const bool oriented = kind == "plane" && std::count(rest.begin(), rest.end(), ',') == 3;
+  const std::size_t lengths = oriented ? rest.rfind(',') + 1 : 0;
+  const std::vector<double> n =
+      numbers_of(rest.substr(0, lengths) +
+                     list_in_si(rest.substr(lengths), {Quantity::kLength}, "'" + text + "'"),
+                 text);
   if (kind == "below" && n.size() == 1) {
     support.kind = SupportKind::kBelow;
     support.z = n[0];

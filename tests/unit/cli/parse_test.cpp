@@ -1,8 +1,10 @@
 #include "cli/parse.h"
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
+#include "cli/completion.h"
 #include "cli/help.h"
 #include "expect_error.h"
 
@@ -19,16 +21,26 @@ ToolSpec sample() {
   depths.repeatable = true;
   depths.default_text = "0.001,0.002";
   depths.minimum = 0;
+  Option edge{"--edge", OptionKind::kLength, "M", "An edge."};
+  edge.minimum = 1e-6;
+  edge.maximum = 1;
+  Option times{"--times", OptionKind::kTimes, "LIST", "Windows."};
+  times.repeatable = true;
+  Option mount{"--mount", OptionKind::kPose, "X,Y,Z[,R,P,Y]", "A place."};
   Option data{"--data", OptionKind::kFile, "FILE", "Recordings."};
   data.repeatable = true;
-  spec.options = {body, depths, data};
+  spec.options = {body, depths, edge, times, mount, data};
   return spec;
 }
 
+// Words parted by spaces; _ is a space within one.
 Arguments parsed(const std::string& line) {
   std::istringstream stream("hs-parse " + line);
   std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
+  for (std::string word; stream >> word;) {
+    std::replace(word.begin(), word.end(), '_', ' ');
+    words.push_back(word);
+  }
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   return parse_command_line(sample(), static_cast<int>(argv.size()), argv.data()).arguments;
@@ -54,6 +66,27 @@ TEST(Parse, SplitsListsButNotFileNames) {
             "--depth is -2; give a number of at least 0");
 }
 
+TEST(Parse, QuantitiesAreToldInSi) {
+  for (const char* text : {"0.004", "4mm", "4_mm", "0.004_m", "0.4cm"})
+    EXPECT_EQ(parsed(std::string("--body b --edge ") + text).number("--edge"), 0.004) << text;
+  EXPECT_EQ(parsed("--body b --edge 4mm").text("--edge"), "0.004");
+  EXPECT_EQ(parsed("--body b --edge 4.0e-3").text("--edge"), "4.0e-3");  // as it was given
+  EXPECT_EQ(parsed("--body b --times 50ms:1s,2:30").list("--times"), (Texts{"0.05:1", "2:30"}));
+  EXPECT_EQ(parsed("--body b --mount 1,2,3mm,0,0,180deg").text("--mount"),
+            "0.001,0.002,0.003,0,0,3.141592653589793");
+  EXPECT_EQ(parsed("--body b --mount=-5mm,0,0").text("--mount"), "-0.005,0,0");
+}
+
+TEST(Parse, QuantitiesOutOfBoundsOrOfAnotherKindAreRefused) {
+  const auto failure = [](const std::string& text) {
+    return error_of([&] { parsed("--body b --edge " + text); }, ExitCode::kUsage);
+  };
+  EXPECT_EQ(failure("4000mm"), "--edge is 4; give a number from 1e-06 to 1 m");
+  EXPECT_EQ(failure("4"), "--edge is 4; give a number from 1e-06 to 1 m");
+  EXPECT_EQ(failure("4N"), "--edge: unknown unit 'N'; use one of: m mm cm um in");
+  EXPECT_EQ(failure("wide"), "--edge: 'wide' is no length; write for example 0.004 or 4mm");
+}
+
 TEST(Parse, TellsGivenFromDefault) {
   const Arguments arguments = parsed("--body b");
   EXPECT_TRUE(arguments.has("--depth"));
@@ -76,8 +109,34 @@ TEST(Parse, HelpWinsOverErrors) {
 TEST(Help, ShowsRequiredFlagsInTheUsage) {
   const std::string help = help_text(sample());
   EXPECT_NE(help.find("Usage: hs-parse [OPTIONS] --body FILE\n"), std::string::npos) << help;
+  EXPECT_NE(help.find("An edge. A length from 1e-06 to 1 m, as 0.004 or 4mm."), std::string::npos)
+      << help;
   EXPECT_EQ(help.find("Input:"), std::string::npos);
   EXPECT_EQ(help.find("Examples:"), std::string::npos);
+}
+
+// Options of one group stand together wherever they were declared, "General" last.
+TEST(Help, ShowsGroups) {
+  ToolSpec spec = sample();
+  const char* const groups[] = {"Input", "General", "Mesh", "Output", "Input", "Mesh"};
+  ASSERT_EQ(spec.options.size(), std::size(groups));
+  for (std::size_t i = 0; i < std::size(groups); ++i) spec.options[i].group = groups[i];
+  const std::string help = help_text(spec);
+  std::size_t at = 0;
+  for (const char* part : {"\nOptions, Input:\n", "--body FILE", "--mount X", "\nOptions, Mesh:\n",
+                           "--edge M", "--data FILE", "\nOptions, Output:\n", "--times LIST",
+                           "--output FILE", "\nOptions, General:\n", "--depth M", "--quiet"}) {
+    const std::size_t found = help.find(part, at);
+    ASSERT_NE(found, std::string::npos) << part << help;
+    at = found;
+  }
+  const std::string page = man_page(spec);
+  for (const char* part : {".SH OPTIONS\n.SS Input\n", ".SS Mesh\n", ".SS General\n"})
+    EXPECT_NE(page.find(part), std::string::npos) << part;
+  for (const char* shell : {"bash", "zsh", "fish"})
+    EXPECT_NE(completion(spec, shell).find("mount"), std::string::npos) << shell;
+  EXPECT_EQ(help_text(sample()).find("Options, "), std::string::npos);
+  EXPECT_NE(help_text(sample()).find("\nOptions:\n"), std::string::npos);
 }
 
 }  // namespace

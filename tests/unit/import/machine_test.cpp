@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/surface_io.h"
+#include "recording/force_noise.h"
 #include "synthetic.h"
 
 namespace hapsim::test {
@@ -42,6 +43,17 @@ TEST(ImportMachine, ApproachIsFoundAndKept) {
     EXPECT_GT(result.recording.u[0].z(), 2.8e-3);  // away from the body
     EXPECT_GT(result.recording.f.back().z(), 1);
     EXPECT_NEAR(*result.recording.metadata.number("force_noise", ""), 0.01, 0.003);
+  }
+}
+
+TEST(ImportMachine, ForceNoiseIsThatOfTheTableWritten) {
+  for (const double sigma : {0.002, 0.01, 0.05}) {
+    Recording written =
+        import_text(table("t_s,travel_mm,force_N", ramp({.sigma = sigma}))).recording;
+    const double declared = *written.metadata.number("force_noise", "");
+    written.metadata.remove("force_noise");
+    EXPECT_NEAR(force_noise(written).value / declared, 1, 0.006) << sigma;
+    EXPECT_NEAR(declared / sigma, 1, 0.15) << sigma;
   }
 }
 

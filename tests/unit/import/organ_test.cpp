@@ -1,6 +1,7 @@
 // A robot's probing of an organ, in the ways such tables are written.
 #include <gtest/gtest.h>
 
+#include "recording/force_noise.h"
 #include "synthetic.h"
 
 namespace hapsim::test {
@@ -52,6 +53,30 @@ TEST(ImportOrgan, ForceNoiseIsEstimated) {
   const auto sigma = result.recording.metadata.number("force_noise", "");
   ASSERT_TRUE(sigma);
   EXPECT_NEAR(*sigma, 0.01, 0.003);
+}
+
+// What is written as force_noise is what every tool would measure of the same table, whether the
+// sensor has three axes, one along the normal, or one of the robot's.
+TEST(ImportOrgan, ForceNoiseIsThatOfTheTableWritten) {
+  for (const std::string columns : {"fx_N,fy_N,fz_N", "force_N", "fx_N,fy_N,fz_N one axis"}) {
+    const bool one = columns.find("one") != std::string::npos;
+    const ImportResult result = import_text(organ(
+        kSite + ",depth_mm," + columns.substr(0, columns.find(' ')),
+        [&](int i, const Site& s, double d, const Vec3& f) {
+          const std::string place =
+              std::to_string(i) + cells(s.point) + cells(s.normal) + fmt::format(",{}", d);
+          if (columns == "force_N") return place + fmt::format(",{:.5f}", f.dot(s.normal));
+          return place + cells(one ? Vec3(0, 0, f.z()) : f);
+        },
+        60));
+    Recording written = result.recording;
+    const auto declared = written.metadata.number("force_noise", "");
+    ASSERT_TRUE(declared) << columns;
+    written.metadata.remove("force_noise");
+    EXPECT_NEAR(force_noise(written).value / *declared, 1, 0.006) << columns;  // three digits
+    const double truth = columns == "force_N" ? 0.01 / std::sqrt(3.0) : 0.01;
+    EXPECT_NEAR(*declared / truth, 1, 0.12) << columns;
+  }
 }
 
 TEST(ImportOrgan, BarePositionsWithDepthWithoutUnits) {

@@ -146,8 +146,13 @@ TEST(BodyOptions, SupportsByBoxPlaneAndFile) {
   EXPECT_EQ(error_of([&] { fixed("file:" + far.path()); }).first, 3);
   const test::TemporaryFile numbers("node\n0\n1e9\n");
   EXPECT_EQ(error_of([&] { fixed("file:" + numbers.path()); }).first, 3);
-  for (const char* wrong :
-       {"box:1,2", "plane:0,0,0,1", "bottom+", "bottom+x", "file:", "plane:1,2"})
+  const Support box = parse_support("box:0,0,-1mm,6cm,50 mm,0.04");  // lengths have units
+  EXPECT_EQ(box.low, Vec3(0, 0, -0.001));
+  EXPECT_EQ(box.high, Vec3(0.06, 0.05, 0.04));
+  EXPECT_EQ(parse_support("none+below:4mm").also.at(0).z, 0.004);
+  EXPECT_EQ(parse_support("plane:0,0,2,8mm").z, 0.004);  // a normal has none
+  for (const char* wrong : {"below:4parsec", "plane:0,0,2mm,8mm", "box:1,2", "plane:0,0,0,1",
+                            "bottom+", "bottom+x", "file:", "plane:1,2"})
     EXPECT_EQ(error_of([&] { parse_support(wrong); }).first, 2) << wrong;
 }
 
