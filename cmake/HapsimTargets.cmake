@@ -17,6 +17,7 @@ hapsim_flags(hapsim_pch)
 # hapsim_layer(<name> SOURCES a.cpp ... [CGAL b.cpp ...] USES layer ... [LINKS foreign ...]): a room of
 # lib as a library. What stands under CGAL is compiled with its flags (-frounding-math), which nothing
 # else is built with; users of the library see none of CGAL's headers, but GMP and MPFR must be linked.
+# CGAL's files that instantiate the same templates share a UNITY_GROUP: each template is compiled once.
 function(hapsim_layer name)
   cmake_parse_arguments(arg "" "" "SOURCES;CGAL;USES;LINKS" ${ARGN})
   list(TRANSFORM arg_USES PREPEND hapsim_)
@@ -26,6 +27,9 @@ function(hapsim_layer name)
     target_compile_definitions(hapsim_${name}_cgal PRIVATE CGAL_EIGEN3_ENABLED)
     target_link_libraries(hapsim_${name}_cgal PRIVATE ${arg_USES} CGAL::CGAL Eigen3::Eigen fmt::fmt)
     hapsim_flags(hapsim_${name}_cgal)
+    # g++ 12 warns falsely inside CGAL.
+    target_compile_options(hapsim_${name}_cgal PRIVATE -Wno-maybe-uninitialized)
+    set_target_properties(hapsim_${name}_cgal PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     list(APPEND arg_SOURCES $<TARGET_OBJECTS:hapsim_${name}_cgal>)
   endif()
   add_library(hapsim_${name} STATIC ${arg_SOURCES})
