@@ -26,6 +26,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/median.h"
 #include "contact/contact_stiffness.h"
 #include "formats/surface_io.h"
 #include "linalg/blas.h"
@@ -91,12 +92,6 @@ std::vector<Reference> references(const TetMesh& body, const std::vector<Vec3>& 
   work();
   other.join();
   return result;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n == 0 ? 0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
 struct Counts {

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "base/median.h"
 #include "effects/catalogue.h"
 #include "formats/tetmesh_io.h"
 #include "linalg/blas.h"
@@ -87,11 +88,6 @@ Model regional_model(const Vec3& low, const Vec3& high) {
     add("viscoelastic", r, "tau2", 0.4 + 0.6 * r);
   }
   return model;
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 double ms_since(std::int64_t start) {

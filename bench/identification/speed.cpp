@@ -21,6 +21,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "calculix_input.h"
 #include "effects/catalogue.h"
 #include "estimate/least_squares.h"
@@ -51,8 +52,7 @@ double median_time(int runs, const Work& work) {
     work();
     seconds.push_back(processor_seconds() - begin);
   }
-  std::nth_element(seconds.begin(), seconds.begin() + runs / 2, seconds.end());
-  return seconds[static_cast<std::size_t>(runs / 2)];
+  return upper_median(std::move(seconds));
 }
 
 // About `tets` tetrahedra, by halving the edge's logarithm; refined at `contacts`.

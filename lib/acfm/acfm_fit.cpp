@@ -8,6 +8,7 @@
 #include "acfm/acfm_axis_fit.h"
 #include "acfm/acfm_loop.h"
 #include "base/error.h"
+#include "base/median.h"
 #include "base/parallel.h"
 #include "realtime/stiffness_field.h"
 
@@ -50,10 +51,7 @@ Span span_of(const Dataset& dataset) {
     for (std::size_t i = 1; i < e.view.t.size(); ++i)
       if (e.view.t[i] > e.view.t[i - 1]) steps.push_back(e.view.t[i] - e.view.t[i - 1]);
   }
-  if (steps.empty()) return span;
-  const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  span.step = *middle;
+  span.step = upper_median(std::move(steps));
   return span;
 }
 

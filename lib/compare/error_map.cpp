@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -24,10 +26,8 @@ double default_reach(const Surface& surface, const std::vector<Vec3>& positions)
       if (i != j) best = std::min(best, (positions[i] - positions[j]).norm());
     nearest.push_back(best);
   }
-  std::sort(nearest.begin(), nearest.end());
   const double size = diagonal(surface);
-  const double reach = nearest.empty() ? 0 : 1.5 * nearest[nearest.size() / 2];
-  return std::clamp(reach, 0.02 * size, 0.15 * size);
+  return std::clamp(1.5 * upper_median(std::move(nearest)), 0.02 * size, 0.15 * size);
 }
 
 // Halves every edge longer than `longest`. A triangle is split by which of its edges are halved, so

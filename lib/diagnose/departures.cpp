@@ -1,8 +1,9 @@
 #include "diagnose/departures.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
+
+#include "base/median.h"
 
 namespace hapsim {
 
@@ -36,11 +37,7 @@ Departures stiffness_departures(const Model& model, const Workspace& w) {
     d.largest = square;
     d.where = w.dataset.positions[static_cast<std::size_t>(blocks[p].position)];
   }
-  if (!squares.empty()) {
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
-    d.typical = *middle;
-  }
+  d.typical = upper_median(std::move(squares));
   return d;
 }
 

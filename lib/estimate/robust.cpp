@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -22,9 +24,7 @@ double slope(RobustLoss loss, double size) {
 double median_size(const Eigen::VectorXd& r) {
   std::vector<double> size(static_cast<std::size_t>(r.size()));
   for (std::size_t i = 0; i < size.size(); ++i) size[i] = std::abs(r[static_cast<Eigen::Index>(i)]);
-  const auto middle = size.begin() + static_cast<long>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
-  return *middle;
+  return upper_median(std::move(size));
 }
 
 }  // namespace

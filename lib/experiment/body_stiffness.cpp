@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/median.h"
+
 namespace hapsim {
 
 BodyStiffness::BodyStiffness(const std::vector<std::unique_ptr<ContactLibrary>>& libraries,
@@ -54,8 +56,7 @@ std::vector<Vec3> BodyStiffness::normals() const {
 double BodyStiffness::mesh_uncertainty() const {
   std::vector<double> values;
   for (std::size_t p = 0; p < size(); ++p) values.push_back(contact(p).mesh_uncertainty);
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
+  return upper_median(std::move(values));
 }
 
 RigidMove BodyStiffness::move() const {

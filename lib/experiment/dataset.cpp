@@ -7,16 +7,10 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/median.h"
 
 namespace hapsim {
 namespace {
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The number of the setup in `setups`, where it is put if it is not there.
 int number_of(const Setup& setup, std::vector<Setup>& setups) {
@@ -122,14 +116,14 @@ Noise force_noise(const Recording& recording) {
                      recording.f[press.rows[i + 1]];
       for (int k = 0; k < 3; ++k) second.push_back(std::abs(d[k]));
     }
-  double noise = median(second) / (0.6745 * std::sqrt(6.0));
+  double noise = upper_median(second) / (0.6745 * std::sqrt(6.0));
   double peak = 0;
   for (const Vec3& f : recording.f) peak = std::max(peak, f.norm());
   // Forces on one axis only leave zeros on the others; quantised forces do as well.
   if (noise < 1e-6 * peak) {
     second.erase(std::remove_if(second.begin(), second.end(), [](double d) { return d == 0; }),
                  second.end());
-    noise = std::max(median(second) / (0.6745 * std::sqrt(6.0)), 1e-4 * peak);
+    noise = std::max(upper_median(second) / (0.6745 * std::sqrt(6.0)), 1e-4 * peak);
   }
   return {noise, true};
 }
@@ -158,8 +152,8 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
     durations.push_back(e.view.t.back());
     summary.session = std::max(summary.session, e.view.session.back());
   }
-  summary.sample_step = median(steps);
-  summary.press_duration = median(durations);
+  summary.sample_step = upper_median(steps);
+  summary.press_duration = upper_median(durations);
   if (deepest > 0) summary.depth = deepest;
   if (deepest > 0) summary.peak_stiffness = summary.peak_force / deepest;
   return summary;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
 
 namespace hapsim {
 
@@ -66,10 +67,7 @@ LaterError later_error(const Model& model, const Dataset& whole, const BodyStiff
   }
   error.rmse = std::sqrt(
       squares / std::max(1.0, measured_axes(whole.recording.f) * static_cast<double>(error.rows)));
-  if (share.empty()) return error;
-  const auto middle = share.begin() + static_cast<long>(share.size() / 2);
-  std::nth_element(share.begin(), middle, share.end());
-  error.median = *middle;
+  error.median = upper_median(std::move(share));
   return error;
 }
 

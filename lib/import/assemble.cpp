@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "base/median.h"
 #include "import/block.h"
 #include "import/force_noise.h"
 #include "io/length.h"
@@ -53,8 +54,7 @@ std::vector<char> contact_flags(const Samples& samples, const PressTrack& track,
   std::vector<double> air;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (track.travel[i] < lift) air.push_back(track.force[i]);
-  std::sort(air.begin(), air.end());
-  const double rest = air.empty() ? 0 : air[air.size() / 2];
+  const double rest = upper_median(std::move(air));
   std::vector<char> flags;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool feels = std::abs(track.force[i] - rest) > 6 * noise + 0.02 * top;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -82,13 +84,6 @@ Fit best_fit(const Approach& a, double low, double high, double power, bool free
 }
 
 }  // namespace
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
 
 double difference_noise(const std::vector<double>& v) {
   std::vector<double> differences;

@@ -25,6 +25,4 @@ ContactOnset find_contact_onset(const std::vector<double>& travel,
 // third differences (sqrt 20) below 20 samples. 0 when there are fewer than 5.
 double difference_noise(const std::vector<double>& values);
 
-double median(std::vector<double> values);  // of a non-empty set
-
 }  // namespace hapsim

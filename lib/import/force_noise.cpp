@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/median.h"
 #include "import/contact_onset.h"
 
 namespace hapsim {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/median.h"
 #include "import/contact_onset.h"
 #include "import/press_track.h"
 

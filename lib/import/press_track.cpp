@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "import/contact_onset.h"
 
 namespace hapsim {

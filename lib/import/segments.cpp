@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "import/contact_onset.h"
 
 namespace hapsim {
@@ -108,8 +109,8 @@ Groups by_jump(const Samples& samples, const Groups& groups) {
     for (std::size_t i = 1; i < rows.size(); ++i)
       steps.push_back(((*tip)[at(rows[i])] - (*tip)[at(rows[i - 1])]).norm());
   if (steps.empty()) return groups;
-  std::sort(steps.begin(), steps.end());
-  const double usual = steps[steps.size() * 3 / 4];
+  const std::size_t upper_quarter = steps.size() * 3 / 4;
+  const double usual = nth_smallest(std::move(steps), upper_quarter);
   return cut_each(groups, [&](int previous, int row, int) {
     return ((*tip)[at(row)] - (*tip)[at(previous)]).norm() > std::max(4 * usual, 5e-4);
   });
@@ -141,10 +142,8 @@ Groups by_force(const Samples& samples, const Groups& groups) {
       all.push_back(rows);
       continue;
     }
-    std::vector<double> sorted = force;
-    std::sort(sorted.begin(), sorted.end());
-    const double rest = sorted[sorted.size() / 50];
-    const double top = sorted.back() - rest;
+    const double rest = nth_smallest(force, force.size() / 50);
+    const double top = *std::max_element(force.begin(), force.end()) - rest;
     const double low = rest + std::max(0.04 * top, 5 * difference_noise(force)),
                  high = rest + 0.2 * top;
     if (high <= low) {  // all of it is noise

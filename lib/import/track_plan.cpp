@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "base/median.h"
 #include "import/contact_onset.h"
 #include "import/press_track.h"
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -13,12 +15,10 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 
 constexpr std::size_t kWorst = 10;
 
-Spread spread(std::vector<double>& values) {
+Spread spread(const std::vector<double>& values) {
   if (values.empty()) return {};
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return {*std::min_element(values.begin(), middle + 1), *middle,
-          *std::max_element(middle, values.end())};
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return {*least, upper_median(values), *most};
 }
 
 Histogram histogram(const std::vector<double>& values, std::vector<double> edges) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -26,8 +28,7 @@ double spacing_of(const std::vector<PreparedContact>& pressed, double tool_radiu
       if (&a != &b) least = std::min(least, (a.point - b.point).norm());
     nearest.push_back(least);
   }
-  std::sort(nearest.begin(), nearest.end());
-  const double middle = nearest[nearest.size() / 2];
+  const double middle = upper_median(std::move(nearest));
   return std::isfinite(middle) ? middle : kAlone * tool_radius;
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/counted.h"
 #include "base/error.h"
+#include "base/median.h"
 #include "mesh/local_plane.h"
 #include "mesh/point_index.h"
 
@@ -24,13 +25,6 @@ constexpr double kIsolation = 3.0;
 // Off the surface: this many robust standard deviations off the plane of its neighbours.
 constexpr double kOffPlane = 8.0;
 constexpr int kPasses = 3;  // outliers that hid each other show up in the next pass
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 PointCloud keep(const PointCloud& cloud, const std::vector<char>& dropped,
                 std::vector<int>& index) {
@@ -100,7 +94,7 @@ std::size_t drop_isolated(PointCloud& cloud, std::vector<int>& kept) {
     for (const Neighbour& m : near[i]) reach[i] += m.distance;
     reach[i] /= static_cast<double>(std::max<std::size_t>(near[i].size(), 2) - 1);
   }
-  const double usual = median(reach);
+  const double usual = upper_median(reach);
   std::vector<char> dropped(n, 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -108,7 +102,7 @@ std::size_t drop_isolated(PointCloud& cloud, std::vector<int>& kept) {
     for (const Neighbour& m : near[i]) {
       if (m.index != static_cast<int>(i)) others.push_back(reach[m.index]);
     }
-    if (reach[i] > kIsolation * std::max(median(others), usual / 2)) {
+    if (reach[i] > kIsolation * std::max(upper_median(others), usual / 2)) {
       dropped[i] = 1;
       ++count;
     }
@@ -132,7 +126,7 @@ std::size_t drop_off_surface(PointCloud& cloud, std::vector<int>& kept) {
     off[i] = std::abs(plane.normal.dot(cloud.points[i] - plane.centre));
     scale[i] = plane.thickness;
   }
-  const double usual = median(scale);
+  const double usual = upper_median(scale);
   std::vector<char> dropped(n, 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -158,7 +152,7 @@ double point_spacing(const std::vector<Vec3>& points) {
   }
   // On a plane with n points a unit area, the sixth neighbour lies at sqrt(6 / (pi n)) = 1.38 /
   // sqrt n.
-  return median(sixth) / 1.38;
+  return upper_median(sixth) / 1.38;
 }
 
 constexpr double kFarthest = 1e6;  // [m]; beyond it distances lose their digits

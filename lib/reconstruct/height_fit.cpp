@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/median.h"
 #include "mesh/surface_tree.h"
 #include "reconstruct/plan_view.h"
 
@@ -14,13 +15,6 @@ using Sparse = Eigen::SparseMatrix<double>;
 using Entry = Eigen::Triplet<double>;
 
 constexpr int kFolds = 5;
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 // A point over the plan: its triangle, shares of the corners, height.
 struct Sample {
@@ -129,7 +123,7 @@ double residual(const Sample& s, const Eigen::VectorXd& z) {
 std::vector<double> tukey(const std::vector<Sample>& samples, const Eigen::VectorXd& z) {
   std::vector<double> size;
   for (const Sample& s : samples) size.push_back(std::abs(residual(s, z)));
-  const double cut = 4.685 * 1.4826 * std::max(median(size), 1e-9);
+  const double cut = 4.685 * 1.4826 * std::max(upper_median(size), 1e-9);
   std::vector<double> weight;
   for (const double r : size) {
     const double t = 1 - r * r / (cut * cut);

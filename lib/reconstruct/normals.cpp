@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/median.h"
 #include "mesh/local_plane.h"
 #include "mesh/point_index.h"
 
@@ -16,13 +17,6 @@ constexpr double kFlat = 0.125;
 constexpr int kFewest = 12;
 constexpr int kMost = 192;
 constexpr int kGraph = 10;
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 LocalPlane plane_about(const PointCloud& cloud, const PointIndex& index, std::size_t i, int k) {
   std::vector<Vec3> near;
@@ -43,7 +37,7 @@ int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
       const LocalPlane plane = plane_about(cloud, index, i, k);
       ratio.push_back(plane.thickness / std::max(plane.spread[1], 1e-300));
     }
-    const double middle = median(ratio);
+    const double middle = upper_median(ratio);
     if (middle < kFlat) return k;
     if (middle < best_ratio) {
       best_ratio = middle;
@@ -122,7 +116,7 @@ void estimate_normals(PointCloud& cloud, const Vec3& up, NormalsReport& report) 
     cloud.normals[i] = plane.normal;
     thickness.push_back(plane.thickness);
   }
-  report.noise = median(thickness);
+  report.noise = upper_median(thickness);
   orient_normals(cloud, up, report.neighbours, report);
 }
 

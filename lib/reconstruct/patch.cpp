@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "reconstruct/patches.h"
 
 namespace hapsim {
@@ -19,10 +20,7 @@ LocalPlane robust_plane(const std::vector<Vec3>& points, double& rms) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       size[i] = std::abs(plane.normal.dot(points[i] - plane.centre));
     }
-    std::vector<double> sorted = size;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    rms = std::max(1.4826 * *middle, 1e-12);
+    rms = std::max(1.4826 * upper_median(size), 1e-12);
     const double cut = 4.685 * rms;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double t = std::max(0.0, 1 - size[i] * size[i] / (cut * cut));
@@ -35,9 +33,7 @@ LocalPlane robust_plane(const std::vector<Vec3>& points, double& rms) {
 
 double median_size(std::vector<double> v) {
   for (double& x : v) x = std::abs(x);
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return 1.4826 * *middle;
+  return 1.4826 * upper_median(std::move(v));
 }
 
 }  // namespace

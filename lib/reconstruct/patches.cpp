@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -15,13 +17,6 @@ constexpr double kOwn = 0.6;         // another's plane must fit this much bette
 constexpr double kTurnDeg = 22;      // between neighbours of one piece
 constexpr std::size_t kFewest = 10;  // points of a piece
 constexpr double kOff = 4;           // noises a point may lie off a piece it is given to
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 // Planes of the neighbourhoods, and for each point that which it takes.
 struct Planes {
@@ -43,7 +38,7 @@ Planes kuwahara(const PointCloud& cloud, const std::vector<std::vector<Neighbour
     if (plane.normal.dot(cloud.normals[i]) < 0) plane.normal = -plane.normal;
     thickness.push_back(plane.thickness);
   }
-  planes.noise = median(thickness);
+  planes.noise = upper_median(thickness);
   for (std::size_t i = 0; i < n; ++i) {
     int best = static_cast<int>(i);
     double least = kOwn * std::max(planes.of[i].thickness, planes.noise / 2);
@@ -122,7 +117,7 @@ bool join(const PointCloud& cloud, const std::vector<std::vector<Neighbour>>& ne
   std::iota(parent.begin(), parent.end(), 0);
   bool joined = false;
   for (const auto& [pair, angle] : angles) {
-    if (angle.size() < 3 || median(angle) >= crease_deg) continue;
+    if (angle.size() < 3 || upper_median(angle) >= crease_deg) continue;
     parent[root(parent, pair.second)] = root(parent, pair.first);
     joined = true;
   }

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "mesh/local_plane.h"
 #include "mesh/point_index.h"
 #include "mesh/surface_check.h"
@@ -209,9 +210,7 @@ double noise_of(const std::vector<Vec3>& points) {
     for (const Neighbour& m : index.nearest(points[i], 12)) near.push_back(points[m.index]);
     thickness.push_back(fit_plane(near).thickness);
   }
-  const auto middle = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 2);
-  std::nth_element(thickness.begin(), middle, thickness.end());
-  return *middle;
+  return upper_median(std::move(thickness));
 }
 
 // 90 % of the points lie nearer than this [m].
@@ -219,9 +218,8 @@ double typical_distance(const Surface& surface, const std::vector<Vec3>& points)
   const SurfaceTree tree(surface);
   std::vector<double> distance;
   for (const Vec3& p : points) distance.push_back(tree.nearest(p).distance);
-  const auto at = distance.begin() + static_cast<std::ptrdiff_t>(0.9 * distance.size());
-  std::nth_element(distance.begin(), at, distance.end());
-  return *at;
+  const auto rank = static_cast<std::size_t>(0.9 * static_cast<double>(distance.size()));
+  return nth_smallest(std::move(distance), rank);
 }
 
 void measure(const Surface& surface, const std::vector<Vec3>& points, ReconstructReport& report) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "mesh/point_index.h"
 #include "reconstruct/clean_points.h"
 #include "reconstruct/plan_view.h"
@@ -20,11 +21,8 @@ double plan_reach(const std::vector<Vec3>& points) {
   const PointIndex index(flat);
   std::vector<double> sixth;
   for (const Vec3& p : flat) sixth.push_back(index.nearest(p, 7).back().distance);
-  std::sort(sixth.begin(), sixth.end());
-  const auto quantile = [&](double share) {
-    return sixth[static_cast<std::size_t>(share * static_cast<double>(sixth.size() - 1))];
-  };
-  return std::max(1.6 * quantile(0.5), std::min(1.2 * quantile(0.97), 4 * quantile(0.5)));
+  const double usual = quantile(sixth, 0.5);
+  return std::max(1.6 * usual, std::min(1.2 * quantile(sixth, 0.97), 4 * usual));
 }
 
 }  // namespace

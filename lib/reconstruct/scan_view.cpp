@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/median.h"
 #include "reconstruct/clean_points.h"
 #include "reconstruct/reconstruct_parts.h"
 
@@ -10,13 +11,6 @@ namespace hapsim {
 namespace {
 
 constexpr double kLeastOfBox = 0.1;  // a body's area over that of its bounding box: a ball has 0.5
-
-double quantile(std::vector<double> v, double share) {
-  const auto at =
-      v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-  std::nth_element(v.begin(), at, v.end());
-  return *at;
-}
 
 }  // namespace
 

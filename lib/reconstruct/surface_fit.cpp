@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "mesh/surface_tree.h"
 
 namespace hapsim {
@@ -12,13 +13,6 @@ namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
 using Entry = Eigen::Triplet<double>;
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 bool on_base(const Surface& surface, const Triangle& f, double base) {
   return std::all_of(f.begin(), f.end(), [&](int v) { return surface.vertices[v].z() == base; });
@@ -105,7 +99,7 @@ void fit_surface(Surface& surface, const std::vector<Vec3>& points,
       near.push_back(tree.nearest(p));
       off.push_back(near.back().distance);
     }
-    const double cut = 4.685 * 1.4826 * std::max(median(off), 1e-9);
+    const double cut = 4.685 * 1.4826 * std::max(upper_median(off), 1e-9);
     const std::vector<Vec3> direction = directions(surface, options.base);
 
     std::vector<Entry> entries;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/median.h"
 #include "report/assets.h"
 #include "report/html.h"
 #include "report/page.h"
@@ -13,12 +14,10 @@
 namespace hapsim {
 namespace {
 
-double median(std::vector<double> values) {
+// NaN when none is known.
+double median_of_known(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+  return values.empty() ? std::nan("") : median(std::move(values));
 }
 
 std::string number(double value) {
@@ -41,7 +40,7 @@ Common common_of(const std::vector<OverviewRow>& rows) {
     held_out.push_back(row.held_out);
     if (!row.verdict.empty()) ++verdicts[row.verdict];
   }
-  Common c{median(rmse), median(ratio), median(held_out), "", 0};
+  Common c{median_of_known(rmse), median_of_known(ratio), median_of_known(held_out), "", 0};
   for (const auto& [verdict, count] : verdicts)
     c.verdicts += fmt::format("{}{} {}", c.verdicts.empty() ? "" : ", ", count, verdict);
   if (verdicts.count("complete") != 0) c.complete = verdicts["complete"];

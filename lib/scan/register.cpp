@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "io/number.h"
 #include "scan/zone_surface.h"
 
@@ -36,12 +37,6 @@ struct Zone {
   std::unique_ptr<ZoneSurface> surface;
   Pose pose = Pose::Identity();
 };
-
-double median(std::vector<double> v) {
-  const auto middle = v.begin() + static_cast<std::ptrdiff_t>(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
 
 std::vector<Match> match_all(const std::vector<Zone>& zones, double reach) {
   std::vector<Match> matches;
@@ -79,7 +74,7 @@ void match_again(const std::vector<Zone>& zones, std::vector<Match>& matches) {
 double weigh(std::vector<Match>& matches) {
   std::vector<double> size;
   for (const Match& m : matches) size.push_back(std::abs(m.off));
-  const double scale = std::max(1.4826 * median(size), 1e-9);
+  const double scale = std::max(1.4826 * upper_median(size), 1e-9);
   for (Match& m : matches) {
     const double r = m.off / (4.685 * scale);
     m.weight = std::abs(r) < 1 ? (1 - r * r) * (1 - r * r) : 0;

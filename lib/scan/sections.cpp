@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/median.h"
+
 namespace hapsim {
 namespace {
 
@@ -57,9 +59,7 @@ double usual_spacing(const std::vector<Section>& sections) {
       for (std::size_t i = 1; i < c.size(); ++i) steps.push_back((c[i] - c[i - 1]).norm());
     }
   }
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+  return upper_median(std::move(steps));
 }
 
 // Along the in-plane direction n from p: the place where the field between two sections is zero.
