@@ -8,8 +8,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 out=build/example
 timed "dependencies" dependencies
 # The tools that the pipeline calls; `cmake --build --preset release` builds the others.
-mapfile -t tools < <(make -nB --no-print-directory -f Makefile.pipeline BIN=bin OUT="$out" report |
-  grep -oE '\bbin/hs-[a-z0-9]+' | sed 's|bin/||' | sort -u)
+mapfile -t tools < <(pipeline_tools)
 timed "build" build release "${tools[@]}"
 export PATH="$PWD/build/release/bin:$PATH"
 timed "pipeline" make --no-print-directory -f Makefile.pipeline SHELL="$PWD/share/timed-shell" \

@@ -14,11 +14,17 @@ target_precompile_headers(hapsim_pch PRIVATE <algorithm> <array> <cmath> <functi
   <memory> <optional> <ostream> <string> <utility> <vector> <Eigen/Dense> <fmt/format.h>)
 hapsim_flags(hapsim_pch)
 
-# hapsim_layer(<name> SOURCES a.cpp ... [CGAL b.cpp ...] USES layer ... [LINKS foreign ...]): a room of
-# lib as a library. What stands under CGAL is compiled with its flags (-frounding-math), which nothing
-# else is built with; users of the library see none of CGAL's headers, but GMP and MPFR must be linked.
+# Rooms compiled as one unit each share what they instantiate of Eigen. Files then share one anonymous
+# namespace, and one edit compiles a room: for builds that begin from nothing.
+option(HAPSIM_WHOLE_ROOMS "Compile each room of lib at once" OFF)
+
+# hapsim_layer(<name> [APART] SOURCES a.cpp ... [CGAL b.cpp ...] USES layer ... [LINKS foreign ...]): a
+# room of lib as a library; APART, always file by file. What stands under CGAL is compiled with its flags
+# (-frounding-math), which nothing else is built with; users of the library see none of CGAL's headers,
+# but GMP and MPFR must be linked. CGAL's files that instantiate the same templates share a UNITY_GROUP:
+# each template is compiled once.
 function(hapsim_layer name)
-  cmake_parse_arguments(arg "" "" "SOURCES;CGAL;USES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "APART" "" "SOURCES;CGAL;USES;LINKS" ${ARGN})
   list(TRANSFORM arg_USES PREPEND hapsim_)
   if(arg_CGAL)
     add_library(hapsim_${name}_cgal OBJECT ${arg_CGAL})
@@ -26,6 +32,9 @@ function(hapsim_layer name)
     target_compile_definitions(hapsim_${name}_cgal PRIVATE CGAL_EIGEN3_ENABLED)
     target_link_libraries(hapsim_${name}_cgal PRIVATE ${arg_USES} CGAL::CGAL Eigen3::Eigen fmt::fmt)
     hapsim_flags(hapsim_${name}_cgal)
+    # g++ 12 warns falsely inside CGAL.
+    target_compile_options(hapsim_${name}_cgal PRIVATE -Wno-maybe-uninitialized)
+    set_target_properties(hapsim_${name}_cgal PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     list(APPEND arg_SOURCES $<TARGET_OBJECTS:hapsim_${name}_cgal>)
   endif()
   add_library(hapsim_${name} STATIC ${arg_SOURCES})
@@ -37,6 +46,11 @@ function(hapsim_layer name)
   endif()
   hapsim_flags(hapsim_${name})
   target_precompile_headers(hapsim_${name} REUSE_FROM hapsim_pch)
+  if(HAPSIM_WHOLE_ROOMS AND NOT arg_APART)
+    set_target_properties(hapsim_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    # What is private to a file included here is private to it still.
+    target_compile_options(hapsim_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   set_target_properties(hapsim_${name} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY hapsim_layers ${name})
   install(TARGETS hapsim_${name} EXPORT hapsim COMPONENT dev

@@ -10,7 +10,7 @@ set -euo pipefail
 
 packages=(
   g++ make cmake ninja-build pkg-config git ca-certificates
-  libeigen3-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
+  libeigen3-dev libboost-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
   coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   liborocos-kdl-dev liburdfdom-dev libgdcm-dev libnifti2-dev libteem-dev zlib1g-dev
   libsqlite3-dev libpugixml-dev

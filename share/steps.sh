@@ -29,3 +29,9 @@ build() {
   cmake --preset "$preset" --log-level=WARNING
   cmake --build --preset "$preset" --parallel "$jobs" ${1:+--target "$@"}
 }
+
+# The tools that the pipeline calls, one a line.
+pipeline_tools() {
+  make -nB --no-print-directory -f Makefile.pipeline BIN=bin OUT=build/example report |
+    grep -oE '\bbin/hs-[a-z0-9]+' | sed 's|bin/||' | sort -u
+}

@@ -30,6 +30,8 @@ struct Batch {
   BatchOptions options;
   std::vector<BatchStep> steps;         // of all rows; a body of several rows once
   std::vector<std::vector<int>> chain;  // [row]: its steps in order; empty when it has a problem
+
+  const BatchStep& step_at(int s) const { return steps[static_cast<std::size_t>(s)]; }
 };
 
 // Rows with the same scan, unit and options share their body. Where a row's options do not say

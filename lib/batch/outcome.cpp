@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const BatchStep& step_at(const Batch& batch, int s) {
-  return batch.steps[static_cast<std::size_t>(s)];
-}
-
 std::string one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
@@ -78,16 +74,16 @@ RecordingOutcome read_outcome(const Batch& batch, std::size_t r) {
     return outcome;
   }
   for (const int s : chain)
-    if (!is_current(batch, step_at(batch, s))) return outcome;
+    if (!is_current(batch, batch.step_at(s))) return outcome;
   if (const auto failure = find_failure(batch, chain)) {
     outcome.state = RecordingState::kFailed;
     outcome.message = one_line(failure->text);
     for (const int s : chain)
-      if (step_at(batch, s).name == failure->step) outcome.command = step_at(batch, s).command;
+      if (batch.step_at(s).name == failure->step) outcome.command = batch.step_at(s).command;
     return outcome;
   }
   for (const int s : chain)
-    if (!fs::exists(fs::path(batch.options.folder) / step_at(batch, s).output)) return outcome;
+    if (!fs::exists(fs::path(batch.options.folder) / batch.step_at(s).output)) return outcome;
   try {
     read_model_file(output_of(batch, r, "model"), outcome);
     if (batch.options.diagnosis) read_diagnosis(output_of(batch, r, "diagnosis"), outcome);
@@ -103,7 +99,7 @@ RecordingOutcome read_outcome(const Batch& batch, std::size_t r) {
 
 std::optional<StepFailure> find_failure(const Batch& batch, const std::vector<int>& chain) {
   for (const int s : chain) {
-    const BatchStep& step = step_at(batch, s);
+    const BatchStep& step = batch.step_at(s);
     std::ifstream file(fs::path(batch.options.folder) / step.folder / "failure");
     StepFailure failure;
     std::string code;

@@ -98,10 +98,6 @@ awk -v count="${{SLURM_ARRAY_TASK_COUNT:-1}}" -v id="${{SLURM_ARRAY_TASK_ID:-1}}
   'NR % count == id % count' targets | xargs make --no-print-directory -k -f batch.mk
 )";
 
-const BatchStep& step_at(const Batch& batch, int s) {
-  return batch.steps[static_cast<std::size_t>(s)];
-}
-
 // Removes what is to be made anew: the results and failures of the steps whose script is another
 // now, and of all that build on them. Before any script is written: a kill on the way then leaves
 // nothing stale behind.
@@ -199,7 +195,7 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
     targets += target + "\n";
     std::string own, body;  // what the recording shares with others
     for (const int s : batch.chain[r]) {
-      const BatchStep& step = step_at(batch, s);
+      const BatchStep& step = batch.step_at(s);
       if (!is_shared(step)) {
         own += rule_of(step, folder);
         continue;
@@ -213,7 +209,7 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
     write_if_changed(folder / file,
                      fmt::format("STEP := sh\nMAKEFLAGS += -rR\n.PHONY: recording\nrecording: {}\n"
                                  "\t@echo finished {}\n{}{}",
-                                 step_at(batch, batch.chain[r].back()).output, row.folder,
+                                 batch.step_at(batch.chain[r].back()).output, row.folder,
                                  body.empty() ? "" : body + ":\n", own));
     rules += fmt::format("{}: {}\n\t+@$(MAKE) -f {}\n", target, body, file);
   }

@@ -16,16 +16,16 @@ struct Intercept {
 };
 
 // Sums of one press for the regression of the residual on (s, 1) with a common gain.
-struct Sums {
+struct PressSums {
   double n = 0, ss = 0, sr = 0, time = 0;
   Vec3 s = Vec3::Zero(), r = Vec3::Zero();
 };
 
 std::vector<Intercept> intercepts(const RowFacts& facts, const std::vector<Vec3>& measured,
                                   const std::vector<Vec3>& simulated) {
-  std::vector<Sums> presses(facts.press_ids.size());
+  std::vector<PressSums> presses(facts.press_ids.size());
   for (std::size_t i = 0; i < measured.size(); ++i) {
-    Sums& p = presses[facts.press[i]];
+    PressSums& p = presses[facts.press[i]];
     const Vec3 r = measured[i] - simulated[i];
     p.n += 1;
     p.s += simulated[i];
@@ -35,7 +35,7 @@ std::vector<Intercept> intercepts(const RowFacts& facts, const std::vector<Vec3>
     if (!facts.session.empty()) p.time += facts.session[i];
   }
   std::vector<Intercept> result;
-  for (const Sums& p : presses) {
+  for (const PressSums& p : presses) {
     const double spread = p.ss - p.s.squaredNorm() / p.n;
     if (p.n < 5 || !(spread > 0.05 * p.ss)) continue;  // a constant force tells no intercept
     const double gain = (p.sr - p.s.dot(p.r) / p.n) / spread;

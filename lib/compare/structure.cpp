@@ -13,9 +13,9 @@
 namespace hapsim {
 namespace {
 
-constexpr double kFamilyLevel = 0.02;    // chance of any sentence on pure noise
-constexpr double kSmallestShare = 0.01;  // of the squared error, to be worth a sentence
-constexpr double kSmallestGain = 0.003;  // a relative force error below this is nobody's worry
+constexpr double kFamilyLevel = 0.02;     // chance of any sentence on pure noise
+constexpr double kLeastExplained = 0.01;  // of the squared error, to be worth a sentence
+constexpr double kSmallestGain = 0.003;   // a relative force error below this is nobody's worry
 
 // One thing that may be wrong: its size, its chance, and the simulated force without it.
 struct Hypothesis {
@@ -156,7 +156,7 @@ Observation what_is_left(const Search& search, double total) {
   const double left = std::sqrt(square / (measured_axes(search.measured) * rows));
   Observation rest;
   if (search.noise <= 0 || left < kBeyondNoise * search.noise || product < kAlike * square ||
-      square < kSmallestShare * total)
+      square < kLeastExplained * total)
     return rest;
   rest.kind = "left";
   rest.p_value = 0;  // of many samples, none alike by chance
@@ -188,7 +188,7 @@ std::vector<Observation> find_structure(const RowFacts& facts, const std::vector
     const auto consider = [&](Hypothesis h, std::size_t index) {
       h.finding.p_value = std::min(1.0, h.finding.p_value * tried);
       if (h.finding.p_value >= kFamilyLevel || h.finding.sentence.empty()) return;
-      if (h.explained <= best.explained || h.explained < kSmallestShare * total) return;
+      if (h.explained <= best.explained || h.explained < kLeastExplained * total) return;
       best = std::move(h);
       which = index;
     };

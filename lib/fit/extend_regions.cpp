@@ -10,7 +10,7 @@
 namespace hapsim {
 namespace {
 
-constexpr int kKeyPoints = 8, kScanPoints = 20000;  // of a boundary
+constexpr int kKeyPoints = 8, kOldBoundaryPoints = 20000;  // of a boundary
 
 // One E a region, given by its logarithm over the fitted one.
 Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
@@ -62,7 +62,7 @@ std::optional<Model> with_boundary(const Model& fitted, const RegionBoundary& bo
   const Eigen::Vector2d low(grid.x0, grid.y0);
   const Eigen::Vector2d high =
       low + Eigen::Vector2d(grid.columns * grid.step_x, grid.rows * grid.step_y);
-  const auto lines = class_boundaries(boundary.side, low, high, kScanPoints);
+  const auto lines = class_boundaries(boundary.side, low, high, kOldBoundaryPoints);
   if (lines.empty()) return std::nullopt;
   place_key_points(model, boundary.side, lines, kKeyPoints);
   if (material_of(model).key_point.size() < 2) return std::nullopt;

@@ -16,10 +16,6 @@
 namespace hapsim {
 namespace {
 
-std::size_t at(int row) {
-  return static_cast<std::size_t>(row);
-}
-
 // Numbers of the presses: those of the table where it has distinct whole ones, else 1, 2, ...
 std::vector<int> press_ids(const RawTable& table, const ColumnMap& map,
                            const std::vector<PressTrack>& tracks) {

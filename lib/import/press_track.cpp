@@ -11,10 +11,6 @@
 namespace hapsim {
 namespace {
 
-std::size_t at(int row) {
-  return static_cast<std::size_t>(row);
-}
-
 std::vector<Vec3> pick(const std::vector<Vec3>& all, const std::vector<int>& rows) {
   std::vector<Vec3> some;
   for (const int row : rows) some.push_back(all[at(row)]);

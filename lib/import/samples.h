@@ -20,6 +20,11 @@ struct UnitChoice {
   std::string length, force, time;  // for columns whose unit is not named; "" asks for a guess
 };
 
+// A row's number as an index.
+inline std::size_t at(int row) {
+  return static_cast<std::size_t>(row);
+}
+
 // One entry a row of the table; a role that the table lacks is empty.
 struct Samples {
   std::array<std::vector<Vec3>, static_cast<std::size_t>(VectorRole::kCount)> vectors;

@@ -19,10 +19,6 @@ constexpr double kSamePlace = 1e-7;  // [m]
 using Rows = std::vector<int>;
 using Groups = std::vector<Rows>;
 
-std::size_t at(int row) {
-  return static_cast<std::size_t>(row);
-}
-
 // Cuts `rows` before each row for which `starts(previous, row, first of the piece)` holds.
 template <class Starts>
 Groups cut(const Rows& rows, Starts starts) {

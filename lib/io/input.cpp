@@ -16,7 +16,7 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kBlock = 256 * 1024;
+constexpr std::size_t kReadBlock = 256 * 1024;
 constexpr std::size_t kLongestLine = 64 * 1024 * 1024;
 
 std::atomic<bool> stdin_taken{false};
@@ -27,7 +27,7 @@ class ReadBuffer : public std::streambuf {
   ReadBuffer(int fd, std::string bytes, const std::string& name)
       : fd_(fd), bytes_(std::move(bytes)), name_(name) {
     if (fd_ >= 0)
-      bytes_.resize(kBlock);
+      bytes_.resize(kReadBlock);
     else
       setg(bytes_.data(), bytes_.data(), bytes_.data() + bytes_.size());
   }

@@ -18,12 +18,12 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kBlock = 256 * 1024;
+constexpr std::size_t kWriteBlock = 256 * 1024;
 
 // Writes a file descriptor; throws where the write fails. What is not flushed is dropped.
 class WriteBuffer : public std::streambuf {
  public:
-  explicit WriteBuffer(const std::string& name) : name_(name), block_(kBlock) {
+  explicit WriteBuffer(const std::string& name) : name_(name), block_(kWriteBlock) {
     setp(block_.data(), block_.data() + block_.size());
   }
   void attach(int fd) {

@@ -13,9 +13,9 @@
 namespace hapsim {
 namespace {
 
-constexpr double kFlat = 0.125;
-constexpr int kFewest = 12;
-constexpr int kMost = 192;
+constexpr double kThinPlane = 0.125;
+constexpr int kLeastNear = 12;
+constexpr int kMostNear = 192;
 constexpr int kGraph = 10;
 
 LocalPlane plane_about(const PointCloud& cloud, const PointIndex& index, std::size_t i, int k) {
@@ -29,16 +29,17 @@ LocalPlane plane_about(const PointCloud& cloud, const PointIndex& index, std::si
 // Smallest number of neighbours that makes the scan look flat, or the flattest tried.
 int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
   const std::size_t step = std::max<std::size_t>(1, cloud.points.size() / 500);
-  int best = kFewest;
+  int best = kLeastNear;
   double best_ratio = 1e300;
-  for (int k = kFewest; k <= kMost && k < static_cast<int>(cloud.points.size()) / 4; k *= 2) {
+  for (int k = kLeastNear; k <= kMostNear && k < static_cast<int>(cloud.points.size()) / 4;
+       k *= 2) {
     std::vector<double> ratio;
     for (std::size_t i = 0; i < cloud.points.size(); i += step) {
       const LocalPlane plane = plane_about(cloud, index, i, k);
       ratio.push_back(plane.thickness / std::max(plane.spread[1], 1e-300));
     }
     const double middle = upper_median(ratio);
-    if (middle < kFlat) return k;
+    if (middle < kThinPlane) return k;
     if (middle < best_ratio) {
       best_ratio = middle;
       best = k;

@@ -7,16 +7,17 @@
 #include <utility>
 
 #include "base/median.h"
+#include "base/union_find.h"
 
 namespace hapsim {
 namespace {
 
-constexpr int kNear = 12;            // points in a plane
-constexpr int kWide = 24;            // points whose planes a point may take
-constexpr double kOwn = 0.6;         // another's plane must fit this much better than its own
-constexpr double kTurnDeg = 22;      // between neighbours of one piece
-constexpr std::size_t kFewest = 10;  // points of a piece
-constexpr double kOff = 4;           // noises a point may lie off a piece it is given to
+constexpr int kNear = 12;                // points in a plane
+constexpr int kWide = 24;                // points whose planes a point may take
+constexpr double kOwn = 0.6;             // another's plane must fit this much better than its own
+constexpr double kTurnDeg = 22;          // between neighbours of one piece
+constexpr std::size_t kLeastPiece = 10;  // points of a piece
+constexpr double kOff = 4;               // noises a point may lie off a piece it is given to
 
 // Planes of the neighbourhoods, and for each point that which it takes.
 struct Planes {
@@ -56,11 +57,6 @@ Planes kuwahara(const PointCloud& cloud, const std::vector<std::vector<Neighbour
   return planes;
 }
 
-int root(std::vector<int>& parent, int v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
-
 PointCloud members(const PointCloud& cloud, const std::vector<Vec3>& normals,
                    const std::vector<int>& patch_of, int patch) {
   PointCloud part;
@@ -72,7 +68,7 @@ PointCloud members(const PointCloud& cloud, const std::vector<Vec3>& normals,
   return part;
 }
 
-// Numbers 0, 1, ... for the pieces of at least kFewest points, -1 for the rest.
+// Numbers 0, 1, ... for the pieces of at least kLeastPiece points, -1 for the rest.
 int number_pieces(std::vector<int>& piece) {
   std::map<int, std::size_t> count;
   for (const int p : piece) {
@@ -80,7 +76,7 @@ int number_pieces(std::vector<int>& piece) {
   }
   std::map<int, int> number;
   for (const auto& [p, c] : count) {
-    if (c >= kFewest) number.emplace(p, static_cast<int>(number.size()));
+    if (c >= kLeastPiece) number.emplace(p, static_cast<int>(number.size()));
   }
   for (int& p : piece) {
     const auto at = number.find(p);

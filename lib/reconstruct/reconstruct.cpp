@@ -23,15 +23,15 @@
 namespace hapsim {
 namespace {
 
-constexpr double kSeenBelow = 0.5;   // share of the plan view: a scan from all round
-constexpr double kFewSteep = 0.02;   // share of the points: a scan of the upper side alone
-constexpr double kRest = 0.05;       // share of the height cut off such a body so that it can stand
-constexpr double kFarOff = 0.25;     // of the spacing: others are tried when points lie farther off
-constexpr double kNoises = 3;        // ... unless that is the scan's own thickness
-constexpr double kFarthest = 1e6;    // [m]
-constexpr std::size_t kFewest = 12;  // different points
-constexpr double kFlat = 1e-4;       // thickness over width of points in a plane
-constexpr double kFaces = 2000;      // wished when --edge is not given
+constexpr double kSeenBelow = 0.5;  // share of the plan view: a scan from all round
+constexpr double kFewSteep = 0.02;  // share of the points: a scan of the upper side alone
+constexpr double kRest = 0.05;      // share of the height cut off such a body so that it can stand
+constexpr double kFarOff = 0.25;    // of the spacing: others are tried when points lie farther off
+constexpr double kNoises = 3;       // ... unless that is the scan's own thickness
+constexpr double kFarthest = 1e6;   // [m]
+constexpr std::size_t kLeastPoints = 12;  // different points
+constexpr double kFlat = 1e-4;            // thickness over width of points in a plane
+constexpr double kFaces = 2000;           // wished when --edge is not given
 
 // Points given once, in their order.
 PointCloud without_doubles(const PointCloud& cloud) {
@@ -82,9 +82,9 @@ void require_body_points(const std::vector<Vec3>& points, ReconstructMethod meth
       fail_input(name, fmt::format("point {} lies {:.3g} m away", i, far), "remove it");
   }
   require_surface_points(points, name);
-  if (points.size() < kFewest) {
+  if (points.size() < kLeastPoints) {
     fail_input(name, fmt::format("only {} different points", points.size()),
-               fmt::format("scan at least {}, better some hundred", kFewest));
+               fmt::format("scan at least {}, better some hundred", kLeastPoints));
   }
   if (method == ReconstructMethod::kAuto || method == ReconstructMethod::kHeight) return;
   const LocalPlane plane = fit_plane(points);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/union_find.h"
 #include "mesh/surface_tree.h"
 #include "reconstruct/crease.h"
 #include "reconstruct/normals.h"
@@ -18,11 +19,6 @@
 
 namespace hapsim {
 namespace {
-
-int root(std::vector<int>& parent, int v) {
-  while (parent[v] != v) v = parent[v] = parent[parent[v]];
-  return v;
-}
 
 // The part that holds the largest volume, with compact vertices.
 Surface largest_part(const Surface& surface) {

@@ -12,7 +12,7 @@ namespace hapsim {
 namespace {
 
 constexpr std::size_t kLeastSamples = 4;
-constexpr double kSamePlace = 1e-6;  // [m]
+constexpr double kSamePoint = 1e-6;  // [m]
 
 void check_row(const LocationTable& t, std::size_t row, long line) {
   const std::string where = t.name + ":" + std::to_string(line);
@@ -68,7 +68,7 @@ LocationTable read_locations(Input& input) {
     fail_input(t.name, fmt::format("nu_std is 0 in {} of {} rows", held, t.size()),
                "give the standard error of nu in every row, or 0 in all when nu was held");
   const bool one_place = std::all_of(t.point.begin(), t.point.end(), [&](const Vec3& p) {
-    return (p - t.point.front()).norm() < kSamePlace;
+    return (p - t.point.front()).norm() < kSamePoint;
   });
   if (one_place)
     fail_input(t.name, "all location samples lie at one place",

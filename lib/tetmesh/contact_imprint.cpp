@@ -5,13 +5,12 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tetmesh/contact_patch.h"
 
 namespace hapsim {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
@@ -30,9 +29,10 @@ struct PlanPoints {
 
 void add_ring(PlanPoints& plan, double radius, double size, bool staggered, int least,
               const ContactRegion* region) {
-  const int n = std::max(least, static_cast<int>(std::lround(2 * kPi * radius / size)));
+  const int n =
+      std::max(least, static_cast<int>(std::lround(2 * std::numbers::pi * radius / size)));
   for (int i = 0; i < n; ++i) {
-    const double angle = 2 * kPi * (i + (staggered ? 0.5 : 0.0)) / n;
+    const double angle = 2 * std::numbers::pi * (i + (staggered ? 0.5 : 0.0)) / n;
     const double u = radius * std::cos(angle), v = radius * std::sin(angle);
     // Clear of the loop, whose edges are long already.
     if (region == nullptr || region->contains(u, v, 0.6 * size)) plan.points.emplace_back(u, v);
@@ -49,9 +49,10 @@ PlanPoints plan_points(const ContactRegion& region, double radius, const Grading
   plan.loop = plan.rim_begin = plan.points.size();
   // A regular polygon with the area of the disc: inscribed, it would be too soft by the share of
   // the radius that it lacks, 0.5 % at radius/4.
-  const double n = std::max(8.0, std::round(2 * kPi * radius / grading.size[0]));
-  const double rim = radius * std::sqrt(2 * kPi / (n * std::sin(2 * kPi / n)));
-  add_ring(plan, rim, 2 * kPi * rim / n, false, 8, nullptr);
+  const double n = std::max(8.0, std::round(2 * std::numbers::pi * radius / grading.size[0]));
+  const double rim =
+      radius * std::sqrt(2 * std::numbers::pi / (n * std::sin(2 * std::numbers::pi / n)));
+  add_ring(plan, rim, 2 * std::numbers::pi * rim / n, false, 8, nullptr);
   plan.rim_end = plan.points.size();
   for (std::size_t k = 1; k < grading.size.size(); ++k) {
     const double inner = radius - grading.distance[k];

@@ -5,14 +5,13 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numbers>
 
 #include "mesh/surface_tree.h"
 #include "tetmesh/contact_patch.h"
 
 namespace hapsim {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Plane = Eigen::Vector2d;
 
@@ -142,7 +141,7 @@ std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const 
   const Surface& surface = coarse.surface;
   std::vector<Vec3> local;
   for (const Vec3& p : surface.vertices) local.push_back(frame.to_local(p));
-  const double least_cosine = std::cos(tilt_deg * kPi / 180);
+  const double least_cosine = std::cos(tilt_deg * std::numbers::pi / 180);
   const auto looks_up = [&](int f) {
     const Vec3 n = face_normal(surface, f);
     return !coarse.face_class[f] && n.dot(frame.normal) > least_cosine * n.norm();

@@ -2,14 +2,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "mesh/surface_tree.h"
 #include "tetmesh/contact_patch.h"
 
 namespace hapsim {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Distance between rows of even triangles or tetrahedra over their edge length.
 constexpr double kRow = 0.87;
@@ -52,15 +51,19 @@ std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
   std::vector<Vec3> seeds;
   for (std::size_t k = 1; k < grading.size.size() && grading.distance[k] <= depth; ++k) {
     const double distance = grading.distance[k], size = grading.size[k];
-    const int parts = std::max(2, static_cast<int>(std::lround(kPi * distance / size)));
+    const int parts =
+        std::max(2, static_cast<int>(std::lround(std::numbers::pi * distance / size)));
     for (int i = 1; i < parts; ++i) {
-      const double ring = radius - distance * std::cos(kPi * i / parts);
+      const double ring = radius - distance * std::cos(std::numbers::pi * i / parts);
       if (ring < 0) continue;
-      const double below = distance * std::sin(kPi * i / parts);
+      const double below = distance * std::sin(std::numbers::pi * i / parts);
       const int n =
-          ring < 0.3 * size ? 1 : std::max(3, static_cast<int>(std::lround(2 * kPi * ring / size)));
+          ring < 0.3 * size
+              ? 1
+              : std::max(3, static_cast<int>(std::lround(2 * std::numbers::pi * ring / size)));
       for (int j = 0; j < n; ++j) {
-        const double angle = 2 * kPi * (j + ((k + static_cast<std::size_t>(i)) % 2) * 0.5) / n;
+        const double angle =
+            2 * std::numbers::pi * (j + ((k + static_cast<std::size_t>(i)) % 2) * 0.5) / n;
         const double r = n == 1 ? 0 : ring;
         const double u = r * std::cos(angle), v = r * std::sin(angle);
         const Vec3 p(u, v, heights.at(u, v) - below);

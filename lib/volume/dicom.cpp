@@ -10,14 +10,6 @@
 #include "volume/volume.h"
 
 namespace hapsim {
-namespace {
-
-[[noreturn]] void fail_slice(const std::string& file, const std::string& wrong) {
-  fail_input(file, wrong, "export the series again, or remove the file");
-}
-
-}  // namespace
-
 Volume read_dicom_series(const std::string& folder) {
   std::vector<std::string> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {

@@ -21,6 +21,11 @@
 #include "io/stream.h"
 
 namespace hapsim {
+
+void fail_slice(const std::string& file, const std::string& wrong) {
+  fail_input(file, wrong, "export the series again, or remove the file");
+}
+
 namespace {
 
 constexpr unsigned kSecondsAFile = 60;
@@ -33,10 +38,6 @@ void convert(const std::vector<char>& from, double slope, double intercept,
     std::memcpy(&value, from.data() + i * sizeof(T), sizeof(T));
     to[i] = static_cast<float>(static_cast<double>(value) * slope + intercept);
   }
-}
-
-[[noreturn]] void fail_slice(const std::string& file, const std::string& wrong) {
-  fail_input(file, wrong, "export the series again, or remove the file");
 }
 
 bool has_magic(const std::string& file) {

@@ -22,4 +22,7 @@ struct DicomSlice {
 // Error(kBadInput, file): damaged, several frames, colours, no place stated.
 std::vector<DicomSlice> read_dicom_slices(const std::vector<std::string>& files);
 
+// Error(kBadInput, file) that says what is wrong with a slice, and the mend.
+[[noreturn]] void fail_slice(const std::string& file, const std::string& wrong);
+
 }  // namespace hapsim

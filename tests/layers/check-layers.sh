@@ -23,6 +23,7 @@ tetgen\.h: tetmesh
 kdl/|urdf_|console_bridge/: robot
 gdcm|nifti/|teem/: volume
 CLI/: cli
+boost/math/: estimate
 sqlite3\.h: io
 pugixml\.hpp: formats
 "
