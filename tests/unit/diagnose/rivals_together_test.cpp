@@ -11,7 +11,7 @@ namespace {
 
 bool both_act_on(const Model& truth, const std::string& a, const std::string& b) {
   Workspace w = test::workspace();
-  test::measure(w, truth, 0.01, 3);
+  test::measure_finer(w, truth, 0.01, 3);
   const Baseline base = make_baseline(test::elastic(1.5e4, 0.42), w, {});
   std::string lack;
   const auto first = try_effect(require_effect(a), base, w, lack);
