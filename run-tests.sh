@@ -1,23 +1,30 @@
 #!/usr/bin/env bash
-# Builds everything and runs every test; further arguments go to ctest (`./run-tests.sh -R io`).
+# Builds everything and runs every test; further arguments go to ctest (`./run-tests.sh -R io`). Ends with
+# what took longest and with what was skipped; a skipped test is a failure, unless it says that it needs
+# the recordings in HAPSIM_SHARED.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 . share/steps.sh
 
 # Debian 12's clang-format decides: other versions break lines elsewhere.
 format() {
-  if ! clang-format --version 2>/dev/null | grep -q 'version 14\.' || ! git rev-parse >/dev/null 2>&1; then
-    echo "format: skipped, clang-format 14 or git is missing"
-    return
-  fi
-  local files
-  mapfile -t files < <(git ls-files '*.h' '*.cpp')
-  clang-format --dry-run --Werror "${files[@]}"
+  local program
+  program=$(command -v clang-format-14 || command -v clang-format) && "$program" --version | grep -q 'version 14\.' ||
+    { echo "format: clang-format 14 is missing; share/install-deps.sh --tests installs it on Debian 12" >&2; return 1; }
+  find . \( -path './build*' -o -path './.git' \) -prune -o \( -name '*.h' -o -name '*.cpp' \) -print0 |
+    xargs -0 -n 40 -P "$jobs" "$program" --dry-run --Werror
 }
 
-timed "dependencies" dependencies
+record=build/ci/.ninja_log
+failed=()
+timed "dependencies" dependencies --tests
+before=$(mktemp)
+trap 'rm -f "$before"' EXIT
+[[ ! -e $record ]] || cp "$record" "$before"
 timed "build" build ci
-well_formed=yes
-timed "format" format || well_formed=no
-ctest --preset ci --parallel "$jobs" "$@"
-[[ $well_formed == yes ]] || { echo "run-tests: the format is wrong; run clang-format -i" >&2; exit 1; }
+timed "format" format || failed+=("the format is wrong: run clang-format -i")
+timed "tests" ctest --preset ci --parallel "$jobs" "$@" || failed+=("tests failed")
+tests/summary/slowest.sh "$before" "$record" build/ci/Testing/Temporary/LastTest.log
+tests/summary/skipped.sh build/ci/Testing/Temporary/LastTest.log || failed+=("tests were skipped")
+for failure in "${failed[@]}"; do echo "run-tests: $failure" >&2; done
+((${#failed[@]} == 0))

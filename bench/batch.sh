@@ -113,7 +113,7 @@ if slurm_start >why; then
   while (($(models) < count / 3)) && kill -0 $! 2>/dev/null; do sleep 0.2; done
   slurm_kill_node
   row 'Slurm, node daemon killed' "$(models) models were there"
-  for _ in {1..300}; do ! sinfo -h -o %T | grep -q down || break; sleep 0.2; done
+  for _ in {1..300}; do ! slurm_node_is_missed || break; sleep 0.2; done
   row 'missed and started again' "$(models) models were there"
   slurm_node
   wait $! || true

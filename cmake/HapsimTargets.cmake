@@ -88,9 +88,9 @@ function(hapsim_tool name)
   add_custom_target(man_${name} ALL DEPENDS ${made})
 endfunction()
 
-# hapsim_test(<name> SOURCES x_test.cpp ... USES layer ...): one GoogleTest program, one ctest entry.
+# hapsim_test(<name> SOURCES x_test.cpp ... USES layer ... [how it runs]): one GoogleTest program, one ctest entry.
 function(hapsim_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  cmake_parse_arguments(arg "THREADS;ALONE" "SECONDS" "SOURCES;USES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})
   list(TRANSFORM arg_USES PREPEND hapsim_)
   target_link_libraries(test_${name} PRIVATE ${arg_USES} GTest::gtest_main)
@@ -100,4 +100,28 @@ function(hapsim_test name)
   hapsim_flags(test_${name})
   target_precompile_headers(test_${name} REUSE_FROM hapsim_pch)
   add_test(NAME ${name} COMMAND test_${name})
+  hapsim_run(${name} ${ARGN})
+endfunction()
+
+# hapsim_script(<name> <script> [ARGS argument ...] [how it runs]): a script of this folder as a ctest entry.
+function(hapsim_script name script)
+  cmake_parse_arguments(arg "THREADS;ALONE" "SECONDS" "ARGS" ${ARGN})
+  add_test(NAME ${name} COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/${script} ${arg_ARGS})
+  hapsim_run(${name} ${ARGN})
+endfunction()
+
+# hapsim_run(<name> [THREADS] [ALONE] [SECONDS n]): how ctest runs a test, and its label, which is the folder of
+# tests that it stands in (`ctest -L cli`). THREADS: it keeps two processors busy. ALONE: it measures time or
+# has to keep up with it. SECONDS: how long it takes; where nothing is on record yet the longest begin first.
+function(hapsim_run name)
+  cmake_parse_arguments(arg "THREADS;ALONE" "SECONDS" "" ${ARGN})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
+  string(REGEX REPLACE "/.*" "" folder ${folder})
+  set_tests_properties(${name} PROPERTIES LABELS ${folder} RUN_SERIAL ${arg_ALONE})
+  if(arg_THREADS)
+    set_tests_properties(${name} PROPERTIES PROCESSORS 2)
+  endif()
+  if(arg_SECONDS)
+    set_tests_properties(${name} PROPERTIES COST ${arg_SECONDS})
+  endif()
 endfunction()

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Installs what hapsim needs to be built, run and tested on Debian 12. Safe to run again: it does
-# nothing, and needs no root, when everything is there.
+# Installs what hapsim needs on Debian 12 to be built, to be tested, or to be worked on. Safe to run
+# again: it does nothing, and needs no root, when everything is there.
 #
-#   share/install-deps.sh            compiler, libraries, test library
-#   share/install-deps.sh --dev      also clang-format, clang-tidy, ccache, and what the extra checks use
+#   share/install-deps.sh            compiler and libraries: what the tools are built from
+#   share/install-deps.sh --tests    also what run-tests.sh uses: other solvers, shells, browser, daemons
+#   share/install-deps.sh --dev      also clang-tidy, ccache, and what fuzzing and benchmarks use
 #   share/install-deps.sh --check    install nothing; exit 1 and say what is missing
 #   share/install-deps.sh --anyway   on a relative of Debian 12, untested
 set -euo pipefail
@@ -14,10 +15,19 @@ packages=(
   coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   liborocos-kdl-dev liburdfdom-dev libgdcm-dev libnifti2-dev libteem-dev zlib1g-dev
   libsqlite3-dev libpugixml-dev
-  libgtest-dev libbenchmark-dev mandoc
 )
-dev_packages=(clang-format clang-tidy clang libclang-rt-14-dev ccache chromium debootstrap
-  calculix-ccx gmsh tetgen python3-scipy lintian zsh fish slurm-wlm munge parallel strace sqlite3)
+# Each is called by a test, or by run-tests.sh; none is asked for only where it happens to be installed.
+test_packages=(
+  libgtest-dev clang-format
+  calculix-ccx gmsh tetgen                        # peers: solver and meshers
+  chromium mandoc libxml2-utils sqlite3 python3   # readers of what the tools write
+  zsh fish lintian                                # completions and packages
+  slurm-wlm munge openssh-server openssh-client parallel
+  strace procps bsdextrautils                     # faults at a chosen system call; pgrep; col
+)
+dev_packages=(clang-tidy clang libclang-rt-14-dev ccache debootstrap libbenchmark-dev python3-scipy)
+# Daemons that come with them: the tests start their own, this machine need not serve anybody.
+daemons=(openssh-server:ssh munge:munge slurm-wlm:slurmctld slurm-wlm:slurmd)
 
 say() { printf 'install-deps: %s\n' "$*"; }
 fail() { printf 'install-deps: %s\n' "$*" >&2; exit 1; }
@@ -26,11 +36,12 @@ check_only=no
 anyway=no
 for argument in "$@"; do
   case $argument in
-    --dev) packages+=("${dev_packages[@]}") ;;
+    --tests) packages+=("${test_packages[@]}") ;;
+    --dev) packages+=("${test_packages[@]}" "${dev_packages[@]}") ;;
     --check) check_only=yes ;;
     --anyway) anyway=yes ;;
-    -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) fail "unknown argument '$argument'; use --dev, --check, --anyway or none" ;;
+    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) fail "unknown argument '$argument'; use --tests, --dev, --check, --anyway or none" ;;
   esac
 done
 
@@ -58,8 +69,8 @@ slow_blas() {
 }
 
 if [[ $check_only == yes ]]; then
-  ((${#missing[@]} == 0)) || fail "missing: ${missing[*]}; run share/install-deps.sh"
-  [[ -z $(slow_blas) ]] || fail "OpenBLAS is not the BLAS in use; run share/install-deps.sh"
+  ((${#missing[@]} == 0)) || fail "missing: ${missing[*]}; run this again without --check"
+  [[ -z $(slow_blas) ]] || fail "OpenBLAS is not the BLAS in use; run this again without --check"
   say "everything is installed"
   exit 0
 fi
@@ -71,11 +82,29 @@ need_root() {
   as_root=(sudo)
 }
 
+# A daemon that comes with the tests' packages does not begin to serve, neither now (policy-rc.d) nor
+# after a restart (masked: `systemctl unmask ssh` takes that back). One that was here is left alone.
+quiet_daemons() {
+  local daemon unit
+  for daemon in "${daemons[@]}"; do
+    unit=systemd/system/${daemon#*:}.service
+    [[ " ${missing[*]} " == *" ${daemon%%:*} "* && ! -e /lib/$unit && ! -L /etc/$unit ]] || continue
+    "${as_root[@]}" mkdir -p /etc/systemd/system
+    "${as_root[@]}" ln -s /dev/null "/etc/$unit"
+    [[ ! -e /usr/sbin/policy-rc.d ]] || continue
+    printf '#!/bin/sh\nexit 101\n' | "${as_root[@]}" tee /usr/sbin/policy-rc.d >/dev/null
+    "${as_root[@]}" chmod +x /usr/sbin/policy-rc.d
+    policy=/usr/sbin/policy-rc.d
+  done
+}
+
 if ((${#missing[@]})); then
   need_root
   say "installing ${missing[*]}"
   log=$(mktemp)
-  trap 'rm -f "$log"' EXIT
+  policy=
+  trap 'rm -f "$log"; [[ -z $policy ]] || "${as_root[@]}" rm -f "$policy"' EXIT
+  quiet_daemons
   apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 "$@"; }
   { apt update && apt install -y --no-install-recommends "${missing[@]}"; } >"$log" 2>&1 ||
     { tail -n 30 "$log" >&2; fail "apt-get failed; its last lines stand above"; }

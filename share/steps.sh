@@ -13,10 +13,11 @@ timed() {
   return $status
 }
 
-# Installs what is missing on Debian 12; elsewhere CMake says what it does not find.
+# dependencies [--tests]: installs what is missing on Debian 12; elsewhere CMake, or the test that calls
+# it, says what it does not find.
 dependencies() {
   if (. /etc/os-release 2>/dev/null && [[ ${ID:-} == debian && ${VERSION_ID:-} == 12 ]]); then
-    share/install-deps.sh
+    share/install-deps.sh "$@"
   else
     echo "not Debian 12: taking the dependencies for installed (see 'Other systems' in README.md)"
   fi

@@ -86,7 +86,8 @@ batch out all.csv
 # A changed recording, and a changed row, are made again; no other.
 touch -d '+1 sec' 15000.csv && cp 8000.csv text.csv
 sed -i '/^again/s/--folds 0/--folds 0 --seed 2/' all.csv
-sleep 0.02 && touch before && batch out all.csv
+until touch before && [[ before -nt all.csv ]]; do :; done  # until the clock of files has gone on
+batch out all.csv
 made=$(cd out/recordings && find . -name model.csv -newer ../../before | sort | tr '\n' ' ')
 [[ $made == './again/model.csv ./stiff/model.csv ./text/model.csv ' ]] || complain "made again: $made"
 grep -q '5 of 14 recordings done, 9 failed' err || complain 'a mended recording is done'

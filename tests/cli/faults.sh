@@ -5,6 +5,8 @@
 # After any of it an output is whole or as it was before, and nothing temporary is left.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/full_disk.sh"
+need strace pgrep
 PATH=$bin:$PATH
 
 # What every tool reads and makes.
@@ -54,21 +56,16 @@ for tool in "${tools[@]}"; do
   told '/dev/full' $tool 5
   row 'output to a full device' $tool "exit $code, $(cut -c1-60 err | head -n 1)"
 done
-# A small file system of its own, full but for 4 kB; an old output there must survive.
-mkdir full
-if mount -t tmpfs -o size=64k tmpfs full 2>/dev/null; then
-  trap '[[ $BASHPID != "$$" ]] || { umount "$work/full"; rm -rf "$work"; }' EXIT
-  for tool in hs-tetmesh hs-simulate hs-compare hs-export; do
-    echo old >full/out; head -c 200000 /dev/zero >full/filler 2>/dev/null
-    ${command[$tool]} -q -o full/out >/dev/null 2>err; code=$?
-    told 'full disk' $tool 5
-    [[ $(cat full/out) == old && $(ls -A full | tr '\n' ' ') == 'filler out ' ]] || complain "full disk: $tool touches the old file"
-    rm -f full/filler full/out
-    row 'disk full on the way' $tool "exit $code, the old file is whole"
-  done
-else
-  echo 'SKIPPED: no file system can be mounted here, so no disk is full'
-fi
+# An old output on a full disk must survive.
+full_disk 64
+for tool in hs-tetmesh hs-simulate hs-compare hs-export; do
+  echo old >full/out; fill 0
+  filling ${command[$tool]} -q -o full/out >/dev/null 2>err; code=$?
+  told 'full disk' $tool 5
+  [[ $(cat full/out) == old && $(ls -A full | tr '\n' ' ') == @('filler '|)'out ' ]] || complain "full disk: $tool touches the old file"
+  rm -f full/filler full/out
+  row "$full_disk" $tool "exit $code, the old file is whole"
+done
 for tool in "${tools[@]}"; do
   ${command[$tool]} -q 2>err | head -c 0; code=${PIPESTATUS[0]}
   [[ ! -s err ]] || complain "closed pipe: $tool is not silent"
@@ -96,42 +93,44 @@ for tool in hs-tetmesh hs-simulate hs-fuse hs-export; do
   [[ $(temporaries) == 0 ]] || complain "two writers: $tool leaves a temporary file"
   row 'two writers of one file' $tool 'one of both, whole'
 done
-# Stopped and continued, again and again, while it reads a slow pipe: system calls are interrupted.
+# Stopped and continued, again and again, while it waits for the rest of a pipe: system calls are interrupted.
 mkfifo slow
+is() { local word state; read -r word word state word <"/proc/$2/stat" && [[ $state == "$1" ]]; } # STATE PROCESS
 for tool in hs-simulate hs-compare; do
   ${command[$tool]} -q -o expected 2>/dev/null
   ${command[$tool]/data.csv/-} -q -o out <slow 2>err &
-  { head -c 500 data.csv; sleep 0.3; tail -c +501 data.csv; sleep 0.1; } >slow &
-  victim=$(jobs -p | head -n 1)
-  for k in {1..40}; do kill -STOP $victim && kill -CONT $victim && sleep 0.01; done 2>/dev/null
+  victim=$!
+  exec {to}>slow
+  head -c 500 data.csv >&"$to"
+  for k in {1..40}; do
+    until_true 60 is S $victim && kill -STOP $victim && until_true 60 is T $victim && kill -CONT $victim || complain "stopped and continued: $tool is not"
+  done
+  tail -c +501 data.csv >&"$to"
+  exec {to}>&-
   wait $victim; code=$?
-  wait
   grep -v '^#' out >out.rows; grep -v '^#' expected >expected.rows
   [[ $code == 0 ]] && cmp -s out.rows expected.rows || complain "stopped and continued: $tool (exit $code)"
   row 'stopped and continued' $tool "exit $code, the same result"
 done
 # System calls that a signal interrupts before they have done anything: every other one of those that
 # read the input, write, or wait for a child.
-if strace -qq -o trace true 2>/dev/null; then
-  for tool in "${tools[@]}"; do
-    # The path as strace sees it: the whole one.
-    whole=${command[$tool]/${input[$tool]}/$work/${input[$tool]}}
-    $whole -q -o expected 2>/dev/null; calm=$?
-    calls=0
-    for at in "-P $work/${input[$tool]} -e inject=openat,read,pread64:error=EINTR:when=1+2" \
-      '-e inject=write,writev,fsync,fdatasync,flock,wait4,poll,select,ppoll:error=EINTR:when=1+2'; do
-      # The leak sanitizer, where the tools are built with it, cannot look while strace does.
-      ASAN_OPTIONS=detect_leaks=0 XDG_CACHE_HOME=$work/fresh-$tool strace -f -qq -o trace $at $whole -q -o out 2>err; code=$?
-      calls=$((calls + $(grep -c INJECTED trace)))
-      [[ $code == "$calm" ]] && cmp -s out expected || complain "interrupted: $tool (exit $code)"
-      [[ $(temporaries) == 0 ]] || complain "interrupted: $tool leaves a temporary file"
-    done
-    ((calls > 0)) || complain "interrupted: no system call of $tool was"
-    row 'interrupted system call' $tool "exit $code, the same result ($calls interrupted)"
+strace -qq -o trace true 2>err || complain 'strace cannot trace here: a container needs the capability SYS_PTRACE'
+for tool in "${tools[@]}"; do
+  # The path as strace sees it: the whole one.
+  whole=${command[$tool]/${input[$tool]}/$work/${input[$tool]}}
+  $whole -q -o expected 2>/dev/null; calm=$?
+  calls=0
+  for at in "-P $work/${input[$tool]} -e inject=openat,read,pread64:error=EINTR:when=1+2" \
+    '-e inject=write,writev,fsync,fdatasync,flock,wait4,poll,select,ppoll:error=EINTR:when=1+2'; do
+    # The leak sanitizer, where the tools are built with it, cannot look while strace does.
+    ASAN_OPTIONS=detect_leaks=0 XDG_CACHE_HOME=$work/fresh-$tool strace -f -qq -o trace $at $whole -q -o out 2>err; code=$?
+    calls=$((calls + $(grep -c INJECTED trace)))
+    [[ $code == "$calm" ]] && cmp -s out expected || complain "interrupted: $tool (exit $code)"
+    [[ $(temporaries) == 0 ]] || complain "interrupted: $tool leaves a temporary file"
   done
-else
-  echo 'SKIPPED: strace cannot trace here, so no system call is interrupted (apt-get install strace)'
-fi
+  ((calls > 0)) || complain "interrupted: no system call of $tool was"
+  row 'interrupted system call' $tool "exit $code, the same result ($calls interrupted)"
+done
 # Killed at any moment: by SIGTERM nothing is left; by SIGKILL what was there is whole.
 for tool in hs-tetmesh hs-simulate hs-identify; do
   XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o whole 2>/dev/null
@@ -161,7 +160,7 @@ awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"
 hs-tetmesh -q box.off --edge 0.015 -o coarse.ply
 hs-link --listen 0 --body coarse.ply --model model.csv --tool-radius 0.004 --idle 5 2>far.err &
 far=$!
-for _ in {1..100}; do grep -q listening far.err && break; sleep 0.1; done
+until_true 60 grep -qs listening far.err
 operator="hs-link hand.csv --peer $(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err) --body coarse.ply -q"
 $operator -o /dev/full 2>err; code=$?
 told '/dev/full' hs-link 5
@@ -182,9 +181,8 @@ $operator -o out 2>err || complain 'hs-link after kills'
 wait $far || complain 'the teleoperator died with its operators'
 row 'operator killed 4 times' hs-link 'the teleoperator serves the next one'
 # TetGen's process ends with the one that asked it.
-left() { for p in $(pgrep -x hs-tetmesh); do [[ $(readlink /proc/$p/cwd) == "$PWD" ]] && echo $p; done; }
-for _ in {1..50}; do [[ -z $(left) ]] && break; sleep 0.2; done
-[[ -z $(left) ]] || complain 'a killed hs-tetmesh leaves a process'
+none_left() { for p in $(pgrep -x hs-tetmesh); do [[ $(readlink /proc/$p/cwd) != "$PWD" ]] || return 1; done; }
+until_true 60 none_left || complain 'a killed hs-tetmesh leaves a process'
 # The clock was three hours ahead while a batch ran and has been set right; then a recording changes. make alone
 # would take the old results for newer than it.
 batch() { # prints E; its files' times as they are

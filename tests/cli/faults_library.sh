@@ -3,6 +3,8 @@
 # of the database, a full disk. Prints a table of fault, tool, outcome. After any of it the file is a whole
 # database with the old entries or the new ones.
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
+. "$(dirname "${BASH_SOURCE[0]}")/full_disk.sh"
+need strace sqlite3
 PATH=$bin:$PATH
 
 hs-tetmesh -q box.off --max-volume 2e-8 -o body.ply || exit 1
@@ -16,7 +18,7 @@ row() { printf '%-28s %-12s %s\n' "$1" "$2" "$3"; }
 entries() { hs-library "$1" -q 2>list.err | tail -n +2 | cut -d, -f1 | tr '\n' ' '; } # DATABASE
 whole() { # WHAT DATABASE
   hs-library "$2" -q -o list.csv 2>err || complain "$1: the library cannot be read"
-  [[ ! -x $(command -v sqlite3) || $(sqlite3 "$2" 'pragma integrity_check') == ok ]] || complain "$1: the database is damaged"
+  [[ $(sqlite3 "$2" 'pragma integrity_check') == ok ]] || complain "$1: the database is damaged"
 }
 
 # Two that add entries, and one that lists and removes, all at once.
@@ -60,37 +62,28 @@ killed() {
   ((count > 5)) || complain "killed: $tool was ended only $count times"
   row 'killed while it writes' "$tool" "$count kills: the old entries or the new, whole"
 }
-if strace -qq -o trace true 2>/dev/null; then
-  killed hs-library "${before#1 2 }" hs-library -q lab.db --remove 1,2
-  killed hs-identify "${before}11 " "${identify[@]}" --library lab.db --material new -o new.csv
-else
-  echo 'SKIPPED: strace cannot trace here, so nothing is killed at a chosen write (apt-get install strace)'
-fi
+strace -qq -o trace true 2>err || complain 'strace cannot trace here: a container needs the capability SYS_PTRACE'
+killed hs-library "${before#1 2 }" hs-library -q lab.db --remove 1,2
+killed hs-identify "${before}11 " "${identify[@]}" --library lab.db --material new -o new.csv
 
-# A small file system of its own, filled to the last page.
-mkdir full
-if mount -t tmpfs -o size=128k tmpfs full 2>/dev/null; then
-  trap '[[ $BASHPID != "$$" ]] || { umount "$work/full"; rm -rf "$work"; }' EXIT
-  for left in 0 8192 49152; do
-    rm -f full/* && cp many.db full/lab.db
-    head -c 200000 /dev/zero >full/filler 2>/dev/null
-    truncate -s -$left full/filler
-    "${identify[@]}" --library full/lab.db --material full -o new.csv 2>err; code=$?
-    now=$(entries full/lab.db)
-    if ((code == 0)); then
-      [[ $now == "${before}11 " ]] || complain "full disk: exit 0 and $now"
-    else
-      [[ $code == 5 && $now == "$before" && $(grep -c '^hs-identify: ' err) == 1 ]] || complain "full disk: exit $code and $now"
-      [[ $left != 0 ]] || row 'disk full' hs-identify "exit 5, the old entries are whole"
-    fi
-    whole 'full disk' full/lab.db
-    [[ -z $(find . -name '.hapsim-*.tmp') ]] || complain 'full disk: a temporary file is left'
-  done
+# Filled to the last page.
+full_disk 128
+for left in 0 8192 49152; do
   rm -f full/* && cp many.db full/lab.db
-  hs-library -q full/lab.db -o /dev/full 2>err; code=$?
-  [[ $code == 5 ]] || complain "a full device: exit $code"
-else
-  echo 'SKIPPED: no file system can be mounted here, so no disk is full'
-fi
+  fill $left full/lab.db
+  filling "${identify[@]}" --library full/lab.db --material full -o new.csv 2>err; code=$?
+  now=$(entries full/lab.db)
+  if ((code == 0)); then
+    [[ $now == "${before}11 " ]] || complain "full disk: exit 0 and $now"
+  else
+    [[ $code == 5 && $now == "$before" && $(grep -c '^hs-identify: ' err) == 1 ]] || complain "full disk: exit $code and $now"
+    [[ $left != 0 ]] || row "$full_disk" hs-identify "exit 5, the old entries are whole"
+  fi
+  whole 'full disk' full/lab.db
+  [[ -z $(find . -name '.hapsim-*.tmp') ]] || complain 'full disk: a temporary file is left'
+done
+rm -f full/* && cp many.db full/lab.db
+hs-library -q full/lab.db -o /dev/full 2>err; code=$?
+[[ $code == 5 ]] || complain "a full device: exit $code"
 ((failures == 0)) && echo 'faults_library: passed'
 exit $((failures > 0))

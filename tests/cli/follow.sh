@@ -38,19 +38,21 @@ done
 
 # Ended by a signal while it waits, or by a bad row: what was answered and noticed stays.
 mkfifo pipe
+answered() { # every row of the stream, in the file that will be rows.csv
+  local file
+  for file in .hapsim-*.tmp; do rows_in "$file" 4800 && return; done
+}
 for signal in INT TERM; do
   rm -f rows.csv soft.events err  # words of the run before must not be waited for
   env --default-signal=INT "$bin/hs-compare" --follow pipe --body body.ply --model model.csv --rate 200 \
     --learning 6 --events soft.events -o rows.csv 2>err &
   watching=$!
-  { stream soft; printf '25,30'; exec sleep 60; } >pipe &
-  writing=$!
-  for _ in {1..300}; do grep -qs 'stiffness by a factor' err && break; sleep 0.1; done
-  sleep 1
+  exec {to}>pipe
+  { stream soft; printf '25,30'; } >&"$to"
+  until_true 60 grep -qs 'stiffness by a factor' err && until_true 60 answered || complain 'the rows are not answered'
   kill -$signal $watching
   wait $watching || complain "exit $? after SIG$signal"
-  kill $writing 2>/dev/null
-  wait $writing 2>/dev/null
+  exec {to}>&-
   grep -q 'ended by a signal' err && [[ $(grep -c '^[0-9]' rows.csv) == 4800 && $(wc -l <soft.events) == 2 ]] ||
     complain "SIG$signal loses rows or events"
 done

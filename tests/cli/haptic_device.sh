@@ -20,7 +20,7 @@ simulate=$!
 exec {to}>motion
 printf 't,x,y,z\n' >&"$to"
 for i in {1..400}; do printf '0.%03d,0.03,0.025,0.039\n' "$i"; done >&"$to"
-for _ in {1..100}; do (($(grep -c '^[0-9]' forces.csv) >= 400)) && break; sleep 0.1; done
+until_true 60 rows_in forces.csv 400
 { kill -KILL $simulate && wait $simulate; } 2>/dev/null
 exec {to}>&-
 [[ $(grep -Ec '^[0-9]+,0\.[0-9]+(,[^,]+){9},1$' forces.csv) == 400 ]] || complain 'lines were lost'

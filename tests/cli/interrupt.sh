@@ -10,16 +10,26 @@ common=(--body block.ply --rim-edge 0.3 --folds 0)
 "$tool" -q data.csv "${common[@]}" -o m0.csv || complain 'the elastic model is identified'
 search=(data.csv "${common[@]}" --add viscoelastic --terms 2 --starts 100000 --seed 3)
 
-# interrupted SIGNAL ARGUMENTS...: leaves the exit code in `code`. A slow machine, which is not yet
-# searching when the signal comes, gets more time.
+# searching ARGUMENTS...: starts it on a terminal, where it says how far it is, and waits until it has done
+# some starts; leaves its process in `searcher`, its terminal's in `terminal`.
+searching() {
+  rm -f shown process
+  TERM=xterm script -qefc "$(printf '%q ' sh -c 'echo $$ >process; exec env --default-signal=INT "$@"' sh "$tool" "$@")" \
+    shown </dev/null >/dev/null &
+  terminal=$!
+  until_true 300 grep -Eqs 'fit: start ([3-9]|[1-9][0-9]+) of 100000' shown || complain 'the search does not begin'
+  searcher=$(cat process)
+}
+ended() { # leaves the exit code in `code`
+  wait $terminal
+  code=$?
+  tr '\r' '\n' <shown >.err
+}
+# interrupted SIGNAL ARGUMENTS...
 interrupted() {
-  local signal=$1 seconds
-  shift
-  for seconds in 1.5 6 30; do
-    timeout --preserve-status -s "$signal" $seconds "$tool" "$@" 2>.err
-    code=$?
-    ((code == 4)) && ! grep -q 'after 0 of' .err && return
-  done
+  searching "${@:2}"
+  kill -s "$1" "$searcher"
+  ended
 }
 for signal in INT TERM; do
   rm -f m.csv
@@ -30,6 +40,7 @@ for signal in INT TERM; do
   grep -q '^# converged: no' m.csv && grep -q '^# search: [0-9]* of 100000 starts, seed 3' m.csv ||
     complain 'the model is marked'
 done
+grep -q 'fit: start [0-9]* of 100000, error [0-9.]* N' .err || complain 'progress with the error'
 done_first=$(sed -n 's/^# search: \([0-9]*\) .*/\1/p' m.csv)
 ((done_first > 0)) || complain 'some starts were done'
 "$bin/hs-simulate" motion.csv --body block.ply --model m.csv --rim-edge 0.3 -o forces.csv 2>.err ||
@@ -52,12 +63,9 @@ expect 2 '--resume and --starts exclude each other' data.csv "${common[@]}" --mo
 
 # A second signal ends it at once; before the fit a signal ends it as it always did.
 rm -f m.csv
-"$tool" "${search[@]}" -o m.csv 2>.err &
-pid=$!
-sleep 2
-kill -TERM $pid; kill -TERM $pid 2>/dev/null
-wait $pid
-code=$?
+searching "${search[@]}" -o m.csv
+kill -TERM "$searcher"; kill -TERM "$searcher" 2>/dev/null
+ended
 ((code == 4 || code == 143)) || complain "exit code $code after two signals"
 [[ -z $(find . -name '.hapsim-*') ]] || complain 'no temporary file is left'
 
@@ -96,15 +104,6 @@ expect 0 'm.csv: interrupted while the model was improved, so more may be missin
 interrupted_at 'fitting elastic' INT long.csv "${common[@]}" --effects auto -v -o m.csv
 ((code == 4)) && grep -q '^# interrupted\|^# converged: no' m.csv ||
   complain "exit code $code after a signal in the first fit, or a model without a mark"
-
-if command -v script >/dev/null; then
-  for seconds in 1.5 6 30; do
-    TERM=xterm script -qec "timeout -s TERM $seconds $tool ${search[*]} -o m.csv" /dev/null \
-      </dev/null >shown
-    ! grep -q 'fit: start' shown || break
-  done
-  grep -q 'fit: start [0-9]* of 100000, error [0-9.]* N' shown || complain 'progress with the error'
-fi
 
 ((failures == 0)) && echo 'all as expected'
 exit $((failures > 0))

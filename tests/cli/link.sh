@@ -14,7 +14,7 @@ awk 'BEGIN {
 "$bin/hs-link" --listen 0 --body body.ply --model model.csv --tool-radius 0.004 --delay 0.02 \
   --loss 0.02 --idle 4 2>far.err &
 far=$!
-for _ in {1..100}; do grep -q listening far.err && break; sleep 0.1; done
+until_true 60 grep -qs listening far.err
 port=$(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err)
 [[ -n $port ]] || complain 'the teleoperator does not say where it listens'
 for text in x HSL1 "$(printf 'HSL1%092d' 7)"; do printf '%s' "$text" >/dev/udp/127.0.0.1/"$port"; done

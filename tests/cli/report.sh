@@ -2,11 +2,7 @@
 # report.sh BIN: the report in a browser: it draws, a click on a press or a position changes the
 # plots, a button changes the colours, and the console stays silent.
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
-browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome)
-if [[ -z $browser ]]; then
-  echo 'SKIPPED: no chromium; the report was not opened'
-  exit 77
-fi
+browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || need chromium
 
 cat >model.csv <<'END'
 effect,region,parameter,value,unit,std_error,lower,upper,state

@@ -1,6 +1,7 @@
 # Sourced by the command tests, with BIN as $1: an own empty folder to work in, a count of failures,
 # a box of 60 x 50 x 40 mm as box.off, and what presses and scans it.
 set -uo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 bin=$(cd "$1" && pwd)
 work=$(mktemp -d)
 # A child that is killed before it has become its command must not tidy up.

@@ -99,17 +99,17 @@ yes '0,0.03,0.025,0.039' | { echo t,x,y,z; cat; } |
 [[ $(wc -l <out.csv) == 5 && ! -s err ]] || complain 'a closed pipe is not quiet'
 
 # Records: the same forces as the lines, to the last bit; a cut one is an error.
-if command -v python3 >/dev/null; then
-  python3 - motion.csv <<'END' >motion.bin || complain 'no records were made'
+need python3
+python3 - motion.csv <<'END' >motion.bin || complain 'no records were made'
 import struct, sys
 rows = [l.split(",") for l in open(sys.argv[1]) if l[0] not in "#p"]
 for r in rows:
     sys.stdout.buffer.write(struct.pack("<ii7d", int(r[0]), 1, *map(float, r[1:8])))
 END
-  "$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q <motion.bin >forces.bin 2>err ||
-    complain 'records failed'
-  "$bin/hs-simulate" --live motion.csv "${common[@]}" -q >lines.csv 2>err || complain 'lines failed'
-  python3 - <<'END' || complain 'records and lines differ'
+"$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q <motion.bin >forces.bin 2>err ||
+  complain 'records failed'
+"$bin/hs-simulate" --live motion.csv "${common[@]}" -q >lines.csv 2>err || complain 'lines failed'
+python3 - <<'END' || complain 'records and lines differ'
 import struct
 data = open("forces.bin", "rb").read()
 lines = [l.split(",") for l in open("lines.csv") if l[0] not in "#p"]
@@ -119,12 +119,9 @@ for k, line in enumerate(lines):
     assert (press, contact) == (int(line[0]), int(line[11]))
     assert numbers == [float(x) for x in line[1:11]]
 END
-  head -c 100 motion.bin | "$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q >out.bin 2>err
-  (($? == 3)) && grep -q '^hs-simulate: stdin: record 2: it has 36 bytes of 64' err &&
-    [[ $(wc -c <out.bin) == 88 ]] || complain 'a cut record'
-else
-  echo 'SKIPPED: records, python3 is not installed'
-fi
+head -c 100 motion.bin | "$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q >out.bin 2>err
+(($? == 3)) && grep -q '^hs-simulate: stdin: record 2: it has 36 bytes of 64' err &&
+  [[ $(wc -c <out.bin) == 88 ]] || complain 'a cut record'
 
 # Paced by the clock: 93 lines at 1 kHz take 92 ms or more.
 "$bin/hs-simulate" --live --rate 1000 motion.csv "${common[@]}" 2>err >out.csv || complain 'paced'

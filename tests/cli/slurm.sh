@@ -6,7 +6,8 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
 . "$(dirname "${BASH_SOURCE[0]}")/slurm_daemons.sh"
 trap '[[ $BASHPID != "$$" ]] || { slurm_stop; rm -rf "$work"; }' EXIT
-slurm_start >why || { echo "SKIPPED: $(cat why)"; exit 77; }
+need slurmctld slurmd sbatch munged
+slurm_start || exit 1
 
 "$bin/hs-tetmesh" -q box.off --max-volume 2e-8 -o box.ply || exit 1
 box_presses 8 1e-4 >motion.csv
@@ -31,11 +32,9 @@ batch slurm CLUSTER=slurm
 grep -q '7 of 8 recordings done, 1 failed' err || { complain 'the batch through Slurm'; cat slurm/slurm.log; }
 same slurm
 batch again CLUSTER=slurm & wait_for=$!
-for try in {1..200}; do
-  [[ $(find again/recordings -name model.csv 2>/dev/null | wc -l) -ge 2 ]] && break
-  sleep 0.05
-done
-slurm_kill_node && sleep 1 && slurm_node
+models() { (($(find again/recordings -name model.csv 2>/dev/null | wc -l) >= 2)); }
+until_true 120 models || complain 'the batch through Slurm does not begin'
+slurm_kill_node && until_true 120 slurm_node_is_missed && slurm_node || complain 'the node daemon is not missed'
 wait $wait_for
 same again
 # Whatever the requeued tasks left open is made by the same command again.

@@ -1,10 +1,11 @@
 # Sourced with a folder in $work: a Slurm controller and node daemon of their own on loopback, with everything
-# below that folder.
+# below that folder, as whoever calls.
 slurm_conf() { # PORT
   cat <<CONF
 ClusterName=loopback
 SlurmctldHost=$slurm_host(127.0.0.1)
-SlurmUser=root
+SlurmUser=$(id -un)
+SlurmdUser=$(id -un)
 AuthType=auth/munge
 AuthInfo=socket=$work/munge.socket
 CredType=cred/munge
@@ -37,13 +38,13 @@ slurm_munge() {
 }
 slurm_node() { slurmd -N "$slurm_host" 2>>daemon.err; }
 slurm_kill_node() { kill -KILL "$(cat "$work/slurmd.pid")" && rm -f "$work/slurmd.pid"; }
+slurm_node_is_missed() { sinfo -h -o %T 2>/dev/null | grep -q down; }
 slurm_start() { # prints why not, where it cannot; to be stopped by slurm_stop either way
   local program
   PATH=$PATH:/usr/sbin
   for program in slurmctld slurmd sbatch munged; do
     command -v $program >/dev/null || { echo "$program is not installed (apt-get install slurm-wlm munge)"; return 1; }
   done
-  [[ $(id -u) == 0 ]] || { echo 'slurmd needs root'; return 1; }
   slurm_host=$(hostname -s)
   mkdir state spool
   slurm_munge || { head -c 1024 /dev/urandom >munge.key && chmod 400 munge.key && slurm_munge; } ||
@@ -51,7 +52,7 @@ slurm_start() { # prints why not, where it cannot; to be stopped by slurm_stop e
   slurm_conf $((20000 + $$ % 20000)) >slurm.conf
   export SLURM_CONF=$work/slurm.conf
   slurmctld 2>daemon.err && slurm_node || { echo "Slurm does not start: $(tail -n 1 daemon.err)"; return 1; }
-  for _ in {1..100}; do
+  for _ in {1..600}; do
     ! sinfo -h -o %T 2>/dev/null | grep -q idle || return 0
     sleep 0.1
   done

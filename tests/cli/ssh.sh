@@ -4,15 +4,12 @@
 # the same commands again, lose nothing.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh"
-skip() { echo "SKIPPED: $*"; exit 77; }
 PATH=$bin:$PATH:/usr/sbin
-command -v sshd >/dev/null || skip 'sshd is not installed (apt-get install openssh-server)'
-command -v parallel >/dev/null || skip 'GNU parallel is not installed (apt-get install parallel)'
+need sshd ssh ssh-keygen parallel pgrep
 
 # Keys, server and client, all below this folder.
 port=$((20000 + $$ % 20000))
-ssh-keygen -q -t ed25519 -N '' -f host_key && ssh-keygen -q -t ed25519 -N '' -f key && cp key.pub authorized_keys ||
-  skip 'no keys can be made'
+ssh-keygen -q -t ed25519 -N '' -f host_key && ssh-keygen -q -t ed25519 -N '' -f key && cp key.pub authorized_keys || exit 1
 [[ $(id -u) != 0 ]] || mkdir -p /run/sshd
 cat >sshd_config <<CONF
 Port $port
@@ -38,7 +35,8 @@ Host node1 node2
   BatchMode yes
   LogLevel ERROR
 CONF
-serve() { "$(command -v sshd)" -f "$work/sshd_config" -E "$work/sshd.log" && for _ in {1..50}; do ssh -F ssh_config node1 true 2>err && return; sleep 0.1; done; }
+answers() { ssh -F ssh_config node1 true 2>err; }
+serve() { "$(command -v sshd)" -f "$work/sshd_config" -E "$work/sshd.log" && until_true 60 answers; }
 # The server and, with `all`, the connections that it has taken.
 stop() {
   [[ -s sshd.pid ]] || return 0
@@ -48,7 +46,7 @@ stop() {
   rm -f sshd.pid
 }
 trap '[[ $BASHPID != "$$" ]] || { stop all; rm -rf "$work"; }' EXIT
-serve || skip "sshd does not answer: $(tail -n 1 sshd.log err)"
+serve || { complain "sshd does not answer: $(tail -n 1 sshd.log)"; exit 1; }
 
 hs-tetmesh -q box.off --max-volume 2e-8 -o box.ply || exit 1
 box_presses 8 1e-4 >motion.csv
@@ -71,6 +69,7 @@ over_ssh() { # OUT
   parallel --ssh "ssh -F $work/ssh_config" --sshlogin 1/node1,1/node2 --wd . make -C "$1" -k -f batch.mk {} <"$1/targets" >log 2>&1
   hs-batch recordings.csv --out "$1" --stages model --html "$1/overview.html" -o "$1/summary.csv" 2>err
 }
+models() { (($(find "$1/recordings" -name model.csv 2>/dev/null | wc -l) >= $2)); } # OUT COUNT
 same() { cmp -s <(sed "s/\b$1\b/here/g" "$1/summary.csv") here/summary.csv || complain "the summary of $1 is another"; }
 make --no-print-directory -s -j2 -f "$root/Makefile.pipeline" batch BIN="$bin" MANIFEST=recordings.csv OUT=here \
   BATCH_FLAGS='--stages model' >log 2>err
@@ -81,7 +80,7 @@ grep -q '7 of 8 recordings done, 1 failed' err || { complain 'the batch over SSH
 same far
 # Cut on the way.
 over_ssh cut & far=$!
-for _ in {1..200}; do [[ $(find cut/recordings -name model.csv 2>/dev/null | wc -l) -ge 2 ]] && break; sleep 0.05; done
+until_true 120 models cut 2 || complain 'the batch over SSH does not begin'
 stop all
 wait $far
 serve || complain 'sshd does not come again'

@@ -1,5 +1,6 @@
 # Shared by the tests of single tools; sourced as `. tool.sh BIN/TOOL`. Goes to an empty folder of its
 # own and counts in `failures`.
+. "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 tool=$(realpath "$1")
 name=${tool##*/}
 work=$(mktemp -d)

@@ -9,6 +9,10 @@ trap 'rm -rf "$prefix"' EXIT
 fail() { echo "check-install: $*"; exit 1; }
 quietly() { "$@" >"$prefix/log" 2>&1 || { cat "$prefix/log"; fail "failed: $*"; }; }
 
+for needed in mandoc zsh fish; do
+  command -v $needed >/dev/null || fail "$needed is not installed (share/install-deps.sh --tests)"
+done
+
 quietly cmake --install "$build" --prefix "$prefix"
 rm -f "$prefix/log"
 tools=("$build"/bin/hs-*)
@@ -20,9 +24,7 @@ for tool in "${tools[@]}"; do
   page=$prefix/share/man/man1/$name.1
   [[ -s $page ]] || fail "$name has no man page"
   grep -qi "^\.TH \"\?$name.* \"hapsim $version\"" "$page" || fail "$page has no title line with the version"
-  if command -v mandoc >/dev/null; then
-    mandoc -T lint -W error "$page" || fail "mandoc finds errors in $name.1"
-  fi
+  mandoc -T lint -W error "$page" || fail "mandoc finds errors in $name.1"
   # Every long flag of the man page is completed.
   flags=$(sed -n '/^.SH OPTIONS/,/^.SH/{/^\\fB/{s/\\-/-/g;s/.*\\fB\(--[a-z-]*\).*/\1/p}}' "$page" | sort -u)
   words=$(bash -c "source '$prefix/share/bash-completion/completions/$name'
@@ -30,13 +32,8 @@ for tool in "${tools[@]}"; do
   [[ -n $flags && $flags == "$words" ]] || fail "bash completes other flags of $name than it has"
   for shell in zsh:share/zsh/vendor-completions/_$name fish:share/fish/vendor_completions.d/$name.fish; do
     [[ -s $prefix/${shell#*:} ]] || fail "$name has no completion for ${shell%%:*}"
-    if command -v "${shell%%:*}" >/dev/null; then
-      "${shell%%:*}" -n "$prefix/${shell#*:}" || fail "${shell%%:*} does not read the completion of $name"
-    fi
+    "${shell%%:*}" -n "$prefix/${shell#*:}" || fail "${shell%%:*} does not read the completion of $name"
   done
-done
-for shell in zsh fish; do
-  command -v $shell >/dev/null || echo "SKIPPED: $shell is not installed, its completions are not read"
 done
 [[ $(bash -c "source '$prefix/share/bash-completion/completions/hs-identify'
   COMP_WORDS=(hs-identify --robust t) COMP_CWORD=2; _hs_identify; echo \"\${COMPREPLY[*]}\"") == tukey ]] ||

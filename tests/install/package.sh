@@ -7,7 +7,7 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 fail() { echo "package: $*"; exit 1; }
 for needed in dpkg-shlibdeps lintian; do
-  command -v $needed >/dev/null || { echo "SKIPPED: $needed is not installed (share/install-deps.sh --dev)"; exit 77; }
+  command -v $needed >/dev/null || fail "$needed is not installed (share/install-deps.sh --tests)"
 done
 cpack --config "$build/CPackConfig.cmake" -B "$out" >"$out/log" 2>&1 || { cat "$out/log"; fail "cpack"; }
 packages=("$out"/*.deb)

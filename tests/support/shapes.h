@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -70,15 +69,6 @@ std::pair<int, std::string> error_of(const Action& action) {
     return {static_cast<int>(error.code()), error.what()};
   }
   return {0, ""};
-}
-
-// A file of the folder with independent data, "" when the folder is not there.
-inline std::string shared_file(const std::string& name) {
-  const char* folder = std::getenv("HAPSIM_SHARED");
-  const std::string path =
-      (folder != nullptr ? std::string(folder) : std::string(HAPSIM_SOURCE_DIR) + "/../shared") +
-      "/independent/" + name;
-  return std::filesystem::exists(path) ? path : "";
 }
 
 // Text in a file that goes away with this object.

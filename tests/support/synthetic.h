@@ -1,7 +1,9 @@
-// A small body and presses on it, for tests of models and fits. Coarse meshes: the numbers are of
-// the model's own making, so these tests judge the fit, not the physics.
+// A small body and presses on it, for tests of models and fits. Coarse meshes: what measure() takes
+// from them is of the model's own making, so those tests judge the fit, not the physics; what names
+// effects is tried on measure_finer().
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "base/random.h"
@@ -38,24 +40,37 @@ inline Recording presses() {
   return r;
 }
 
-inline Experiment experiment() {
+// The edges under the tool are a share of its radius; the body is a block of `cells` each way.
+inline Experiment experiment(double rim_edge = 0.3, std::array<int, 3> cells = {6, 6, 4}) {
   ExperimentOptions options;
-  options.rim_edge = 0.3;
+  options.rim_edge = rim_edge;
   options.noise = 0.01;
   options.floor = 0.01;
-  return make_experiment(block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), presses(), options);
+  return make_experiment(block_mesh({0.08, 0.08, 0.04}, cells[0], cells[1], cells[2], 1), presses(),
+                        options);
 }
 
-// Replaces the measured forces by the model's and noise.
-inline void measure(Experiment& w, const Model& model, double noise, std::uint64_t seed) {
+// Replaces the measured forces by the model's on the body of `truth`, and noise.
+inline void measure(Experiment& w, const Experiment& truth, const Model& model, double noise,
+                    std::uint64_t seed) {
   const Selection all = all_episodes(w.dataset);
-  const Eigen::VectorXd f = solved_forces(model, w, all, false).f;
+  const Eigen::VectorXd f = solved_forces(model, truth, all, false).f;
   const std::vector<int> rows = stacked_rows(w.dataset, all);
   Random random(seed);
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (int k = 0; k < 3; ++k)
       w.dataset.recording.f[rows[i]][k] =
           f[3 * static_cast<Eigen::Index>(i) + k] + noise * random.normal();
+}
+
+inline void measure(Experiment& w, const Model& model, double noise, std::uint64_t seed) {
+  measure(w, w, model, noise, seed);
+}
+
+// By meshes with half of the edge under the tool, of a block that is divided otherwise.
+inline void measure_finer(Experiment& w, const Model& model, double noise, std::uint64_t seed) {
+  static const Experiment truth = experiment(0.15, {9, 9, 5});
+  measure(w, truth, model, noise, seed);
 }
 
 inline Model elastic(double modulus, double nu) {

@@ -20,6 +20,7 @@
 #include "simulate/full_simulation.h"
 #include "solid/elastic_body.h"
 #include "support/block_mesh.h"
+#include "support/needs.h"
 
 namespace hapsim {
 namespace {
@@ -46,10 +47,7 @@ Vec3 press(const Vec3& p) {  // a sheared, unevenly deep press
 
 class CalculiX : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (std::system("command -v ccx >/dev/null 2>&1") != 0)
-      GTEST_SKIP() << "SKIPPED: ccx is not installed; apt-get install calculix-ccx";
-  }
+  void SetUp() override { HAPSIM_NEEDS_PROGRAM("ccx"); }
 
   static VectorXd reactions(const TetMesh& mesh, const std::string& material, bool finite,
                             const std::string& name,

@@ -11,6 +11,7 @@
 #include "exchange/scene.h"
 #include "simulate/full_simulation.h"
 #include "support/block_mesh.h"
+#include "support/needs.h"
 
 namespace hapsim {
 namespace {
@@ -19,10 +20,7 @@ const Vec3 kSize(0.04, 0.05, 0.03), kPoint(0.02, 0.025, 0.03);
 
 class Export : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (std::system("command -v ccx >/dev/null 2>&1") != 0)
-      GTEST_SKIP() << "SKIPPED: ccx is not installed; apt-get install calculix-ccx";
-  }
+  void SetUp() override { HAPSIM_NEEDS_PROGRAM("ccx"); }
 
   static void add(Model& model, const std::string& effect, const std::vector<double>& values,
                   int region = 0) {

@@ -1,27 +1,21 @@
 // Recordings computed with an established finite-element package, on other meshes than ours.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-
 #include "diagnose/diagnose.h"
 #include "formats/surface_io.h"
+#include "support/needs.h"
 #include "tetmesh/body_mesh.h"
 
 namespace hapsim {
 namespace {
 
 std::string shared_folder() {
-  const char* given = std::getenv("HAPSIM_SHARED");
-  return std::string(given != nullptr ? given : HAPSIM_SOURCE_DIR "/../shared") + "/independent/";
+  return test::shared_path("independent/");
 }
 
 class Independent : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(shared_folder()))
-      GTEST_SKIP() << "SKIPPED: no data in " << shared_folder() << "; set HAPSIM_SHARED";
-  }
+  void SetUp() override { HAPSIM_NEEDS_SHARED(shared_folder()); }
   struct Case {
     Experiment experiment;
     Fit elastic;

@@ -64,7 +64,7 @@ int act(const std::string& what, const hapsim::Arguments& arguments, hapsim::Out
   if (what == "wait") {
     out.stream() << "half" << std::flush;
     hapsim::say(arguments, "hs-sample", "waiting");
-    std::this_thread::sleep_for(std::chrono::seconds(30));
+    pause();  // until a signal ends it
   }
   if (what == "progress") {
     hapsim::Progress progress(arguments, "steps", 40);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/needs.h"
 #include "unit/cli/run_command.h"
 
 namespace hapsim {
@@ -123,7 +124,7 @@ TEST_F(Tool, LeavesNothingWhenItIsKilled) {
 
 // script(1) gives a command a terminal.
 TEST_F(Tool, DoesNotWaitForATerminal) {
-  if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "no script(1)";
+  HAPSIM_NEEDS_PROGRAM("script");
   const Outcome outcome = work_.run("script -qec \"NO_COLOR=1 $S\" /dev/null");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_EQ(outcome.out,
@@ -137,7 +138,7 @@ TEST_F(Tool, DoesNotWaitForATerminal) {
 
 TEST_F(Tool, ShowsProgressOnATerminalOnly) {
   expect("$S a --act progress", 0, "", "");
-  if (std::system("command -v script >/dev/null") != 0) GTEST_SKIP() << "no script(1)";
+  HAPSIM_NEEDS_PROGRAM("script");
   const Outcome shown = work_.run("script -qec \"$S a --act progress\" /dev/null");
   EXPECT_NE(shown.out.find("steps: "), std::string::npos) << shown.out;
   EXPECT_NE(shown.out.find(" of 40, "), std::string::npos) << shown.out;
@@ -164,7 +165,8 @@ TEST_F(Tool, HelpFitsInEightyColumns) {
 }
 
 TEST_F(Tool, ManPageIsClean) {
-  if (std::system("command -v mandoc >/dev/null") != 0) GTEST_SKIP() << "no mandoc";
+  HAPSIM_NEEDS_PROGRAM("mandoc");
+  HAPSIM_NEEDS_PROGRAM("col");
   expect("$S --man >page.1; mandoc -Tlint page.1", 0, "", "");
   const Outcome page = work_.run("mandoc -Tascii page.1 | col -b");
   for (const char* part : {"hs-sample - copy the input, for tests", ".A second paragraph",

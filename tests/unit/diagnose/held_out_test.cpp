@@ -15,7 +15,7 @@ constexpr double kNoise = 0.01;
 // Two corners far from each other are stiffer: neither can be told from the positions around it.
 Experiment two_stiff_corners(const Model& model) {
   Experiment w = test::experiment();
-  test::measure(w, model, kNoise, 5);
+  test::measure_finer(w, model, kNoise, 5);
   for (const Episode& e : w.dataset.episodes)
     for (const int row : e.rows)
       if (e.position == 0 || e.position == 5) w.dataset.recording.f[row] *= 1.8;
@@ -45,7 +45,7 @@ TEST(Unseen, OnAKnownMapOnlyTheRestIsUnseen) {
 
 TEST(Unseen, ARegionOfOnePositionIsMadeAnew) {
   Experiment w = test::experiment();
-  test::measure(w, test::elastic(1.5e4, 0.42), kNoise, 5);
+  test::measure_finer(w, test::elastic(1.5e4, 0.42), kNoise, 5);
   for (const Episode& e : w.dataset.episodes)
     for (const int row : e.rows)
       if (e.position == 0) w.dataset.recording.f[row] *= 1.8;

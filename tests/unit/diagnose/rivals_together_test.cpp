@@ -11,7 +11,7 @@ namespace {
 
 bool both_act_on(const Model& truth, const std::string& a, const std::string& b) {
   Experiment w = test::experiment();
-  test::measure(w, truth, 0.01, 3);
+  test::measure_finer(w, truth, 0.01, 3);
   const TrialGround ground(w, w.allowance());
   const Baseline base = make_baseline(test::elastic(1.5e4, 0.42), ground, {});
   std::string lack;

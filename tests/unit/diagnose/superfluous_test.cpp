@@ -12,7 +12,7 @@ namespace {
 TEST(Superfluous, OnlyWhatTheDataDoNotAskForIsDropped) {
   Experiment w = test::experiment();
   const Model truth = test::with(test::elastic(1.5e4, 0.42), "viscoelastic", {5e3, 0.4});
-  test::measure(w, truth, 0.01, 3);
+  test::measure_finer(w, truth, 0.01, 3);
   const TrialGround ground(w, w.allowance());
   const Folds folds = make_folds(w.dataset, 6);
   const Baseline both = make_baseline(test::with(truth, "sensor-bias", {0, 0, 0}), ground, folds);

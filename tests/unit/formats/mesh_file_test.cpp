@@ -15,6 +15,7 @@
 #include "base/random.h"
 #include "formats/tetmesh_io.h"
 #include "formats/vtu.h"
+#include "support/needs.h"
 #include "support/shapes.h"
 #include "tetmesh/body_mesh.h"
 
@@ -298,7 +299,7 @@ TetMesh read(const std::string& path) {
 }
 
 TEST(Peer, GmshReadsAndWritesTheSameMesh) {
-  if (!shell("command -v gmsh").first) GTEST_SKIP() << "no gmsh program here (Debian package gmsh)";
+  HAPSIM_NEEDS_PROGRAM("gmsh");
   const Folder folder;
   for (const int order : {1, 2}) {
     const TetMesh mesh = two_regions(order);
@@ -327,7 +328,7 @@ TEST(Peer, GmshReadsAndWritesTheSameMesh) {
 }
 
 TEST(Peer, TetgenMeshesOfBothOrdersAreRead) {
-  if (!shell("command -v tetgen").first) GTEST_SKIP() << "no tetgen program here (Debian: tetgen)";
+  HAPSIM_NEEDS_PROGRAM("tetgen");
   const Folder folder;
   {
     std::ofstream out(folder / "c.node");
@@ -357,7 +358,7 @@ double carried_volume(const TetMesh& mesh) {
 }
 
 TEST(Peer, CalculixTakesTheDeck) {
-  if (!shell("command -v ccx").first) GTEST_SKIP() << "no ccx program (Debian: calculix-ccx)";
+  HAPSIM_NEEDS_PROGRAM("ccx");
   const Folder folder;
   for (const int order : {1, 2}) {
     const TetMesh mesh = two_regions(order);

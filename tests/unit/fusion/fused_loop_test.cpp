@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
@@ -20,22 +22,50 @@ Acfm springs() {
   return model;
 }
 
-// The truth is a quarter stiffer; it takes a few milliseconds.
-class Stiffer : public SlowPress {
- public:
-  Vec3 step(const Vec3& u, double) override {
-    std::this_thread::sleep_for(std::chrono::milliseconds(3));
-    if (u.z() < -0.0099) fail_numerics("press", "too deep", "press less");
-    return -500 * u;
+// What both threads have done: each waits for the other, so that no result hangs on how fast the
+// machine is.
+struct Course {
+  std::atomic<int> samples{0}, steps{0};
+  std::atomic<bool> over{false};  // nobody waits any longer
+  template <class Condition>
+  void wait(const Condition& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    while (!condition() && !over && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+  void wait_for_samples(int count) {
+    wait([&] { return samples >= count; });
+  }
+  // One more sample; there is a step for so many.
+  void sampled(int every) {
+    const int due = ++samples / every;
+    wait([&] { return steps >= due; });
   }
 };
 
-Vec3 run(FusedLoop& loop, double deepest, int samples) {
+// The truth is a quarter stiffer.
+class Stiffer : public SlowPress {
+ public:
+  explicit Stiffer(Course& course) : course_(course) {}
+  Vec3 step(const Vec3& u, double) override {
+    if (u.z() < -0.0099) {
+      course_.over = true;
+      fail_numerics("press", "too deep", "press less");
+    }
+    ++course_.steps;
+    return -500 * u;
+  }
+
+ private:
+  Course& course_;
+};
+
+Vec3 run(FusedLoop& loop, Course& course, double deepest, int samples) {
   Vec3 f = Vec3::Zero();
   loop.begin(Vec3::Zero());
   for (int i = 0; i <= samples; ++i) {
     f = loop.press(1e-3 * i, {0, 0, -deepest * i / samples});
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    course.sampled(3);
   }
   return f;
 }
@@ -43,9 +73,10 @@ Vec3 run(FusedLoop& loop, double deepest, int samples) {
 TEST(FusedLoop, IsPutRightByItsThread) {
   const Acfm model = springs();
   AcfmLoop fast(model);
-  FusedLoop loop(fast, [](const Vec3&) { return std::make_unique<Stiffer>(); }, {});
-  for (int press = 0; press < 3; ++press) run(loop, 0.005, 300);
-  const double f = run(loop, 0.005, 300).z();
+  Course course;
+  FusedLoop loop(fast, [&](const Vec3&) { return std::make_unique<Stiffer>(course); }, {});
+  for (int press = 0; press < 3; ++press) run(loop, course, 0.005, 300);
+  const double f = run(loop, course, 0.005, 300).z();
   loop.stop();
   EXPECT_EQ(loop.failure(), "");
   EXPECT_GT(loop.report().observations, 20);
@@ -56,24 +87,29 @@ TEST(FusedLoop, IsPutRightByItsThread) {
 // A solver that is long in being made, and notes what it is first asked.
 class Noting : public SlowPress {
  public:
-  explicit Noting(std::vector<double>& asked) : asked_(asked) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  Noting(std::vector<double>& asked, Course& course) : asked_(asked), course_(course) {
+    course_.wait_for_samples(40);
   }
   Vec3 step(const Vec3& u, double dt) override {
     asked_.insert(asked_.end(), {u.z(), dt});
+    ++course_.steps;
     return -500 * u;
   }
 
  private:
   std::vector<double>& asked_;
+  Course& course_;
 };
 
 TEST(FusedLoop, ItsSolverBeginsWhereTheContactDid) {
   const Acfm model = springs();
   AcfmLoop fast(model);
   std::vector<double> asked;
-  FusedLoop loop(fast, [&](const Vec3&) { return std::make_unique<Noting>(asked); }, {});
-  run(loop, 0.005, 200);
+  Course course;
+  FusedLoop loop(fast, [&](const Vec3&) { return std::make_unique<Noting>(asked, course); }, {});
+  loop.begin(Vec3::Zero());
+  for (int i = 0; i <= 200; ++i, ++course.samples) loop.press(1e-3 * i, {0, 0, -0.005 * i / 200});
+  course.wait([&] { return course.steps >= 2; });
   loop.stop();
   ASSERT_GE(asked.size(), 4u);
   EXPECT_EQ(asked[0], 0);
@@ -83,18 +119,23 @@ TEST(FusedLoop, ItsSolverBeginsWhereTheContactDid) {
   EXPECT_NEAR(asked[2], -0.025 * asked[3], 1e-12);
 }
 
-// The analytical model itself as a solver of seldom steps.
+// The analytical model itself as a solver of seldom steps, one in 25 samples.
+constexpr int kSeldom = 25;
 class Seldom : public SlowPress {
  public:
-  explicit Seldom(const Acfm& model) : loop_(model) { loop_.begin(Vec3::Zero()); }
+  Seldom(const Acfm& model, Course& course) : loop_(model), course_(course) {
+    loop_.begin(Vec3::Zero());
+  }
   Vec3 step(const Vec3& u, double dt) override {
-    std::this_thread::sleep_for(std::chrono::milliseconds(25));
+    course_.wait_for_samples((course_.steps + 1) * kSeldom);
+    ++course_.steps;
     t_ += dt;
     return loop_.press(t_, u);
   }
 
  private:
   AcfmLoop loop_;
+  Course& course_;
   double t_ = 0;
 };
 
@@ -102,8 +143,10 @@ class Seldom : public SlowPress {
 // between the fused and the fast force.
 double off(const Acfm& model, ToolLoop* coarse) {
   AcfmLoop fast(model), alone(model);
+  Course course;
   FusedLoop loop(
-      fast, [&](const Vec3&) { return std::make_unique<Seldom>(model); }, {}, nullptr, {}, coarse);
+      fast, [&](const Vec3&) { return std::make_unique<Seldom>(model, course); }, {}, nullptr, {},
+      coarse);
   double most = 0;
   for (int press = 0; press < 2; ++press) {
     loop.begin(Vec3::Zero());
@@ -111,9 +154,10 @@ double off(const Acfm& model, ToolLoop* coarse) {
     for (int i = 0; i <= 200; ++i) {
       const Vec3 u(0, 0, -0.005 * std::pow(i / 200.0, 6));
       most = std::max(most, (loop.press(1e-3 * i, u) - alone.press(1e-3 * i, u)).norm());
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      course.sampled(kSeldom);
     }
   }
+  course.over = true;
   loop.stop();
   return most;
 }
@@ -131,8 +175,9 @@ TEST(FusedLoop, TakesOffWhatSeldomStepsMakeOfABodyThatRelaxes) {
 TEST(FusedLoop, GoesOnWhenItsThreadFails) {
   const Acfm model = springs();
   AcfmLoop fast(model);
-  FusedLoop loop(fast, [](const Vec3&) { return std::make_unique<Stiffer>(); }, {});
-  const double f = run(loop, 0.0115, 200).z();
+  Course course;
+  FusedLoop loop(fast, [&](const Vec3&) { return std::make_unique<Stiffer>(course); }, {});
+  const double f = run(loop, course, 0.0115, 200).z();
   loop.stop();
   EXPECT_NE(loop.failure().find("too deep"), std::string::npos);
   EXPECT_GT(f, 4);

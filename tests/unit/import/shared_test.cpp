@@ -2,20 +2,16 @@
 // below "shared" beside the sources.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
+#include "support/needs.h"
 #include "synthetic.h"
 
 namespace hapsim::test {
 namespace {
 
-std::vector<std::filesystem::path> real_recordings() {
-  const char* told = std::getenv("HAPSIM_SHARED");
-  const std::filesystem::path folder =
-      std::filesystem::path(told ? told : HAPSIM_SOURCE_DIR "/../shared") / "realdata" / "a_force";
+std::vector<std::filesystem::path> real_recordings(const std::string& folder) {
   std::vector<std::filesystem::path> files;
-  if (!std::filesystem::is_directory(folder)) return files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
     if (entry.path().extension() == ".csv" || entry.path().extension() == ".tsv")
       files.push_back(entry.path());
@@ -24,9 +20,10 @@ std::vector<std::filesystem::path> real_recordings() {
 }
 
 TEST(ImportShared, RealRecordingsComeThrough) {
-  const auto files = real_recordings();
-  if (files.empty())
-    GTEST_SKIP() << "no recordings of real machines in HAPSIM_SHARED/realdata/a_force";
+  const std::string folder = shared_path("realdata/a_force");
+  HAPSIM_NEEDS_SHARED(folder);
+  const auto files = real_recordings(folder);
+  ASSERT_FALSE(files.empty()) << folder;
   for (const auto& file : files) {
     SCOPED_TRACE(file.filename().string());
     Input input(file.string());

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <iostream>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -16,6 +13,7 @@
 #include "reconstruct/clean_points.h"
 #include "reconstruct/crease.h"
 #include "reconstruct/reconstruct_parts.h"
+#include "support/needs.h"
 #include "support/shapes.h"
 
 namespace hapsim {
@@ -443,17 +441,10 @@ struct Truth {
 class IndependentScan : public testing::TestWithParam<Truth> {};
 
 TEST_P(IndependentScan, ComesNearTheTruth) {
-  const char* given = std::getenv("HAPSIM_SHARED");
-  const std::filesystem::path shared =
-      given != nullptr ? given : std::string(HAPSIM_SOURCE_DIR) + "/../shared";
-  const std::filesystem::path scan =
-      shared / "independent" / (std::string(GetParam().object) + "_scan.csv");
-  if (!std::filesystem::exists(scan)) {
-    std::cerr << "SKIPPED: no " << scan << "; set HAPSIM_SHARED\n";
-    GTEST_SKIP();
-  }
-  Input points(scan.string());
-  Input stl((shared / "independent" / (std::string(GetParam().object) + ".stl")).string());
+  const std::string object = test::shared_path("independent/") + GetParam().object;
+  HAPSIM_NEEDS_SHARED(object + "_scan.csv");
+  Input points(object + "_scan.csv");
+  Input stl(object + ".stl");
   const Surface truth = read_surface(stl);
   CleanReport cleaned;
   ReconstructReport report;

@@ -15,6 +15,7 @@
 #include "mesh/quality.h"
 #include "repair/coarsen.h"
 #include "repair/self_intersection.h"
+#include "support/needs.h"
 #include "support/shapes.h"
 #include "tetmesh/body_mesh.h"
 #include "tetmesh/tetgen.h"
@@ -180,8 +181,8 @@ TEST(ContactMesh, RefusesWhatCannotBe) {
 class Independent : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Independent, EveryPositionCanBeMeshed) {
-  const std::string path = test::shared_file(GetParam());
-  if (path.empty()) GTEST_SKIP() << "no independent data: set HAPSIM_SHARED";
+  const std::string path = test::shared_path("independent/") + GetParam();
+  HAPSIM_NEEDS_SHARED(path);
   Input input(path);
   const ContactBase base = make_contact_base(make_body_mesh(read_surface(input), {}));
   Random random(7);
