@@ -23,11 +23,7 @@ struct MeshFile {
   MeshRepairs repairs;
 };
 
-// Whether the bytes begin as a mesh of tetrahedra does: PLY with the element tetrahedron, VTU,
-// Gmsh, TetGen's .node or .ele, a deck of Abaqus, a model of FEBio, a scene of SOFA.
-bool is_mesh_file(const std::string& bytes);
-
-// By content:
+// By content, in the formats of the table (formats/format_table.h); in some words:
 //   PLY      as hs-tetmesh writes it
 //   VTU      ASCII, binary, appended raw or base64, uncompressed or zlib; cell types 10 and 24;
 //   cell

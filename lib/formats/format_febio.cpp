@@ -6,7 +6,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
 #include "formats/mesh_xml.h"
 
 namespace hapsim {
@@ -183,14 +183,20 @@ class FebioModel {
   RawMesh raw_;
 };
 
-}  // namespace
-
-bool is_febio_model(const std::string& bytes) {
-  return is_xml_of(bytes, "febio_spec");
+Content sniff(const std::string& bytes) {
+  return is_xml_of(bytes, "febio_spec") ? Content::kTetrahedra : Content::kNothing;
 }
 
-RawMesh parse_febio_mesh(const std::string& bytes, const std::string& where) {
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
   return FebioModel(bytes, where).read();
+}
+
+}  // namespace
+
+const Format& febio_format() {
+  static const Format format{
+      .name = "FEBio", .extensions = {"feb"}, .sniff = sniff, .read_mesh = read_mesh};
+  return format;
 }
 
 }  // namespace hapsim
