@@ -52,7 +52,8 @@ inline std::vector<Option> follow_flags() {
       {.flag = "--events",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Follow: writes what has changed, and how the model went on (CSV)."},
+       .help = "Follow: writes what has changed, and how the model went on (CSV).",
+       .writes = kTableExtensions},
       {.flag = "--hold",
        .kind = OptionKind::kSwitch,
        .help = "Follow: alarms are told and the model stays as it is."}};

@@ -3,6 +3,7 @@
 
 #include "cli/tool.h"
 #include "compare_follow.h"
+#include "formats/format_table.h"
 
 namespace hapsim {
 
@@ -57,7 +58,8 @@ inline ToolSpec compare_specification() {
       {.flag = "--html",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the report: one file that needs no network."},
+       .help = "Writes the report: one file that needs no network.",
+       .writes = {"html", "htm"}},
       {.flag = "--figures",
        .kind = OptionKind::kFile,
        .value = "PREFIX",
@@ -66,18 +68,21 @@ inline ToolSpec compare_specification() {
       {.flag = "--json",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes numbers, observations and breakdowns as JSON."},
+       .help = "Writes numbers, observations and breakdowns as JSON.",
+       .writes = {"json"}},
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help =
-           "Body from hs-tetmesh, or a surface (PLY, STL), for --ply and the report's picture."},
+       .help = "Body from hs-tetmesh, another mesh of tetrahedra (" +
+               names_to_read(Content::kTetrahedra) + "), or a surface (" +
+               names_to_read(Content::kTriangles) + "), for --ply and the report's picture."},
       {.flag = "--ply",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help =
            "Writes the body's surface coloured by the local error (vertex properties red, green, "
-           "blue, and float error [N], NaN where nothing was pressed near). Needs --body."},
+           "blue, and float error [N], NaN where nothing was pressed near). Needs --body.",
+       .writes = {"ply"}},
       {.flag = "--reach",
        .kind = OptionKind::kNumber,
        .value = "M",
@@ -105,7 +110,8 @@ inline ToolSpec compare_specification() {
       {.flag = "--junit",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers."},
+       .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers.",
+       .writes = {"xml"}},
       {.flag = "--title",
        .kind = OptionKind::kText,
        .value = "TEXT",

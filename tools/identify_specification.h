@@ -123,13 +123,15 @@ inline ToolSpec identify_specification() {
       {.flag = "--history",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "CSV of model versions and their errors to which this one is added."},
+       .help = "CSV of model versions and their errors to which this one is added.",
+       .writes = kTableExtensions},
       {.flag = "--locations",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help =
            "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
-           "position by itself, the model's other parameters held; input of hs-cluster."},
+           "position by itself, the model's other parameters held; input of hs-cluster.",
+       .writes = kTableExtensions},
       image_flag(),
       {.flag = "--robust",
        .kind = OptionKind::kChoice,

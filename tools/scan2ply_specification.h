@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/tool.h"
+#include "formats/format_table.h"
 
 namespace hapsim {
 
@@ -38,11 +39,12 @@ inline std::vector<Option> scan2ply_options() {
       number_option("--spacing", "M",
                     "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1),
       switch_option("--keep-outliers", "Removes only points that are given twice."),
-      switch_option("--ascii", "Writes an ASCII PLY."),
+      switch_option("--ascii", "Writes text instead of a binary PLY."),
       {.flag = "--json",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the summary, with every zone's motion, as JSON."},
+       .help = "Writes the summary, with every zone's motion, as JSON.",
+       .writes = {"json"}},
       // zones
       {.flag = "--zone",
        .kind = OptionKind::kFile,
@@ -116,9 +118,9 @@ inline ToolSpec scan2ply_specification() {
   ToolSpec spec;
   spec.name = kTool;
   spec.summary = "clean points with normals from scans, robots and CT";
-  spec.input =
-      "scan: CSV, rows of numbers, PLY, STL, PCD; joint angles (--robot); sections; a "
-      "volume (NRRD, NIfTI, a folder of DICOM slices)";
+  spec.input = "scan: " + names_to_read(Content::kPoints) +
+               " (rows of numbers); joint angles (--robot); sections; a "
+               "volume (NRRD, NIfTI, a folder of DICOM slices)";
   spec.description = {
       "Reads the points of a surface scan by content and column name (any order, further columns "
       "are ignored), turns them into metres, removes what is not surface, gives every point an "
@@ -156,6 +158,7 @@ inline ToolSpec scan2ply_specification() {
       "nu^2); flat: F / (2 E* R)), move the points back out along their normals.",
       "A scan larger than 5 m or smaller than 1 mm is taken for one in another unit and refused."};
   spec.options = scan2ply_options();
+  spec.writes = extensions_to_write(Content::kPoints);
   spec.tables = {
       {"Input columns",
        {{"x, y, z", "point, in --unit"},

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "cli/spec_text.h"
+#include "io/extension.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -34,6 +35,18 @@ void check_choice(const Option& option, const std::string& text) {
              (near.empty() ? "" : "did you mean '" + near + "'? ") + "known are: " + known);
 }
 
+// What a file is to be written as stands in its name, or nowhere.
+void check_extension(const Option& option, const std::string& text) {
+  const std::string extension = extension_of(text);
+  const auto& known = option.writes;
+  if (extension.empty() || std::find(known.begin(), known.end(), extension) != known.end()) return;
+  std::string list;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    list += (i == 0 ? "." : i + 1 == known.size() ? " or ." : ", .") + known[i];
+  fail_usage(option.flag + " is " + shown(text) + ", and this is not written as ." + extension,
+             "end the name in " + list);
+}
+
 }  // namespace
 
 void check_value(const Option& option, const std::string& text) {
@@ -45,6 +58,9 @@ void check_value(const Option& option, const std::string& text) {
       return check_number(option, text);
     case OptionKind::kChoice:
       return check_choice(option, text);
+    case OptionKind::kFile:
+      if (!option.writes.empty()) check_extension(option, text);
+      return;
     default:
       return;
   }

@@ -48,6 +48,7 @@ std::vector<Option> all_options(const ToolSpec& spec) {
   output.value = "FILE";
   output.help = "Write the result to FILE, complete or not at all; - is standard output.";
   output.default_text = "-";
+  output.writes = spec.writes;
   options.push_back(output);
   add("--quiet", "Print errors only.");
   add("--verbose", "Print more about what is done.");
@@ -91,6 +92,8 @@ std::string full_help(const Option& option) {
     add_sentence(text, option.kind == OptionKind::kFile
                            ? "May be repeated."
                            : "May be repeated, or given a list separated by commas.");
+  if (!option.writes.empty())
+    add_sentence(text, "Extensions: " + joined(option.writes, ", ") + ".");
   if (option.required) add_sentence(text, "Required.");
   if (!option.default_text.empty()) add_sentence(text, "Default: " + option.default_text + ".");
   return text;

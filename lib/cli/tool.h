@@ -10,6 +10,9 @@
 
 namespace hapsim {
 
+// Extensions of tables: CSV, also under the names of plain text.
+inline const std::vector<std::string> kTableExtensions{"csv", "txt", "dat"};
+
 enum class OptionKind { kSwitch, kText, kNumber, kInteger, kChoice, kFile };
 
 // One long flag. Every tool also has -o/--output, -q/--quiet, -v/--verbose, -h/--help,
@@ -26,6 +29,9 @@ struct Option {
   bool required = false;
   // Values gathered in order; also split at commas (kFile is not: names may hold commas).
   bool repeatable = false;
+  // kFile that is written: the extensions it may have, "csv"; another one is refused before the
+  // work. Without an extension, and with none here, nothing is asked.
+  std::vector<std::string> writes = {};
 };
 
 struct Example {
@@ -41,6 +47,8 @@ struct ToolSpec {
   std::vector<Option> options = {};
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> tables =
       {};  // documented columns: title, then (column, meaning)
+  // Of --output, as Option::writes; where there are several formats the extension says which.
+  std::vector<std::string> writes = kTableExtensions;
   std::vector<Example> examples = {};
   std::vector<std::string> see_also = {};  // "hs-compare(1)"
   bool input_optional = false;  // without the positional argument, standard input is not read

@@ -66,6 +66,14 @@ TEST(Parse, TellsGivenFromDefault) {
   EXPECT_THROW(arguments.text("--bdy"), std::logic_error);
 }
 
+TEST(Parse, RefusesExtensionsThatAreNotWritten) {
+  EXPECT_EQ(parsed("--body b -o forces.CSV").output(), "forces.CSV");
+  EXPECT_EQ(parsed("--body b -o forces").output(), "forces");
+  EXPECT_EQ(error_of([] { parsed("--body b -o forces.ply"); }, ExitCode::kUsage),
+            "--output is 'forces.ply', and this is not written as .ply; end the name in .csv, .txt "
+            "or .dat");
+}
+
 TEST(Parse, HelpWinsOverErrors) {
   std::vector<std::string> words{"hs-parse", "--nonsense", "--help"};
   std::vector<char*> argv;
