@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -35,11 +36,21 @@ void check_choice(const Option& option, const std::string& text) {
              (near.empty() ? "" : "did you mean '" + near + "'? ") + "known are: " + known);
 }
 
+// Extensions by which people and programs know a format.
+bool promises_format(const std::string& extension) {
+  static const std::set<std::string> known{
+      "asc",  "bin", "ele", "feb", "gz",  "htm",  "html", "inp", "json", "mat", "msh",
+      "node", "obj", "ods", "off", "pcd", "pdf",  "ply",  "png", "pts",  "scn", "stl",
+      "svg",  "tsv", "vtk", "vtu", "xls", "xlsx", "xml",  "xyz", "yaml", "zip"};
+  return known.count(extension) != 0;
+}
+
 // What a file is to be written as stands in its name, or nowhere.
 void check_extension(const Option& option, const std::string& text) {
   const std::string extension = extension_of(text);
   const auto& known = option.writes;
   if (extension.empty() || std::find(known.begin(), known.end(), extension) != known.end()) return;
+  if (known.front() == "csv" && !promises_format(extension)) return;
   std::string list;
   for (std::size_t i = 0; i < known.size(); ++i)
     list += (i == 0 ? "." : i + 1 == known.size() ? " or ." : ", .") + known[i];

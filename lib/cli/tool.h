@@ -29,8 +29,8 @@ struct Option {
   bool required = false;
   // Values gathered in order; also split at commas (kFile is not: names may hold commas).
   bool repeatable = false;
-  // kFile that is written: the extensions it may have, "csv"; another one is refused before the
-  // work. Without an extension, and with none here, nothing is asked.
+  // kFile that is written: the extensions it may have, "csv" first where it is a table. Another one
+  // is refused before the work; of a table only one that promises another format, as "ply" does.
   std::vector<std::string> writes = {};
 };
 

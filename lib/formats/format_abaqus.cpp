@@ -1,4 +1,5 @@
-// Reading the mesh of an input deck of Abaqus or CalculiX.
+// Input decks of Abaqus and CalculiX: nodes, C3D4 or C3D10, before the first step. Region: element
+// sets REGION_k; fixed: the node set FIXED, and what *BOUNDARY holds in all three directions.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Reading the mesh of a model of FEBio.
+// FEBio, febio_spec 2.0 to 4.0; tet4 or tet10. Region: K of a block of elements named region_K,
+// otherwise the number of the block; fixed: the node set fixed, and what conditions outside the
+// steps hold in all three directions.
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -1,4 +1,6 @@
-// Gmsh 2.2 and 4.1, ASCII (Gmsh reference manual, "File formats").
+// Gmsh 2.2 and 4.1, ASCII (Gmsh reference manual, "File formats"); types 4 and 11. Region: the
+// physical volume's number, or N when it is named region_N; fixed: node data `fixed`, or the
+// physical surface named fixed.
 #include <fmt/format.h>
 
 #include <cstdlib>

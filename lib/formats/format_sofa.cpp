@@ -1,4 +1,6 @@
-// Reading the mesh of a scene of SOFA.
+// SOFA, XML scenes with the mesh in themselves: the first topology that lists tetrahedra. Region: K
+// of a child node region_K that lists them again; fixed: the indices, or the BoxROI, of
+// FixedProjectiveConstraint or FixedConstraint beside the topology.
 #include <fmt/format.h>
 
 #include <algorithm>

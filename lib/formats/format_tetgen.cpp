@@ -1,4 +1,4 @@
-// TetGen's .node and .ele.
+// TetGen's .node or .ele: the other one is read from beside it. Region: the first attribute.
 #include <fmt/format.h>
 
 #include <ostream>

@@ -1,4 +1,5 @@
-// Bodies as VTK unstructured grids, for ParaView.
+// VTU, the unstructured grids of VTK and ParaView: cell types 10 and 24; cell data `region`, point
+// data `fixed`.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -68,7 +68,8 @@ TEST(Parse, TellsGivenFromDefault) {
 
 TEST(Parse, RefusesExtensionsThatAreNotWritten) {
   EXPECT_EQ(parsed("--body b -o forces.CSV").output(), "forces.CSV");
-  EXPECT_EQ(parsed("--body b -o forces").output(), "forces");
+  for (const char* table : {"forces", "forces.new", "forces.2"})
+    EXPECT_EQ(parsed(std::string("--body b -o ") + table).output(), table);
   EXPECT_EQ(error_of([] { parsed("--body b -o forces.ply"); }, ExitCode::kUsage),
             "--output is 'forces.ply', and this is not written as .ply; end the name in .csv, .txt "
             "or .dat");
