@@ -80,9 +80,6 @@ Robot load_robot(const Arguments& arguments) {
 
 int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
   if (file.robot == nullptr) fail_usage("--plan needs a robot", "add --robot FILE.urdf");
-  const std::string end = extension_of(arguments.output());
-  if (!end.empty() && end != "csv" && end != "txt")
-    fail_usage("--output ends in ." + end + ", and a plan is a table", "end it in .csv");
   const std::string what = arguments.text("--plan");
   const double pitch = arguments.number("--pitch");
   std::optional<Region> region;
@@ -287,6 +284,9 @@ void correct_touch(const Arguments& arguments, const TouchModel& model, const Sc
 }
 
 int run(const Arguments& arguments) {
+  const std::string end = extension_of(arguments.output());
+  if (arguments.given("--plan") && !end.empty() && end != "csv" && end != "txt")
+    fail_usage("--output ends in ." + end + ", and a plan is a table", "end it in .csv");
   ScanFileOptions file;
   const std::string unit = arguments.text("--unit");
   file.unit = unit_factor(Quantity::kLength, unit);

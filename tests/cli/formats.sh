@@ -40,7 +40,7 @@ use() { # TOOL BODY
   local tool=$bin/$1 body=$2
   case $1 in
   hs-simulate) "$tool" motion.csv --body "$body" --model model.csv --rim-edge 0.5 -q -o made.csv ;;
-  hs-identify) "$tool" data.csv --body "$body" --rim-edge 0.5 --folds 0 --image image.csv -q -o made.csv && cat image.csv >>made.csv ;;
+  hs-identify) "$tool" data.csv --body "$body" --rim-edge 0.5 --folds 0 -q -o made.csv ;;
   hs-diagnose) "$tool" data.csv --body "$body" --model model.csv --rim-edge 0.5 -q -o made.csv ;;
   hs-cluster) "$tool" samples.csv --body "$body" --scan-points 400 --boundary made.csv -q -o none.csv ;;
   hs-export) "$tool" model.csv --body "$body" --format vtu -q -o made.vtu && mv made.vtu made.csv ;;
@@ -74,7 +74,7 @@ done
 quiet hs-reconstruct box.off -o surface.stl
 quiet hs-reconstruct box.off -o surface.ply
 for body in box.off surface.stl surface.ply; do
-  quiet hs-compare data.csv --simulated forces.csv --body $body --ply $body.map -o residuals.csv
+  quiet hs-compare data.csv --simulated forces.csv --body $body --ply map.ply -o residuals.csv
 done
 refused() { # CODE TEXT TOOL ARGUMENTS...
   local code=$1 text=$2 got
@@ -83,7 +83,8 @@ refused() { # CODE TEXT TOOL ARGUMENTS...
   got=$?
   ((got == code)) && grep -qF -- "$text" err && [[ $(wc -l <err) == 1 ]] || complain "exit $got, not $code with '$text': $*"
 }
-for body in data.csv /dev/null "$bin/hs-tetmesh"; do
+refused 3 'the file is empty' hs-simulate motion.csv --body /dev/null --model model.csv
+for body in data.csv surface.stl "$bin/hs-tetmesh"; do
   refused 3 'not a PLY, VTU, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh' hs-simulate motion.csv --body "$body" --model model.csv
 done
 
@@ -105,9 +106,9 @@ written() { # EXTENSION TOOL ARGUMENTS...: written as that, and read back by it
   quiet "$@" -o made.$extension
   is=$(content made.$extension)
   case $extension in txt | asc | pts) [[ $is == xyz ]] ;; *) [[ $is == "$extension" ]] ;; esac ||
-    complain "made.$extension of $2 is $is"
+    complain "made.$extension of $1 is $is"
   mv made.$extension nameless
-  quiet "$2" nameless -o again.ply
+  quiet "$1" nameless -o again.ply
 }
 for extension in $(extensions hs-reconstruct); do written $extension hs-reconstruct box.off; written $extension hs-reconstruct box.off --ascii; done
 for extension in $(extensions hs-tetmesh); do written $extension hs-tetmesh body.ply; done
