@@ -49,11 +49,14 @@ use() { # TOOL BODY
       "$tool" --follow data.csv --body "$body" --model model.csv --rate 20 -q -o made.csv && cat map.ply >>made.csv ;;
   hs-fuse) "$tool" --live fast.csv --body "$body" --model model.csv --acfm acfm.csv -q -o live.csv && grep -c '^1,' live.csv >made.csv ;;
   hs-link)
-    "$tool" --listen 0 --body "$body" --model model.csv --tool-radius 0.004 --idle 2 2>far.err &
+    "$tool" --listen 0 --body "$body" --model model.csv --tool-radius 0.004 --idle 60 2>far.err &
     local far=$! port=
-    for _ in {1..100}; do grep -q listening far.err && break; sleep 0.05; done
+    for _ in {1..600}; do grep -q listening far.err && break; sleep 0.05; done
     port=$(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err)
-    "$tool" fast.csv --peer "$port" --body "$body" --samples 20 -q -o felt.csv && grep -c '^1,' felt.csv >made.csv && wait $far ;;
+    "$tool" fast.csv --peer "$port" --body "$body" --samples 20 -q -o felt.csv && grep -c '^1,' felt.csv >made.csv
+    local done=$?
+    kill $far; wait $far
+    (exit $done) ;;
   *) false ;;
   esac >out 2>err </dev/null
 }
@@ -125,7 +128,7 @@ quiet hs-reconstruct box.off -o LOUD.STL && [[ $(content LOUD.STL) == stl ]] || 
 
 # Every tool: an extension that its --output or another written file cannot have is refused at once,
 # before any input is looked at.
-all='csv txt dat bin ply stl off vtu msh inp feb scn node ele pcd xyz asc pts html json svg xml obj'
+all='csv txt dat bin ply stl off vtu msh inp feb scn node ele pcd xyz asc pts html json svg xml zip'
 for path in "$bin"/hs-*; do
   tool=${path##*/}
   needed=$("$path" --help | sed -n 's/^Usage: [^ ]* \[OPTIONS\]//p' | sed 's/\[INPUT\]//; s/ FILE/ none/g; s/ PROGRAM/ vtu/')
@@ -135,7 +138,7 @@ for path in "$bin"/hs-*; do
     [[ $known == *" $extension "* ]] || refused 2 "not written as .$extension" $tool $needed -o none.$extension none
   done
   for flag in $("$path" --help | awk '/^  (-., )?--/ { flag = $1 } /Extensions:/ && flag != "-o," { print flag }'); do
-    refused 2 "not written as .obj" $tool $needed $flag none.obj none
+    refused 2 "not written as .zip" $tool $needed $flag none.zip none
   done
 done
 [[ -z $(compgen -G 'none.*') ]] || rm -f none.csv
