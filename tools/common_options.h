@@ -8,6 +8,7 @@
 #include "cli/tool.h"
 #include "experiment/experiment.h"
 #include "experiment/plausible.h"
+#include "formats/format_table.h"
 #include "formats/tetmesh_io.h"
 #include "mesh/tetmesh.h"
 #include "model/search_state.h"
@@ -20,8 +21,8 @@ inline std::vector<Option> experiment_flags() {
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: VTU, "
-               "Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn).",
+       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
+               names_to_read(Content::kTetrahedra) + ".",
        .group = "Input",
        .required = true},
       {.flag = "--tool-radius",

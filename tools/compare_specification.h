@@ -3,6 +3,7 @@
 
 #include "cli/tool.h"
 #include "compare_follow.h"
+#include "formats/format_table.h"
 
 namespace hapsim {
 
@@ -63,7 +64,8 @@ inline ToolSpec compare_specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the report: one file that needs no network.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"html", "htm"}},
       {.flag = "--figures",
        .kind = OptionKind::kFile,
        .value = "PREFIX",
@@ -74,11 +76,14 @@ inline ToolSpec compare_specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes numbers, observations and breakdowns as JSON.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"json"}},
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Body from hs-tetmesh, or a surface (PLY, STL), for --ply and the report's picture.",
+       .help = "Body from hs-tetmesh, another mesh of tetrahedra (" +
+               names_to_read(Content::kTetrahedra) + "), or a surface (" +
+               names_to_read(Content::kTriangles) + "), for --ply and the report's picture.",
        .group = "Input"},
       {.flag = "--ply",
        .kind = OptionKind::kFile,
@@ -86,7 +91,8 @@ inline ToolSpec compare_specification() {
        .help =
            "Writes the body's surface coloured by the local error (vertex properties red, green, "
            "blue, and float error [N], NaN where nothing was pressed near). Needs --body.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"ply"}},
       {.flag = "--reach",
        .kind = OptionKind::kLength,
        .value = "M",
@@ -119,7 +125,8 @@ inline ToolSpec compare_specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"xml"}},
       {.flag = "--title",
        .kind = OptionKind::kText,
        .value = "TEXT",

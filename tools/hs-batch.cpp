@@ -74,11 +74,13 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes an overview: recordings by error, verdicts, failures with the command "
-               "that repeats them."},
+               "that repeats them.",
+       .writes = {"html", "htm"}},
       {.flag = "--junit",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Also writes JUnit's XML, a test a recording, for CI servers."}};
+       .help = "Also writes JUnit's XML, a test a recording, for CI servers.",
+       .writes = {"xml"}}};
   spec.tables = {
       {"Manifest (input)",
        {{"name", "name of the recording, any text, no two alike"},

@@ -53,7 +53,8 @@ ToolSpec specification() {
       {.flag = "--junit",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Also writes JUnit's XML, a test a parameter, for CI servers."}};
+       .help = "Also writes JUnit's XML, a test a parameter, for CI servers.",
+       .writes = {"xml"}}};
   spec.tables = {{"Comparison (output)",
                   {{"effect, region, parameter",
                     "as in the models; rmse, heldout and converged without effect"},

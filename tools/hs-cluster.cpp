@@ -6,6 +6,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
+#include "formats/format_table.h"
 #include "formats/tetmesh_io.h"
 #include "io/csv.h"
 #include "regions/region_map.h"
@@ -78,7 +79,8 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the boundaries as key points (CSV).",
-       .group = "Regions in space"},
+       .group = "Regions in space",
+       .writes = kTableExtensions},
       {.flag = "--key-points",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -99,27 +101,32 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes a model with these regions, a start for hs-identify --model.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = kTableExtensions},
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Body from hs-tetmesh: its plan view bounds the boundary.",
+       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (" +
+               names_to_read(Content::kTetrahedra) + "): its plan view bounds the boundary.",
        .group = "Output"},
       {.flag = "--labels",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the body with the region of each tetrahedron (PLY); needs --body.",
-       .group = "Output"},
+       .help = "Writes the body with the region of each tetrahedron; needs --body.",
+       .group = "Output",
+       .writes = extensions_to_write(Content::kTetrahedra)},
       {.flag = "--dendrogram",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the tree of merges (CSV).",
-       .group = "Output"},
+       .group = "Output",
+       .writes = kTableExtensions},
       {.flag = "--svg",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Draws the tree, branches coloured by region (SVG).",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"svg"}},
       {.flag = "--seed",
        .kind = OptionKind::kInteger,
        .value = "N",
@@ -306,7 +313,7 @@ int run(const Arguments& arguments) {
   });
   write_asked("--labels", [&](std::ostream& out) {
     label_body(*body, classify);
-    write_body_ply(out, *body);
+    format_to_write(arguments.text("--labels"), Content::kTetrahedra).write_mesh(out, *body, {});
   });
   write(arguments.output(), [&](std::ostream& out) { write_locations(out, table); });
   for (const auto& output : outputs) output->commit();

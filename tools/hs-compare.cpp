@@ -11,10 +11,8 @@
 #include "compare_follow.h"
 #include "compare_report.h"
 #include "compare_specification.h"
-#include "formats/surface_io.h"
-#include "formats/tetmesh_io.h"
+#include "formats/body_input.h"
 #include "io/quantity.h"
-#include "mesh/tetmesh.h"
 #include "report/figures.h"
 #include "report/junit.h"
 
@@ -64,17 +62,6 @@ std::vector<Version> read_versions(const Arguments& arguments, const Recording& 
     versions.push_back(std::move(version));
   }
   return versions;
-}
-
-// The outer surface of a body, or the surface itself.
-Surface read_outside(const std::string& path) {
-  Input input(path);
-  const std::string bytes = input.read_all();
-  const std::string head = bytes.substr(0, bytes.find("end_header"));
-  Input again = Input::from_bytes(bytes, input.name());
-  if (head.rfind("ply", 0) == 0 && head.find("element tetrahedron") != head.npos)
-    return boundary_surface(read_body(again));
-  return read_surface(again);
 }
 
 // The last diagnosis tells the verdict; its first row is the model as a whole.
@@ -216,7 +203,8 @@ int run(const Arguments& arguments) {
   if (arguments.given("--body")) {
     std::vector<double> error;
     for (const BinError& e : c.by_position().errors) error.push_back(e.rmse);
-    map = map_error(read_outside(arguments.text("--body")), c.facts.positions, error,
+    Input body(arguments.text("--body"));
+    map = map_error(read_outside(body), c.facts.positions, error,
                     arguments.given("--reach") ? arguments.number("--reach") : 0);
   }
 

@@ -1,16 +1,21 @@
 // hs-export: a model, its body and a press as the input of other solvers.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 
 #include "base/error.h"
 #include "common_options.h"
 #include "exchange/scene.h"
 #include "formats/field_vtu.h"
 #include "formats/mesh_file.h"
+#include "io/extension.h"
 
 namespace hapsim {
 namespace {
+
+// Of --format.
+const std::map<std::string, std::string> kExtension{
+    {"calculix", "inp"}, {"febio", "feb"}, {"sofa", "scn"}, {"vtu", "vtu"}, {"gmsh", "msh"}};
 
 ToolSpec specification() {
   ToolSpec spec;
@@ -46,8 +51,8 @@ ToolSpec specification() {
       {.flag = "--body",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (VTU, Gmsh, "
-               "Abaqus, CalculiX, FEBio, SOFA).",
+       .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
+               names_to_read(Content::kTetrahedra) + ".",
        .required = true},
       {.flag = "--data",
        .kind = OptionKind::kFile,
@@ -74,6 +79,8 @@ ToolSpec specification() {
       {.flag = "--bare",
        .kind = OptionKind::kSwitch,
        .help = "Leaves out effects on the motion and of the sensor instead of refusing them."}};
+  spec.writes.clear();
+  for (const auto& [format, extension] : kExtension) spec.writes.push_back(extension);
   spec.examples = {
       {"hs-export model.csv --body body.ply --data data.csv --format calculix -o press.inp && ccx "
        "press",
@@ -105,7 +112,10 @@ void write_vtu(std::ostream& out, const Scene& scene) {
 }
 
 int run(const Arguments& arguments) {
-  const std::string format = arguments.text("--format");
+  const std::string format = arguments.text("--format"), end = extension_of(arguments.output());
+  if (!end.empty() && end != kExtension.at(format))
+    fail_usage(fmt::format("--output ends in .{}, and --format is {}", end, format),
+               "end it in ." + kExtension.at(format));
   for (const char* flag : {"--press", "--tool-radius"})
     if (arguments.given(flag) && !arguments.given("--data"))
       fail_usage(std::string(flag) + " is of a press, and there is none", "add --data FILE");

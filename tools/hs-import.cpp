@@ -6,7 +6,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
-#include "formats/surface_io.h"
+#include "formats/format_table.h"
 #include "import/block.h"
 #include "import/import.h"
 #include "io/csv.h"
@@ -110,14 +110,16 @@ std::vector<Option> options() {
       {.flag = "--surface",
        .kind = OptionKind::kFile,
        .value = "FILE",
-       .help = "Writes the block as a closed surface (PLY) for hs-tetmesh. Needs --block.",
-       .group = "Output"},
+       .help = "Writes the block as a closed surface for hs-tetmesh. Needs --block.",
+       .group = "Output",
+       .writes = extensions_to_write(Content::kTriangles)},
       {.flag = "--scan",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Writes the contact points (with normals where the table has them) as a scan for "
                "hs-scan2ply.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = kTableExtensions},
       choice("Output", "--estimate-noise",
              "Whether the noise of the force is estimated and written as force_noise: from "
              "differences of neighbours "
@@ -315,7 +317,10 @@ int run(const Arguments& arguments) {
   if (arguments.given("--scan")) write_scan(arguments.text("--scan"), result);
   if (block && arguments.given("--surface")) {
     Output surface(arguments.text("--surface"));
-    write_ply(surface.stream(), block_surface(*block));
+    const std::string size = fmt::format("block {} x {} x {} m", format_number(block->x()),
+                                         format_number(block->y()), format_number(block->z()));
+    format_to_write(arguments.text("--surface"), Content::kTriangles)
+        .write_surface(surface.stream(), block_surface(*block), {.comments = {size}});
     surface.commit();
   }
   output.commit();

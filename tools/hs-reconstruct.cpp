@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/tool.h"
+#include "formats/format_table.h"
 #include "formats/surface_io.h"
 #include "io/number.h"
 #include "reconstruct/reconstruct.h"
@@ -19,8 +20,8 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-reconstruct";
   spec.summary = "closed surface of a body from scanned points, or from damaged triangles";
-  spec.input =
-      "points from hs-scan2ply (PLY), or CSV with x,y,z[,nx,ny,nz]; or triangles, PLY or STL";
+  spec.input = "points from hs-scan2ply (PLY), or CSV with x,y,z[,nx,ny,nz]; or triangles: " +
+               names_to_read(Content::kTriangles);
   spec.description = {
       "Makes a closed, outward, manifold surface of one part without self-intersection, of even "
       "triangles, for hs-tetmesh. What cannot be scanned, the bottom, is put on a plane; it is "
@@ -135,11 +136,13 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes what was done as JSON.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"json"}},
       {.flag = "--ascii",
        .kind = OptionKind::kSwitch,
-       .help = "Writes an ASCII PLY.",
+       .help = "Writes text instead of binary PLY or STL.",
        .group = "Output"}};
+  spec.writes = extensions_to_write(Content::kTriangles);
   spec.tables = {{"Output, PLY",
                   {{"vertex x, y, z", "point [m], double"},
                    {"face vertex_indices", "three corners, counter-clockwise from outside"},
@@ -316,7 +319,9 @@ int run(const Arguments& arguments) {
                        : from_points(arguments, shape.cloud, input.name());
 
   Output output(arguments.output());
-  write_surface_ply(output.stream(), result.surface, arguments.given("--ascii"), result.comments);
+  format_to_write(arguments.output(), Content::kTriangles)
+      .write_surface(output.stream(), result.surface,
+                     {.ascii = arguments.given("--ascii"), .comments = result.comments});
   output.commit();
   if (arguments.given("--json")) {
     result.json["vertices"] = result.surface.vertices.size();

@@ -10,7 +10,8 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/tool.h"
-#include "formats/surface_io.h"
+#include "formats/format_table.h"
+#include "io/extension.h"
 #include "io/number.h"
 #include "reconstruct/clean_points.h"
 #include "reconstruct/normals.h"
@@ -283,6 +284,9 @@ void correct_touch(const Arguments& arguments, const TouchModel& model, const Sc
 }
 
 int run(const Arguments& arguments) {
+  const std::string end = extension_of(arguments.output());
+  if (arguments.given("--plan") && !end.empty() && end != "csv" && end != "txt")
+    fail_usage("--output ends in ." + end + ", and a plan is a table", "end it in .csv");
   ScanFileOptions file;
   const std::string unit = arguments.text("--unit");
   file.unit = unit_factor(Quantity::kLength, unit);
@@ -326,8 +330,10 @@ int run(const Arguments& arguments) {
     report.commit();
   }
   Output output(arguments.output());
-  write_points_ply(output.stream(), clean, arguments.given("--ascii"),
-                   {"hs-scan2ply: points in m, read in " + unit});
+  format_to_write(arguments.output(), Content::kPoints)
+      .write_points(output.stream(), clean,
+                    {.ascii = arguments.given("--ascii"),
+                     .comments = {"hs-scan2ply: points in m, read in " + unit}});
   output.commit();
   say(arguments, kTool,
       fmt::format("{} points read in {}; removed {} given twice, {} nearly so, {} isolated, {} off "

@@ -8,7 +8,7 @@
 #include "base/units.h"
 #include "cli/tool.h"
 #include "formats/body_input.h"
-#include "formats/tetmesh_io.h"
+#include "formats/format_table.h"
 #include "recording/recording.h"
 #include "tetmesh/body_mesh.h"
 #include "tetmesh/contact_mesh.h"
@@ -24,8 +24,8 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = kName;
   spec.summary = "fill a closed surface with tetrahedra";
-  spec.input =
-      "surface: PLY, STL or OFF, closed; or a mesh: PLY, VTU, Gmsh, Abaqus, TetGen, FEBio, SOFA";
+  spec.input = "surface, closed: " + names_to_read(Content::kTriangles) +
+               "; or a mesh: " + names_to_read(Content::kTetrahedra);
   spec.description = {
       "Reads a closed triangle surface, for example from hs-reconstruct, and writes the body: "
       "tetrahedra, boundary triangles and the nodes that are bonded to the support.",
@@ -180,16 +180,18 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes the body for ParaView.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"vtu"}},
       {.flag = "--gmsh",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes the body for Gmsh, ASCII.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"msh"}},
       {.flag = "--gmsh-version",
        .kind = OptionKind::kChoice,
        .value = "VERSION",
-       .help = "Format of --gmsh.",
+       .help = "Format of --gmsh, and of an output that ends in .msh.",
        .group = "Output",
        .default_text = "2.2",
        .choices = {"2.2", "4.1"}},
@@ -197,7 +199,8 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes nodes, elements, sets and the boundary for Abaqus and CalculiX.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"inp"}},
       {.flag = "--tetgen",
        .kind = OptionKind::kText,
        .value = "PREFIX",
@@ -207,11 +210,13 @@ ToolSpec specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "Also writes sizes and quality, counts and worst tetrahedra as JSON.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = {"json"}},
       {.flag = "--ascii",
        .kind = OptionKind::kSwitch,
        .help = "Text instead of binary PLY and VTU.",
        .group = "Output"}};
+  spec.writes = extensions_to_write(Content::kTetrahedra);
   spec.tables = {
       {"Body (output, PLY)",
        {{"vertex x, y, z", "node [m]"},
@@ -362,7 +367,10 @@ void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality
   }
   if (arguments.given("--json"))
     open(arguments.text("--json")) << as_json(mesh, quality, report).dump(2) << '\n';
-  write_body_ply(open(arguments.output()), mesh, arguments.given("--ascii"));
+  format_to_write(arguments.output(), Content::kTetrahedra)
+      .write_mesh(
+          open(arguments.output()), mesh,
+          {.ascii = arguments.given("--ascii"), .version = arguments.text("--gmsh-version")});
   for (const auto& output : outputs) output->commit();
 }
 

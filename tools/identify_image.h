@@ -18,7 +18,8 @@ inline Option image_flag() {
               "together ask for about the fitted model, and says what is seen inside the "
               "body, where, and how deep these presses see. CSV of the centres, or by the "
               "file's name the body with its moduli: .vtu, .ply.",
-          .group = "Output"};
+          .group = "Output",
+          .writes = {"csv", "ply", "vtu"}};
 }
 
 // The modulus of every tetrahedron as all presses ask for it; in words on standard error.

@@ -36,8 +36,9 @@ inline std::vector<Option> recording_flags() {
           {.flag = "--body",
            .kind = OptionKind::kFile,
            .value = "FILE",
-           .help = "Body from hs-tetmesh (PLY), or another mesh of tetrahedra with fixed nodes: "
-                   "VTU, Gmsh, Abaqus or CalculiX (.inp), FEBio (.feb), SOFA (.scn). Once: the "
+           .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
+                   names_to_read(Content::kTetrahedra) +
+                   ". Once: the "
                    "body of all recordings; or once for each recording, in their order (the main "
                    "input, then --data): bodies of one material.",
            .group = "Input",

@@ -144,14 +144,16 @@ inline ToolSpec identify_specification() {
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help = "CSV of model versions and their errors to which this one is added.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = kTableExtensions},
       {.flag = "--locations",
        .kind = OptionKind::kFile,
        .value = "FILE",
        .help =
            "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
            "position by itself, the model's other parameters held; input of hs-cluster.",
-       .group = "Output"},
+       .group = "Output",
+       .writes = kTableExtensions},
       image_flag(),
       {.flag = "--robust",
        .kind = OptionKind::kChoice,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cli/tool.h"
+#include "formats/format_table.h"
 
 namespace hapsim {
 
@@ -152,9 +153,9 @@ inline ToolSpec scan2ply_specification() {
   ToolSpec spec;
   spec.name = kTool;
   spec.summary = "clean points with normals from scans, robots and CT";
-  spec.input =
-      "scan: CSV, rows of numbers, PLY, STL, PCD; joint angles (--robot); sections; a "
-      "volume (NRRD, NIfTI, a folder of DICOM slices)";
+  spec.input = "scan: " + names_to_read(Content::kPoints) +
+               " (rows of numbers); joint angles (--robot); sections; a "
+               "volume (NRRD, NIfTI, a folder of DICOM slices)";
   spec.description = {
       "Reads the points of a surface scan by content and column name (any order, further columns "
       "are ignored), turns them into metres, removes what is not surface, gives every point an "
@@ -192,6 +193,7 @@ inline ToolSpec scan2ply_specification() {
       "nu^2); flat: F / (2 E* R)), move the points back out along their normals.",
       "A scan larger than 5 m or smaller than 1 mm is taken for one in another unit and refused."};
   spec.options = scan2ply_options();
+  spec.writes = extensions_to_write(Content::kPoints);
   spec.tables = {
       {"Input columns",
        {{"x, y, z", "point, in --unit"},

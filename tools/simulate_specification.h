@@ -143,6 +143,7 @@ inline ToolSpec simulate_specification() {
       {"hs-simulate --live --rate 1000 motion.csv --contacts data.csv --body body.ply --model "
        "m0.csv",
        "A recorded motion at 1 kHz."}};
+  spec.writes.emplace_back("bin");  // --binary
   spec.see_also = {"hs-identify(1)", "hs-compare(1)", "hs-diagnose(1)"};
   return spec;
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/nearest.h"
 #include "cli/spec_text.h"
+#include "io/extension.h"
 #include "io/number.h"
 #include "io/quantity.h"
 
@@ -35,6 +37,28 @@ void check_choice(const Option& option, const std::string& text) {
              (near.empty() ? "" : "did you mean '" + near + "'? ") + "known are: " + known);
 }
 
+// Extensions by which people and programs know a format.
+bool promises_format(const std::string& extension) {
+  static const std::set<std::string> known{
+      "asc",  "bin", "ele", "feb", "gz",  "htm",  "html", "inp", "json", "mat", "msh",
+      "node", "obj", "ods", "off", "pcd", "pdf",  "ply",  "png", "pts",  "scn", "stl",
+      "svg",  "tsv", "vtk", "vtu", "xls", "xlsx", "xml",  "xyz", "yaml", "zip"};
+  return known.count(extension) != 0;
+}
+
+// What a file is to be written as stands in its name, or nowhere.
+void check_extension(const Option& option, const std::string& text) {
+  const std::string extension = extension_of(text);
+  const auto& known = option.writes;
+  if (extension.empty() || std::find(known.begin(), known.end(), extension) != known.end()) return;
+  if (known.front() == "csv" && !promises_format(extension)) return;
+  std::string list;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    list += (i == 0 ? "." : i + 1 == known.size() ? " or ." : ", .") + known[i];
+  fail_usage(option.flag + " is " + shown(text) + ", and this is not written as ." + extension,
+             "end the name in " + list);
+}
+
 }  // namespace
 
 void check_value(const Option& option, const std::string& text) {
@@ -42,6 +66,7 @@ void check_value(const Option& option, const std::string& text) {
     fail_usage("a value of " + option.flag + " is empty", "give a value " + option.value);
   if (is_number(option)) check_number(option, text);
   if (option.kind == OptionKind::kChoice) check_choice(option, text);
+  if (option.kind == OptionKind::kFile && !option.writes.empty()) check_extension(option, text);
 }
 
 std::string in_si(const Option& option, const std::string& text) {

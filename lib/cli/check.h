@@ -12,7 +12,7 @@ namespace hapsim {
 std::string in_si(const Option& option, const std::string& text);
 
 // Throws Error(kUsage) when `text` is no value of the option: not a finite number, not whole, out
-// of bounds, not a choice, empty.
+// of bounds, not a choice, empty, a file with an extension that is not written.
 void check_value(const Option& option, const std::string& text);
 
 }  // namespace hapsim

@@ -91,6 +91,7 @@ std::vector<Option> all_options(const ToolSpec& spec) {
        .value = "FILE",
        .help = "Write the result to FILE, complete or not at all; - is standard output.",
        .group = has_output ? kOutput : general,
+       .writes = spec.writes,
        .default_text = "-"});
   for (const auto& [flag, help] :
        {std::pair{"--quiet", "Print errors only."},
@@ -144,6 +145,8 @@ std::string full_help(const Option& option) {
     add_sentence(text, option.kind == OptionKind::kFile
                            ? "May be repeated."
                            : "May be repeated, or given a list separated by commas.");
+  if (!option.writes.empty())
+    add_sentence(text, "Extensions: " + joined(option.writes, ", ") + ".");
   if (option.required) add_sentence(text, "Required.");
   if (!option.default_text.empty()) add_sentence(text, "Default: " + option.default_text + ".");
   return text;

@@ -29,6 +29,9 @@ enum class OptionKind {
   kPose
 };
 
+// Extensions of tables: CSV, also under the names of plain text.
+inline const std::vector<std::string> kTableExtensions{"csv", "txt", "dat"};
+
 // One long flag. Every tool also has -o/--output, -q/--quiet, -v/--verbose, -h/--help,
 // -V/--version, which run_tool adds.
 struct Option {
@@ -37,6 +40,9 @@ struct Option {
   std::string value = {};  // name of the value in the help: "UNIT"
   std::string help = {};   // one or two sentences
   std::string group = {};  // heading of --help and man page that it stands under; "" for none
+  // kFile that is written: the extensions it may have, "csv" first where it is a table. Another one
+  // is refused before the work; of a table only one that promises another format, as "ply" does.
+  std::vector<std::string> writes = {};
   std::string default_text = {};          // value when not given, "" for none
   std::vector<std::string> choices = {};  // kChoice
   double minimum = -1e300;                // of one number: checked bounds (SI)
@@ -59,6 +65,8 @@ struct ToolSpec {
   std::vector<Option> options = {};
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::string>>>> tables =
       {};  // documented columns: title, then (column, meaning)
+  // Of --output, as Option::writes; where there are several formats the extension says which.
+  std::vector<std::string> writes = kTableExtensions;
   std::vector<Example> examples = {};
   std::vector<std::string> see_also = {};  // "hs-compare(1)"
   bool input_optional = false;  // without the positional argument, standard input is not read

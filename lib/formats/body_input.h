@@ -1,4 +1,4 @@
-// What hs-tetmesh is given: a closed surface, or a mesh of tetrahedra from elsewhere.
+// What is given as a body's shape: a closed surface, or a mesh of tetrahedra from elsewhere.
 #pragma once
 
 #include <optional>
@@ -16,13 +16,12 @@ struct BodyInput {
   std::optional<Support> base;   // the bottom as "comment base_plane nx ny nz h" of a PLY tells it
 };
 
-// By content: PLY, STL or OFF as surface; PLY with tetrahedra, VTU, Gmsh, Abaqus, FEBio, SOFA or
-// TetGen's files as mesh.
-// Lengths are multiplied by `factor`. Error(kBadInput): none of these; points, for which it names
+// By content, in any format that holds triangles or tetrahedra (formats/format_table.h).
+// Lengths are multiplied by `factor`. Error(kBadInput): neither; points, for which it names
 // the commands that make a surface of them.
 BodyInput read_body_input(Input& input, double factor = 1);
 
-// OFF, ASCII, polygons as fans; stray vertices are dropped. Error(kBadInput) with the line.
-Surface parse_off(const std::string& bytes, const std::string& name);
+// The surface, or the boundary of the mesh, which need not be held. Errors as above.
+Surface read_outside(Input& input);
 
 }  // namespace hapsim

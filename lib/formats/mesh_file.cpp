@@ -7,8 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
-#include "io/wrapped.h"
+#include "formats/format_table.h"
 #include "mesh/support.h"
 #include "mesh/tet_faces.h"
 
@@ -187,16 +186,6 @@ MeshFile finished(RawMesh& raw, const std::string& where, bool mend) {
   return file;
 }
 
-bool starts(const std::string& bytes, const char* text) {
-  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  return first != bytes.npos && bytes.compare(first, std::string_view(text).size(), text) == 0;
-}
-
-bool is_vtu(const std::string& bytes) {
-  return starts(bytes, "<VTKFile") ||
-         (starts(bytes, "<?xml") && bytes.substr(0, 4096).find("<VTKFile") != bytes.npos);
-}
-
 }  // namespace
 
 bool RawMesh::add(const int* corners, std::size_t count, int number_of_region) {
@@ -210,38 +199,11 @@ bool RawMesh::add(const int* corners, std::size_t count, int number_of_region) {
   return true;
 }
 
-bool is_mesh_file(const std::string& bytes) {
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
-    const std::size_t end = bytes.find("end_header");
-    return bytes.substr(0, end).find("element tetrahedron") != bytes.npos;
-  }
-  return is_vtu(bytes) || starts(bytes, "$MeshFormat") || is_tetgen_file(bytes) ||
-         is_abaqus_deck(bytes) || is_febio_model(bytes) || is_sofa_scene(bytes);
-}
-
 MeshFile parse_mesh(const std::string& bytes, const std::string& where, bool mend) {
-  RawMesh raw;
-  if (bytes.starts_with("ply"))
-    raw = parse_ply_mesh(bytes, where);
-  else if (is_vtu(bytes))
-    raw = parse_vtu_mesh(bytes, where);
-  else if (starts(bytes, "$MeshFormat"))
-    raw = parse_gmsh_mesh(bytes, where);
-  else if (is_tetgen_file(bytes))
-    raw = parse_tetgen_mesh(bytes, where);
-  else if (is_abaqus_deck(bytes))
-    raw = parse_abaqus_mesh(bytes, where);
-  else if (is_febio_model(bytes))
-    raw = parse_febio_mesh(bytes, where);
-  else if (is_sofa_scene(bytes))
-    raw = parse_sofa_mesh(bytes, where);
-  else {
-    refuse_wrapped(where, bytes);
-    fail_input(
-        where,
-        bytes.empty() ? "empty input" : "not a PLY, VTU, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh",
-        "write it with hs-tetmesh");
-  }
+  const Recognised found = recognise(bytes);
+  if (found.format == nullptr || found.format->read_mesh == nullptr)
+    fail_format(where, bytes, Content::kTetrahedra, "write it with hs-tetmesh");
+  RawMesh raw = found.format->read_mesh(bytes, where);
   return finished(raw, where, mend);
 }
 

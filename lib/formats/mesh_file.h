@@ -23,26 +23,8 @@ struct MeshFile {
   MeshRepairs repairs;
 };
 
-// Whether the bytes begin as a mesh of tetrahedra does: PLY with the element tetrahedron, VTU,
-// Gmsh, TetGen's .node or .ele, a deck of Abaqus, a model of FEBio, a scene of SOFA.
-bool is_mesh_file(const std::string& bytes);
-
-// By content:
-//   PLY      as hs-tetmesh writes it
-//   VTU      ASCII, binary, appended raw or base64, uncompressed or zlib; cell types 10 and 24;
-//   cell
-//            data `region`, point data `fixed`
-//   Gmsh     2.2 and 4.1, ASCII; types 4 and 11; region: the physical volume's number, or N when it
-//            is named region_N; fixed: node data `fixed`, or the physical surface named fixed
-//   TetGen   .node or .ele, the other one is read from beside it; region: the first attribute
-//   Abaqus   and CalculiX: nodes, C3D4 or C3D10, before the first step; region: element sets
-//            REGION_k; fixed: the node set FIXED, and what *BOUNDARY holds in all three directions
-//   FEBio    febio_spec 2.0 to 4.0; tet4 or tet10; region: K of a block of elements named region_K,
-//            otherwise the number of the block; fixed: the node set fixed, and what conditions
-//            outside the steps hold in all three directions
-//   SOFA     XML scenes with the mesh in themselves: the first topology that lists tetrahedra;
-//            region: K of a child node region_K that lists them again; fixed: the indices, or the
-//            BoxROI, of FixedProjectiveConstraint or FixedConstraint beside the topology
+// By content, in any format of the table (formats/format_table.h) that can hold tetrahedra; what is
+// taken of each, its regions and what is fixed, stands at the head of format_NAME.cpp.
 // `mend`: repair what MeshRepairs lists instead of refusing the inverted and leaving the doubled.
 // Error(kBadInput) with file and line (text) or place: truncated, index out of range, flat
 // tetrahedron, faces of more than two tetrahedra, middles that are not on their edges.

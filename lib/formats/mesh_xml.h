@@ -1,4 +1,4 @@
-// Files of XML that hold meshes: private to mesh_febio.cpp and mesh_sofa.cpp.
+// Files of XML that hold meshes: private to format_febio.cpp and format_sofa.cpp.
 #pragma once
 
 #include <algorithm>

@@ -35,6 +35,9 @@ struct PlyFile {
   const PlyElement* find(const std::string& element) const;
 };
 
+bool is_ply(const std::string& bytes);
+// The texts of the comments in the header; none of bytes that are no PLY.
+std::vector<std::string> ply_comments(const std::string& bytes);
 // Parses bytes that begin with "ply". Error(kBadInput) with name and line (header, ASCII) or byte
 // offset (binary): truncated, count that the file cannot hold, unknown type, NaN coordinate.
 PlyFile parse_ply(const std::string& bytes, const std::string& name);

@@ -140,3 +140,18 @@ PlyFile parse_header(const std::string& bytes, const std::string& name, std::siz
 }
 
 }  // namespace hapsim::ply
+
+namespace hapsim {
+
+bool is_ply(const std::string& bytes) {
+  return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
+}
+
+std::vector<std::string> ply_comments(const std::string& bytes) {
+  if (!is_ply(bytes)) return {};
+  std::size_t body = 0;
+  long line = 0;
+  return ply::parse_header(bytes, "", body, line).comments;
+}
+
+}  // namespace hapsim

@@ -136,6 +136,15 @@ class AsciiParser {
   long line_ = 1;
 };
 
+Vec3 normal_of(const std::array<Vec3, 3>& corners) {
+  const Vec3 edge = corners[1] - corners[0], other = corners[2] - corners[0];
+  const Vec3 area(edge.y() * other.z() - edge.z() * other.y(),
+                  edge.z() * other.x() - edge.x() * other.z(),
+                  edge.x() * other.y() - edge.y() * other.x());
+  const double length = area.norm();
+  return length > 0 ? Vec3(area / length) : Vec3(Vec3::Zero());
+}
+
 bool has_claimed_size(const std::string& bytes) {
   return bytes.size() >= kHeader &&
          bytes.size() == kHeader + std::size_t{claimed_triangles(bytes)} * kFacet;
@@ -178,17 +187,24 @@ void write_stl_binary(std::ostream& out, const TriangleSoup& soup) {
   bytes.reserve(kHeader + soup.size() * kFacet);
   put(static_cast<std::uint32_t>(soup.size()));
   for (const auto& corners : soup) {
-    const Vec3 edge = corners[1] - corners[0], other = corners[2] - corners[0];
-    const Vec3 area(edge.y() * other.z() - edge.z() * other.y(),
-                    edge.z() * other.x() - edge.x() * other.z(),
-                    edge.x() * other.y() - edge.y() * other.x());
-    const double length = area.norm();
-    const Vec3 normal = length > 0 ? Vec3(area / length) : Vec3(Vec3::Zero());
-    for (const Vec3& v : {normal, corners[0], corners[1], corners[2]})
+    for (const Vec3& v : {normal_of(corners), corners[0], corners[1], corners[2]})
       for (int k = 0; k < 3; ++k) put(static_cast<float>(v[k]));
     put(std::uint16_t{0});
   }
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+void write_stl_ascii(std::ostream& out, const TriangleSoup& soup) {
+  const auto three = [](const Vec3& v) {
+    return format_number(v.x()) + ' ' + format_number(v.y()) + ' ' + format_number(v.z());
+  };
+  out << "solid hapsim\n";
+  for (const auto& corners : soup) {
+    out << "facet normal " << three(normal_of(corners)) << "\nouter loop\n";
+    for (const Vec3& corner : corners) out << "vertex " << three(corner) << '\n';
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid hapsim\n";
 }
 
 }  // namespace hapsim

@@ -1,4 +1,4 @@
-// Points and triangle surfaces read and written.
+// Points and triangle surfaces read, in any format of the table, and written as PLY.
 #pragma once
 
 #include <ostream>
@@ -10,17 +10,20 @@
 
 namespace hapsim {
 
-// By content: PLY with faces (polygons as fans), or STL (equal corners are merged, faces without
-// area dropped). Vertices that no face uses are dropped. Error(kBadInput) otherwise.
+// By content (formats/format_table.h): triangles, polygons as fans, or the boundary of a mesh.
+// Equal corners of an STL are merged, faces with two equal corners and vertices that no face uses
+// dropped. Error(kBadInput) otherwise.
 Surface read_surface(Input& input);
-// The same, but vertices that no face uses and faces with two equal corners are kept.
-Surface read_surface_as_given(Input& input);
-// By content: PLY vertices (faces ignored), CSV with x,y,z[,nx,ny,nz], or rows of numbers without a
-// header (x y z [nx ny nz]). Error(kBadInput): no points, NaN or text in a coordinate.
+Surface parse_surface(const std::string& bytes, const std::string& name);
+// By content: points, or the corners of triangles (faces ignored). `notes` gets what was left out,
+// in words. Error(kBadInput): no points, NaN or text in a coordinate.
 PointCloud read_points(Input& input);
+PointCloud parse_points(const std::string& bytes, const std::string& name,
+                        std::vector<std::string>* notes = nullptr);
 
-// Points or triangles, whichever the bytes hold: a PLY with faces or an STL gives `surface`, as it
-// was given, anything else `cloud`.
+// Points or triangles, whichever the bytes hold: triangles (of a mesh of tetrahedra its boundary)
+// give `surface`, vertices that no face uses and faces with two equal corners are kept; anything
+// else gives `cloud`.
 struct Shape {
   bool has_triangles = false;
   Surface surface;

@@ -1,7 +1,8 @@
+#include "formats/text_scanner.h"
+
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
 #include "io/number.h"
 
 namespace hapsim {

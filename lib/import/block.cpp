@@ -1,7 +1,5 @@
 #include "import/block.h"
 
-#include <array>
-
 #include "base/error.h"
 #include "io/number.h"
 #include "io/quantity.h"
@@ -23,38 +21,14 @@ Vec3 parse_block(const std::string& text) {
   return size;
 }
 
-PlyFile block_surface(const Vec3& size) {
-  PlyFile file;
-  file.comments = {"block " + format_number(size.x()) + " x " + format_number(size.y()) + " x " +
-                   format_number(size.z()) + " m"};
-  PlyElement vertices{"vertex", 8, {}};
-  for (const char* name : {"x", "y", "z"})
-    vertices.properties.push_back({name, PlyType::kFloat64, false, PlyType::kUint8, {}, {}});
-  for (int corner = 0; corner < 8; ++corner) {
-    vertices.properties[0].values.push_back((corner & 1 ? 0.5 : -0.5) * size.x());
-    vertices.properties[1].values.push_back((corner & 2 ? 0.5 : -0.5) * size.y());
-    vertices.properties[2].values.push_back(corner & 4 ? size.z() : 0);
-  }
-  constexpr std::array<std::array<int, 3>, 12> kFaces{{{0, 2, 1},
-                                                       {1, 2, 3},
-                                                       {4, 5, 6},
-                                                       {5, 7, 6},
-                                                       {0, 1, 4},
-                                                       {1, 5, 4},
-                                                       {2, 6, 3},
-                                                       {3, 6, 7},
-                                                       {0, 4, 2},
-                                                       {2, 4, 6},
-                                                       {1, 3, 5},
-                                                       {3, 7, 5}}};
-  PlyElement faces{
-      "face", kFaces.size(), {{"vertex_indices", PlyType::kInt32, true, PlyType::kUint8, {}, {0}}}};
-  for (const auto& face : kFaces) {
-    for (const int corner : face) faces.properties[0].values.push_back(corner);
-    faces.properties[0].offset.push_back(faces.properties[0].values.size());
-  }
-  file.elements = {vertices, faces};
-  return file;
+Surface block_surface(const Vec3& size) {
+  Surface surface;
+  for (int corner = 0; corner < 8; ++corner)
+    surface.vertices.emplace_back((corner & 1 ? 0.5 : -0.5) * size.x(),
+                                  (corner & 2 ? 0.5 : -0.5) * size.y(), corner & 4 ? size.z() : 0);
+  surface.faces = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                   {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return surface;
 }
 
 }  // namespace hapsim

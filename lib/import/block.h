@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/vec3.h"
-#include "formats/ply.h"
+#include "mesh/surface.h"
 
 namespace hapsim {
 
@@ -12,6 +12,6 @@ namespace hapsim {
 Vec3 parse_block(const std::string& text);
 
 // Closed surface, triangles outward, standing on z = 0 with its axis at x = y = 0.
-PlyFile block_surface(const Vec3& size);
+Surface block_surface(const Vec3& size);
 
 }  // namespace hapsim

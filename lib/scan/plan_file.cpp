@@ -1,6 +1,7 @@
 #include "scan/plan_file.h"
 
 #include "base/error.h"
+#include "formats/format_table.h"
 #include "formats/surface_io.h"
 #include "io/csv.h"
 #include "reconstruct/clean_points.h"
@@ -8,32 +9,19 @@
 #include "scan/scan_file.h"
 
 namespace hapsim {
-namespace {
-
-// A PLY header that names faces, or an STL file.
-bool is_mesh(const std::string& bytes) {
-  if (bytes.starts_with("solid")) return true;
-  const std::string header = bytes.substr(0, bytes.find("end_header"));
-  const std::size_t face = header.find("element face ");
-  return bytes.starts_with("ply") && face != std::string::npos &&
-         header.compare(face + 13, 2, "0\n") != 0;
-}
-
-}  // namespace
-
 PointCloud read_known_surface(Input& input, double unit, double spacing) {
   const std::string bytes = input.read_all();
-  Input again = Input::from_bytes(bytes, input.name());
-  if (is_mesh(bytes)) {
-    Surface surface = read_surface(again);
+  const Content content = recognise(bytes).content;
+  if (content == Content::kTriangles || content == Content::kTetrahedra) {
+    Surface surface = parse_surface(bytes, input.name());
     for (Vec3& p : surface.vertices) p *= unit;
-
     if (!(surface_area(surface) < 1e7 * spacing * spacing)) {
       fail_input(input.name(), "the surface is too large for this pitch",
                  "check --unit, or give a larger --pitch");
     }
     return sample_surface(surface, spacing);
   }
+  Input again = Input::from_bytes(bytes, input.name());
   PointCloud cloud = read_scan(again, {.unit = unit}).cloud;
   if (cloud.normals.empty()) {
     require_surface_points(cloud.points, input.name());

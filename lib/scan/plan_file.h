@@ -10,8 +10,8 @@
 namespace hapsim {
 
 // A surface that is known roughly, as points with outward normals about `spacing` [m] apart: a mesh
-// (PLY with faces, STL) is sampled, points without normals get them. `unit` in metres.
-// Error(kBadInput) as read_scan and read_surface say.
+// (in any format of formats/format_table.h) is sampled, points without normals get them. `unit` in
+// metres. Error(kBadInput) as read_scan and read_surface say.
 PointCloud read_known_surface(Input& input, double unit, double spacing);
 
 // Places to look at or to touch, one a row in its order; without normals they point up.

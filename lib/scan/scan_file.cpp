@@ -7,60 +7,15 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "formats/format_table.h"
 #include "formats/ply.h"
-#include "formats/stl.h"
 #include "formats/surface_io.h"
-#include "scan/pcd.h"
 #include "scan/sections.h"
 #include "scan/table_columns.h"
 #include "volume/volume.h"
 
 namespace hapsim {
 namespace {
-
-bool looks_like_stl(const std::string& bytes) {
-  if (bytes.size() >= 84) {
-    std::uint32_t count = 0;
-    std::copy_n(bytes.data() + 80, 4, reinterpret_cast<char*>(&count));
-    if (bytes.size() == 84 + 50 * static_cast<std::size_t>(count)) return true;
-  }
-  return bytes.starts_with("solid ") || bytes.starts_with("solid\n");
-}
-
-// The first row holds numbers between spaces, tabs, commas or semicolons.
-bool looks_plain(const std::string& bytes) {
-  std::size_t at = 0;
-  while (at < bytes.size()) {
-    const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
-    const std::string line = bytes.substr(at, std::min<std::size_t>(end - at, 200));
-    const std::size_t first = line.find_first_not_of(" \t\r");
-    if (first != std::string::npos && line[first] != '#') {
-      return std::string("+-.0123456789").find(line[first]) != std::string::npos;
-    }
-    at = end + 1;
-  }
-  return false;
-}
-
-// Leading comments of rows without a header become blank lines, so that the rows keep their numbers
-// and are not taken for a table.
-void blank_comments(std::string& bytes) {
-  std::string head;
-  std::size_t at = 0;
-  while (at < bytes.size() && (bytes[at] == '#' || bytes[at] == '\n' || bytes[at] == '\r')) {
-    head += " \n";
-    at = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
-  }
-  bytes.replace(0, at, head);
-}
-
-PointCloud corners(const std::string& bytes, const std::string& name) {
-  PointCloud cloud;
-  for (const auto& triangle : parse_stl(bytes, name)) {
-    cloud.points.insert(cloud.points.end(), triangle.begin(), triangle.end());
-  }
-  return cloud;  // equal corners are dropped with the doubles
-}
 
 void take_ply_zones(const std::string& bytes, const std::string& name, Scan& scan) {
   const PlyFile file = parse_ply(bytes, name);
@@ -108,33 +63,20 @@ Scan read_scan(Input& input, const ScanFileOptions& options) {
   const std::string name = input.name();
   std::string bytes = input.read_all();
   Scan scan;
-  bool scaled = false;
   if (looks_like_volume(bytes)) fail_no_threshold(read_volume(bytes, name), name);
-  if (looks_like_pcd(bytes)) {
-    std::size_t lost = 0;
-    scan.cloud = read_pcd(bytes, name, lost);
-    if (lost > 0) scan.notes.push_back(fmt::format("{} points without a place left out", lost));
-  } else if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) {
-    Input again = Input::from_bytes(bytes, name);
-    scan.cloud = read_points(again);
-    take_ply_zones(bytes, name, scan);
-  } else if (looks_like_stl(bytes)) {
-    scan.cloud = corners(bytes, name);
-  } else {
-    const bool plain = options.robot == nullptr && looks_plain(bytes);
-    if (plain) blank_comments(bytes);
+  // Tables are read here: they may hold joint angles or contours as well as points.
+  const Recognised found = recognise(bytes);
+  const bool is_table =
+      found.format == &csv_format() || (found.format == &rows_format() && options.robot != nullptr);
+  if (is_table) {
     Input again = Input::from_bytes(std::move(bytes), name);
-    if (plain) {
-      scan.cloud = read_points(again);
-    } else {
-      scan = table_scan(read_csv(again), options);
-      scaled = true;
-    }
+    scan = table_scan(read_csv(again), options);
+  } else {
+    scan.cloud = parse_points(bytes, name, &scan.notes);
+    for (Vec3& p : scan.cloud.points) p *= options.unit;
+    if (is_ply(bytes)) take_ply_zones(bytes, name, scan);
   }
   if (scan.cloud.points.empty()) fail_input(name, "there are no points", "give rows of x,y,z");
-  if (!scaled) {
-    for (Vec3& p : scan.cloud.points) p *= options.unit;
-  }
   accept_normals(scan.cloud);
   return scan;
 }

@@ -16,11 +16,11 @@ struct ScanFileOptions {
   double section_distance = 0;   // of sections without z [m]
 };
 
-// PLY (vertices, normals, zone), STL (corners), PCD, CSV or rows of numbers (x y z [nx ny nz]; case
-// does not matter, pos_x, point_x, normal_x do too); CSV
-// with a column `section` or `slice` holds contours; with a robot, CSV of joint angles. Columns
-// zone and touch_force are taken along. No point is Error(kBadInput, name), as is what the readers
-// refuse; a volume is Error(kUsage), as it needs a threshold.
+// PLY (vertices, normals, zone), STL and OFF (corners), PCD, CSV or rows of numbers (x y z [nx ny
+// nz]; case does not matter, pos_x, point_x, normal_x do too); CSV with a column `section` or
+// `slice` holds contours; with a robot, CSV of joint angles. Columns zone and touch_force are taken
+// along. No point is Error(kBadInput, name), as is what the readers refuse; a volume is
+// Error(kUsage), as it needs a threshold.
 Scan read_scan(Input& input, const ScanFileOptions& options);
 
 // Fails when the middle 96 % of the points span more than 5 m or less than 1 mm: `unit` (as the

@@ -58,7 +58,7 @@ regions() { "$bin/hs-tetmesh" -q "$1" --ascii | awk '$1 == 4 && NF == 6 { print 
 printf '%s\nelastic,1,E,20000\n' "$elastic" >two.csv
 "$bin/hs-simulate" -q motion.csv --body parts.ply --model two.csv --own-mesh -o expected.csv || complain 'the body is pressed'
 for format in vtu gmsh calculix febio sofa; do
-  "$bin/hs-export" -q two.csv --format $format --body parts.ply -o back.$format || complain "$format is written"
+  "$bin/hs-export" -q two.csv --format $format --body parts.ply >back.$format || complain "$format is written"
   "$bin/hs-simulate" -q motion.csv --body back.$format --model two.csv --own-mesh -o forces.csv || complain "$format is a body"
   paste -d, <(grep '^[0-9]' expected.csv) <(grep '^[0-9]' forces.csv) |
     awk -F, '{ for (k = 9; k <= 11; ++k) { d = $k - $(k + NF / 2); if (d < 0) d = -d; if (d > 1e-9) bad = 1 } n++ } END { exit bad || n != 122 }' ||

@@ -47,7 +47,7 @@ prepare() {
     head -n 3 model.csv >elastic.csv &&
     "$bin/hs-simulate" -q motion.csv --body body.ply --model model.csv --rim-edge 0.5 --add-noise 0.002 -o data.csv &&
     for format in vtu gmsh calculix febio sofa; do
-      "$bin/hs-export" -q elastic.csv --body body.ply --format $format -o body.$format || return
+      "$bin/hs-export" -q elastic.csv --body body.ply --format $format >body.$format || return
     done &&
     awk 'BEGIN { srand(3); print "x,y,z"; for (i = 0; i < 400; ++i) { f = int(3 * rand()); a = rand(); b = rand(); s = rand() < 0.5
       x = f == 0 ? s : a; y = f == 1 ? s : f == 0 ? a : b; z = f == 2 ? s : b

@@ -7,8 +7,9 @@
 #include "acfm/acfm.h"
 #include "base/error.h"
 #include "batch/manifest.h"
-#include "formats/body_input.h"
 #include "formats/mesh_file.h"
+#include "formats/off.h"
+#include "formats/pcd.h"
 #include "formats/ply.h"
 #include "formats/stl.h"
 #include "formats/vtu.h"
@@ -25,7 +26,6 @@
 #include "recording/recording.h"
 #include "regions/location_file.h"
 #include "robot/robot.h"
-#include "scan/pcd.h"
 #include "scan/scan_file.h"
 #include "scan/sections.h"
 #include "volume/volume.h"
@@ -100,7 +100,7 @@ void off(const std::string& bytes) {
   parse_off(bytes, kName);
 }
 
-// PLY, VTU, Gmsh and TetGen by content; mended where that is possible.
+// Every mesh format by content; mended where that is possible.
 void mesh(const std::string& bytes) {
   std::ostringstream out;
   write_mesh_gmsh(out, parse_mesh(bytes, kName, true).mesh);

@@ -99,6 +99,15 @@ TEST(Parse, TellsGivenFromDefault) {
   EXPECT_THROW(arguments.text("--bdy"), std::logic_error);
 }
 
+TEST(Parse, RefusesExtensionsThatAreNotWritten) {
+  EXPECT_EQ(parsed("--body b -o forces.CSV").output(), "forces.CSV");
+  for (const char* table : {"forces", "forces.new", "forces.2"})
+    EXPECT_EQ(parsed(std::string("--body b -o ") + table).output(), table);
+  EXPECT_EQ(error_of([] { parsed("--body b -o forces.ply"); }, ExitCode::kUsage),
+            "--output is 'forces.ply', and this is not written as .ply; end the name in .csv, .txt "
+            "or .dat");
+}
+
 TEST(Parse, HelpWinsOverErrors) {
   std::vector<std::string> words{"hs-parse", "--nonsense", "--help"};
   std::vector<char*> argv;

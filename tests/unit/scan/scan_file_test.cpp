@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "expect_error.h"
-#include "scan/pcd.h"
+#include "formats/pcd.h"
 
 namespace hapsim {
 namespace {

@@ -1,5 +1,3 @@
-#include "scan/pcd.h"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,6 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formats/format.h"
+#include "formats/pcd.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -214,11 +214,6 @@ std::string rows_of(const Header& h, const std::string& bytes, const std::string
 
 }  // namespace
 
-bool looks_like_pcd(const std::string& bytes) {
-  return bytes.starts_with("# .PCD") || bytes.starts_with("VERSION .7") ||
-         bytes.starts_with("VERSION 0.7");
-}
-
 PointCloud read_pcd(const std::string& bytes, const std::string& name, std::size_t& lost) {
   Reader reader(bytes, name);
   const Header h = reader.header();
@@ -278,6 +273,30 @@ PointCloud read_pcd(const std::string& bytes, const std::string& name, std::size
     add(values);
   }
   return cloud;
+}
+
+namespace {
+
+Content sniff(const std::string& bytes) {
+  const bool is_pcd = bytes.starts_with("# .PCD") || bytes.starts_with("VERSION .7") ||
+                      bytes.starts_with("VERSION 0.7");
+  return is_pcd ? Content::kPoints : Content::kNothing;
+}
+
+PointCloud read_points(const std::string& bytes, const std::string& name,
+                       std::vector<std::string>& notes) {
+  std::size_t lost = 0;
+  PointCloud cloud = read_pcd(bytes, name, lost);
+  if (lost > 0) notes.push_back(fmt::format("{} points without a place left out", lost));
+  return cloud;
+}
+
+}  // namespace
+
+const Format& pcd_format() {
+  static const Format format{
+      .name = "PCD", .extensions = {"pcd"}, .sniff = sniff, .read_points = read_points};
+  return format;
 }
 
 }  // namespace hapsim

@@ -1,4 +1,6 @@
-// Reading the mesh of a model of FEBio.
+// FEBio, febio_spec 2.0 to 4.0; tet4 or tet10. Region: K of a block of elements named region_K,
+// otherwise the number of the block; fixed: the node set fixed, and what conditions outside the
+// steps hold in all three directions.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -6,7 +8,7 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
 #include "formats/mesh_xml.h"
 
 namespace hapsim {
@@ -183,14 +185,20 @@ class FebioModel {
   RawMesh raw_;
 };
 
-}  // namespace
-
-bool is_febio_model(const std::string& bytes) {
-  return is_xml_of(bytes, "febio_spec");
+Content sniff(const std::string& bytes) {
+  return is_xml_of(bytes, "febio_spec") ? Content::kTetrahedra : Content::kNothing;
 }
 
-RawMesh parse_febio_mesh(const std::string& bytes, const std::string& where) {
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
   return FebioModel(bytes, where).read();
+}
+
+}  // namespace
+
+const Format& febio_format() {
+  static const Format format{
+      .name = "FEBio", .extensions = {"feb"}, .sniff = sniff, .read_mesh = read_mesh};
+  return format;
 }
 
 }  // namespace hapsim

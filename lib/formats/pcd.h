@@ -7,8 +7,6 @@
 
 namespace hapsim {
 
-bool looks_like_pcd(const std::string& bytes);
-
 // ASCII, binary (little endian) and binary_compressed (LZF); fields x, y, z and, all three or none,
 // normal_x, normal_y, normal_z, of any numeric type. Points without a place (NaN, what organised
 // clouds hold where nothing was seen) are left out and counted. Error(kBadInput, name:line): a

@@ -1,4 +1,6 @@
-// Reading the mesh of a scene of SOFA.
+// SOFA, XML scenes with the mesh in themselves: the first topology that lists tetrahedra. Region: K
+// of a child node region_K that lists them again; fixed: the indices, or the BoxROI, of
+// FixedProjectiveConstraint or FixedConstraint beside the topology.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,7 @@
 #include <map>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
 #include "formats/mesh_xml.h"
 
 namespace hapsim {
@@ -174,14 +176,20 @@ class SofaScene {
   RawMesh raw_;
 };
 
-}  // namespace
-
-bool is_sofa_scene(const std::string& bytes) {
-  return is_xml_of(bytes, "Node");
+Content sniff(const std::string& bytes) {
+  return is_xml_of(bytes, "Node") ? Content::kTetrahedra : Content::kNothing;
 }
 
-RawMesh parse_sofa_mesh(const std::string& bytes, const std::string& where) {
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
   return SofaScene(bytes, where).read();
+}
+
+}  // namespace
+
+const Format& sofa_format() {
+  static const Format format{
+      .name = "SOFA", .extensions = {"scn"}, .sniff = sniff, .read_mesh = read_mesh};
+  return format;
 }
 
 }  // namespace hapsim

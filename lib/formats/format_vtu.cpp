@@ -1,6 +1,8 @@
-// Bodies as VTK unstructured grids, for ParaView.
+// VTU, the unstructured grids of VTK and ParaView: cell types 10 and 24; cell data `region`, point
+// data `fixed`.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -8,7 +10,8 @@
 
 #include "base/error.h"
 #include "formats/field_vtu.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
+#include "formats/mesh_file.h"
 #include "formats/tetmesh_io.h"
 #include "formats/vtu.h"
 
@@ -124,9 +127,16 @@ class VtuWriter {
   std::string appended_;
 };
 
-}  // namespace
+Content sniff(const std::string& bytes) {
+  const std::string_view text = bytes;
+  const std::size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const bool is_vtk = text.substr(first).starts_with("<VTKFile") ||
+                      (text.substr(first).starts_with("<?xml") &&
+                       text.substr(0, 4096).find("<VTKFile") != text.npos);
+  return is_vtk ? Content::kTetrahedra : Content::kNothing;
+}
 
-RawMesh parse_vtu_mesh(const std::string& bytes, const std::string& where) {
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
   RawMesh mesh;
   mesh.format = "VTU";
   for (const VtuPiece& piece : parse_vtu(bytes, where)) {
@@ -137,8 +147,6 @@ RawMesh parse_vtu_mesh(const std::string& bytes, const std::string& where) {
   if (!mesh.fixed.empty()) mesh.fixed.resize(mesh.nodes.size(), 0);
   return mesh;
 }
-
-namespace {
 
 void write_vtu(std::ostream& out, const TetMesh& mesh, bool ascii,
                const std::vector<VtuArray>& point_data, const std::vector<VtuArray>& cell_data) {
@@ -191,6 +199,18 @@ void write_field_vtu(std::ostream& out, const TetMesh& mesh,
 
 void write_body_vtu(std::ostream& out, const TetMesh& mesh) {
   write_mesh_vtu(out, mesh, true);
+}
+
+const Format& vtu_format() {
+  static const Format format{
+      .name = "VTU",
+      .extensions = {"vtu"},
+      .sniff = sniff,
+      .read_mesh = read_mesh,
+      .write_mesh = [](std::ostream& out, const TetMesh& mesh, const WriteOptions& options) {
+        write_mesh_vtu(out, mesh, options.ascii);
+      }};
+  return format;
 }
 
 }  // namespace hapsim

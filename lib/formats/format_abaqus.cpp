@@ -1,4 +1,5 @@
-// Reading the mesh of an input deck of Abaqus or CalculiX.
+// Input decks of Abaqus and CalculiX: nodes, C3D4 or C3D10, before the first step. Region: element
+// sets REGION_k; fixed: the node set FIXED, and what *BOUNDARY holds in all three directions.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +7,8 @@
 #include <map>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
+#include "formats/mesh_file.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -228,17 +230,32 @@ class Deck {
   RawMesh raw_;
 };
 
-}  // namespace
-
-bool is_abaqus_deck(const std::string& bytes) {
+Content sniff(const std::string& bytes) {
   // Comments and the heading may stand before the nodes.
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
-  if (first == bytes.npos || bytes[first] != '*') return false;
-  return upper(std::string_view(bytes).substr(0, 65536)).find("*NODE") != bytes.npos;
+  if (first == bytes.npos || bytes[first] != '*') return Content::kNothing;
+  const bool has_nodes =
+      upper(std::string_view(bytes).substr(0, 65536)).find("*NODE") != bytes.npos;
+  return has_nodes ? Content::kTetrahedra : Content::kNothing;
 }
 
-RawMesh parse_abaqus_mesh(const std::string& bytes, const std::string& where) {
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
   return Deck(bytes, where).read();
+}
+
+void write_mesh(std::ostream& out, const TetMesh& mesh, const WriteOptions&) {
+  write_mesh_abaqus(out, mesh);
+}
+
+}  // namespace
+
+const Format& abaqus_format() {
+  static const Format format{.name = "Abaqus",
+                             .extensions = {"inp"},
+                             .sniff = sniff,
+                             .read_mesh = read_mesh,
+                             .write_mesh = write_mesh};
+  return format;
 }
 
 }  // namespace hapsim

@@ -1,10 +1,12 @@
-// TetGen's .node and .ele.
+// TetGen's .node or .ele: the other one is read from beside it. Region: the first attribute.
 #include <fmt/format.h>
 
 #include <ostream>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
+#include "formats/mesh_file.h"
+#include "formats/text_scanner.h"
 #include "io/stream.h"
 
 namespace hapsim {
@@ -89,13 +91,26 @@ void read_ele(const std::string& bytes, const std::string& where, long first, Ra
   }
 }
 
-}  // namespace
-
-bool is_tetgen_file(const std::string& bytes) {
-  return is_node(bytes) || is_ele(bytes);
+// Points whose first coordinates happen to be a header of TetGen, which has more in its rows.
+bool is_rows_of_three(const std::string& bytes) {
+  const std::string none;
+  TextScanner scan(std::string_view(bytes).substr(0, 4096), none, '#');
+  for (int row = 0; row < 2; ++row) {
+    if (scan.done()) return false;
+    const long line = scan.line_number();
+    int words = 0;
+    for (; !scan.done() && scan.line_number() == line; ++words) scan.word();
+    if (words != 3) return false;
+  }
+  return true;
 }
 
-RawMesh parse_tetgen_mesh(const std::string& bytes, const std::string& where) {
+Content sniff(const std::string& bytes) {
+  const bool is_ours = (is_node(bytes) || is_ele(bytes)) && !is_rows_of_three(bytes);
+  return is_ours ? Content::kTetrahedra : Content::kNothing;
+}
+
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
   const bool node_given = is_node(bytes);
   const std::string own = node_given ? ".node" : ".ele", other = node_given ? ".ele" : ".node";
   if (where.size() <= own.size() || !where.ends_with(own))
@@ -111,6 +126,15 @@ RawMesh parse_tetgen_mesh(const std::string& bytes, const std::string& where) {
       read_nodes(node_given ? bytes : beside, node_given ? where : input.name(), mesh);
   read_ele(node_given ? beside : bytes, node_given ? input.name() : where, first, mesh);
   return mesh;
+}
+
+}  // namespace
+
+// Two files, so there is no writer into one stream; their names end in .node and .ele.
+const Format& tetgen_format() {
+  static const Format format{
+      .name = "TetGen", .extensions = {"node", "ele"}, .sniff = sniff, .read_mesh = read_mesh};
+  return format;
 }
 
 void write_mesh_tetgen(std::ostream& node, std::ostream& ele, const TetMesh& mesh) {

@@ -1,4 +1,6 @@
-// Gmsh 2.2 and 4.1, ASCII (Gmsh reference manual, "File formats").
+// Gmsh 2.2 and 4.1, ASCII (Gmsh reference manual, "File formats"); types 4 and 11. Region: the
+// physical volume's number, or N when it is named region_N; fixed: node data `fixed`, or the
+// physical surface named fixed.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -6,7 +8,9 @@
 #include <unordered_map>
 
 #include "base/error.h"
-#include "formats/mesh_parts.h"
+#include "formats/format.h"
+#include "formats/mesh_file.h"
+#include "formats/text_scanner.h"
 
 namespace hapsim {
 namespace {
@@ -260,10 +264,29 @@ class GmshReader {
   long fixed_surface_ = -1;
 };
 
+Content sniff(const std::string& bytes) {
+  const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
+  return std::string_view(bytes).substr(first).starts_with("$MeshFormat") ? Content::kTetrahedra
+                                                                          : Content::kNothing;
+}
+
+RawMesh read_mesh(const std::string& bytes, const std::string& where) {
+  return GmshReader(bytes, where).read();
+}
+
+void write_mesh(std::ostream& out, const TetMesh& mesh, const WriteOptions& options) {
+  write_mesh_gmsh(out, mesh, options.version == "4.1" ? 41 : 22);
+}
+
 }  // namespace
 
-RawMesh parse_gmsh_mesh(const std::string& bytes, const std::string& where) {
-  return GmshReader(bytes, where).read();
+const Format& gmsh_format() {
+  static const Format format{.name = "Gmsh",
+                             .extensions = {"msh"},
+                             .sniff = sniff,
+                             .read_mesh = read_mesh,
+                             .write_mesh = write_mesh};
+  return format;
 }
 
 }  // namespace hapsim
