@@ -58,7 +58,7 @@ Starts build(const Plan& plan, const Experiment& w, const Selection& selection,
     quick.starts = 1;  // the last fit searches
     const Fit base = fit_best(starts.models, w, selection, quick, starts.known);
     const EffectCard& card = require_effect(plan.add[k]).card();
-    const bool terms = card.terms && !card.from_locations;
+    const bool terms = card.terms && !card.is_map;
     FitOptions searching = quick;
     searching.starts = fit_options.starts;
     ExtendOptions own = extend;
@@ -252,9 +252,9 @@ int run(const Arguments& arguments) {
     refit.start = result.model;
     refit.add.clear();
     refit.say = nullptr;
-    if (refit.start.has("regions")) {
-      remove_effect(refit.start, "regions");
-      refit.add.push_back("regions");
+    if (const std::string& map = map_effect().card().name; refit.start.has(map)) {
+      remove_effect(refit.start, map);
+      refit.add.push_back(map);
     }
     const Linearisation known = w.places.solve(material_of(refit.start));
     unseen = held_out_error(

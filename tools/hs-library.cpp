@@ -7,6 +7,7 @@
 #include "io/csv.h"
 #include "model/model_edit.h"
 #include "model/model_library.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -82,13 +83,10 @@ void list(const std::vector<LibraryEntry>& entries, std::ostream& out) {
                     "effects", "E", "nu", "rmse", "force_noise"});
   for (const LibraryEntry& e : entries) {
     const Described& d = e.described;
-    const auto value = [&](const char* name) {
-      return format_number(e.model.find("elastic", 0, name)->value);
-    };
     const auto told = [&](const char* key) { return e.model.metadata.find(key).value_or(""); };
     writer.row({std::to_string(e.id), e.stored, d.material, d.object, format_number(d.element_size),
-                d.tool, format_number(d.tool_radius), effects_label(e.model), value("E"),
-                value("nu"), told("rmse"), told("force_noise")});
+                d.tool, format_number(d.tool_radius), effects_label(e.model), format_number(modulus_of(e.model)->value),
+                format_number(poissons_ratio_of(e.model)->value), told("rmse"), told("force_noise")});
   }
 }
 

@@ -77,18 +77,18 @@ int run_teleoperator(const Arguments& arguments) {
 void write_identified(const std::string& path, const OnlineEstimate& found, double nu,
                       const std::vector<double>& times) {
   Model model;
-  const auto add = [&](const char* effect, const std::vector<double>& values, int terms) {
-    const auto rows = effect_rows(*find_effect(effect), terms, values);
+  const auto add = [&](const Effect& effect, const std::vector<double>& values, int terms) {
+    const auto rows = effect_rows(effect, terms, values);
     model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
   };
-  add("elastic", {found.moduli[0], nu}, 1);
+  add(body_effect(), {found.moduli[0], nu}, 1);
   model.parameters[0].std_error = found.error[0];
   model.parameters[1].state = ParameterState::kFixed;
   if (!times.empty()) {
     std::vector<double> values;
     for (std::size_t i = 0; i < times.size(); ++i)
       values.insert(values.end(), {found.moduli[static_cast<Eigen::Index>(i + 1)], times[i]});
-    add("viscoelastic", values, static_cast<int>(times.size()));
+    add(maxwell_effect(), values, static_cast<int>(times.size()));
   }
   model.metadata.set("rmse", format_number(found.rmse));
   Output output(path);

@@ -98,7 +98,7 @@ inline Plan make_plan(const Arguments& arguments) {
     plan.start = load_model(arguments, "hs-identify");
   } else if (!plan.automatic) {
     for (const std::string& effect : arguments.list("--effects"))
-      if (effect != "elastic") plan.add.push_back(effect);
+      if (effect != body_effect().card().name) plan.add.push_back(effect);
   }
   for (const std::string& effect : arguments.list("--add")) plan.add.push_back(effect);
   if (arguments.given("--diagnosis"))

@@ -14,6 +14,7 @@
 #include "fit/fit.h"
 #include "fit/maxwell_terms.h"
 #include "linalg/blas.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 
@@ -32,7 +33,7 @@ inline std::vector<std::string> hardly_known(const Model& model) {
   std::vector<std::string> names;
   for (const Parameter& p : model.parameters) {
     if (p.state != ParameterState::kFree) continue;
-    const bool modulus = p.unit == "Pa", nu = p.effect == "elastic" && p.name == "nu";
+    const bool modulus = p.unit == "Pa", nu = is_poissons_ratio(p);
     if ((modulus && p.std_error > kHalf * p.value) || (nu && p.std_error > kHalfRange))
       names.push_back(p.effect + " " + p.name);
   }

@@ -65,7 +65,7 @@ inline ToolSpec identify_specification() {
            "Effects of a new model, separated by commas. auto: elastic, or --model, is diagnosed "
            "and what is missing added, as long as that helps on unseen presses.",
        .group = "Model",
-       .default_text = "elastic",
+       .default_text = body_effect().card().name,
        .repeatable = true},
       {.flag = "--model",
        .kind = OptionKind::kFile,

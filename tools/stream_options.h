@@ -12,6 +12,7 @@
 #include "model/model.h"
 #include "realtime/motion_lines.h"
 #include "watch/online_identification.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 
@@ -48,7 +49,7 @@ inline std::vector<double> relaxation_times(const Arguments& arguments) {
 // A body of unit modulus.
 inline Model unit_model(double nu) {
   Model unit;
-  unit.parameters = effect_rows(*find_effect("elastic"), 1, {1, nu});
+  unit.parameters = body_rows(1, nu);
   return unit;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/stream.h"
+#include "effects/catalogue.h"
 
 namespace hapsim {
 
@@ -38,7 +39,7 @@ struct ManifestRow {
   bool block = false;  // the body is the block that import_options state
   std::string scan_unit = "m";
   double tool_radius = 0;           // [m]; 0: the recording's own
-  std::string effects = "elastic";  // separated by commas
+  std::string effects = body_effect().card().name;  // separated by commas
   std::array<std::vector<std::string>, kBatchStages.size()> options;
   std::vector<std::string> common;  // flags of hs-identify, hs-diagnose and hs-simulate alike
   // Files that these read, beside the above: by stage, and of `common`.

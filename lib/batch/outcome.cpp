@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "batch/step_script.h"
 #include "io/csv.h"
+#include "effects/catalogue.h"
 
 namespace hapsim {
 namespace {
@@ -38,14 +39,15 @@ void read_model_file(const std::string& path, RecordingOutcome& outcome) {
   const auto cell = [&](int column, std::size_t r) -> const std::string& {
     return table.columns[static_cast<std::size_t>(column)][r];
   };
+  const EffectCard& body = body_effect().card();
   std::string last;
   for (std::size_t r = 0; r < table.rows(); ++r) {
     const std::string& name = cell(effect, r);
     if (name != last) outcome.effects += (last.empty() ? "" : "+") + name;
     last = name;
-    if (name != "elastic" || cell(region, r) != "0") continue;
-    if (cell(parameter, r) == "E") outcome.modulus = cell(value, r);
-    if (cell(parameter, r) == "nu") outcome.nu = cell(value, r);
+    if (name != body.name || cell(region, r) != "0") continue;
+    if (cell(parameter, r) == body.modulus) outcome.modulus = cell(value, r);
+    if (cell(parameter, r) == body.poissons_ratio) outcome.nu = cell(value, r);
   }
 }
 

@@ -57,11 +57,11 @@ double explained_by_gains(const std::vector<BinError>& errors, double noise) {
 // Gains of positions: scatter between positions over scatter between presses of one position, the
 // latter at least the noise's.
 double position_p_value(const Search& search, const std::vector<BinError>& positions) {
-  Grouping by_press;
-  by_press.bins.resize(search.facts.press_ids.size());
-  by_press.bin = search.facts.press;
+  Grouping per_press;
+  per_press.bins.resize(search.facts.press_ids.size());
+  per_press.bin = search.facts.press;
   const auto presses =
-      bin_errors(by_press, search.facts, search.measured, search.simulated, search.noise);
+      bin_errors(per_press, search.facts, search.measured, search.simulated, search.noise);
   std::vector<int> position(presses.size(), 0);
   for (std::size_t i = 0; i < search.facts.press.size(); ++i)
     position[search.facts.press[i]] = search.facts.position[i];

@@ -30,7 +30,7 @@ double parameter_count(const Model& model) {
 Eigen::MatrixXd new_columns(const Effect& effect, const Fit& fitted, const Baseline& base,
                             const TrialGround& g) {
   const Selection all = all_episodes(g.dataset);
-  if (effect.card().from_locations) {
+  if (effect.card().is_map) {
     const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
     Eigen::MatrixXd columns =
         Eigen::MatrixXd::Zero(f.size(), static_cast<Eigen::Index>(g.dataset.positions.size()));
@@ -131,7 +131,7 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
   const std::vector<Model> starts =
       with_effect(base.fitted, card.name, g.experiment, all, trial_extend_options(g));
   try {
-    if (!card.by_press && !card.from_locations && !is_excited(starts, effect, base, g)) {
+    if (!card.per_press && !card.is_map && !is_excited(starts, effect, base, g)) {
       lack = "nothing in these presses depends on it; record " + card.separated_by;
       return std::nullopt;
     }
@@ -153,19 +153,19 @@ void refine(Candidate& candidate, const TrialGround& g) {
   if (card.solved)
     candidate.fitted = fit_solved(candidate.fitted.model, candidate.starts, g.experiment, all,
                                   trial_fit_options(g));
-  else if (card.from_locations)
+  else if (card.is_map)
     candidate.fitted = fit(candidate.fitted.model, g.experiment, all, trial_fit_options(g));
 }
 
 void hold_out(Candidate& candidate, const TrialGround& g, const Folds& folds) {
   if (folds.held_out.empty()) return;
-  const Map map = candidate.effect->card().from_locations ? Map::kAnew : Map::kKnown;
+  const Map map = candidate.effect->card().is_map ? Map::kAnew : Map::kKnown;
   candidate.held_out = held_out_of(candidate.fitted, g, folds, map);
 }
 
 void prefer_sites(Candidate& candidate, const Baseline& base, const TrialGround& g,
                   const Folds& folds) {
-  if (!candidate.effect->card().from_locations || folds.held_out.empty()) return;
+  if (!candidate.effect->card().is_map || folds.held_out.empty()) return;
   ExtendOptions options = trial_extend_options(g);
   options.regions = kEverySite;
   Candidate sites = candidate;
@@ -216,7 +216,7 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
   m.sum_of_squares = residual.squaredNorm();
   // Which region each position belongs to is chosen by the data as well, and is paid for.
   const double extra =
-      candidate.effect->card().from_locations
+      candidate.effect->card().is_map
           ? static_cast<double>(g.dataset.positions.size()) - 1
           : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
   m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
@@ -226,7 +226,7 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
   const double freedom = std::max(1.0, extra);
   if (independent > 2 * freedom)
     m.p_by_size = fisher_upper(fall * independent / freedom, freedom, independent);
-  if (candidate.effect->card().by_press) {
+  if (candidate.effect->card().per_press) {
     const Selection every = all_episodes(g.dataset);
     const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, every, false).f;
     const OffsetTest test =

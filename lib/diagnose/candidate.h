@@ -21,7 +21,7 @@ struct Baseline {
 
 // On which the effect is judged by unseen positions.
 inline const HeldOut& held_out_for(const Effect& effect, const Baseline& base) {
-  return effect.card().from_locations ? base.held_out : base.on_known_map;
+  return effect.card().is_map ? base.held_out : base.on_known_map;
 }
 
 struct Candidate {

@@ -29,8 +29,8 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
   std::size_t best = round.findings.size();
   const auto better = [&](std::size_t k) {
     if (best == round.findings.size()) return true;
-    const bool late = round.candidates[k].effect->card().by_press;
-    const bool best_late = round.candidates[best].effect->card().by_press;
+    const bool late = round.candidates[k].effect->card().per_press;
+    const bool best_late = round.candidates[best].effect->card().per_press;
     if (late != best_late) return best_late;
     return round.findings[k].criterion_gain > round.findings[best].criterion_gain;
   };
@@ -60,7 +60,7 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
   for (std::size_t k = 0; k < round.findings.size(); ++k) {
     const Finding& f = round.findings[k];
     if (k == best || !passes(f, gates, can_hold_out)) continue;
-    if (round.candidates[k].effect->card().by_press || decided(winner, f, noise)) continue;
+    if (round.candidates[k].effect->card().per_press || decided(winner, f, noise)) continue;
     if (contains(*round.candidates[best].effect, f.effect) ||
         contains(*round.candidates[k].effect, winner.effect))
       continue;
@@ -299,9 +299,16 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   return d;
 }
 
+bool moves_body(const Model& model) {
+  const std::vector<std::string> effects = model.effects();
+  return std::any_of(effects.begin(), effects.end(), [](const std::string& name) {
+    return require_effect(name).card().moves_body;
+  });
+}
+
 bool tells_of_move(const Diagnosis& d) {
   return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
-    return f.effect == "shift" &&
+    return require_effect(f.effect).card().moves_body &&
            (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable);
   });
 }
@@ -314,7 +321,7 @@ Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& all
   // Points off the surface that no move explains, of the kind that forces follow, are a wrong
   // shape: what differs by place may be its work.
   if (d.verdict == ModelVerdict::kComplete || !e.shape.plain() ||
-      e.doubted_floor <= allowance.floor || model.has("shift") || tells_of_move(d))
+      e.doubted_floor <= allowance.floor || moves_body(model) || tells_of_move(d))
     return d;
   if (options.progress) options.progress("the shape in doubt");
   d = with_allowance(model, {e, {allowance.noise, e.doubted_floor}}, options);

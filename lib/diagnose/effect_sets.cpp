@@ -10,12 +10,6 @@
 #include "effects/catalogue.h"
 
 namespace hapsim {
-namespace {
-
-constexpr double kCrookedest = 0.05;  // force sensor, of its range; the worst on sale are at 0.01
-
-}  // namespace
-
 EffectNames with(EffectNames names, const std::string& name) {
   names.insert(std::upper_bound(names.begin(), names.end(), name), name);
   return names;
@@ -27,7 +21,7 @@ EffectNames without(EffectNames names, const std::string& name) {
 }
 
 bool needs_many_presses(const EffectCard& card) {
-  return card.by_press || card.from_locations;
+  return card.per_press || card.is_map;
 }
 
 EffectSets::EffectSets(const Baseline& base, const TrialGround& g, const DiagnoseOptions& options)
@@ -95,7 +89,8 @@ double EffectSets::criterion(const EffectSet& set) const {
 // One press cannot tell a sensor that is not straight from a material that stiffens, but a sensor
 // is a sensor.
 std::string EffectSets::unlike_a_sensor(const Fit& fitted, const Effect& effect) const {
-  if (effect.card().name != "sensor-curve") return "";
+  const double most = effect.card().most_bend;
+  if (most <= 0) return "";
   Fit straight = fitted;
   std::erase_if(straight.model.parameters,
                 [&](const Parameter& p) { return p.effect == effect.card().name; });
@@ -106,7 +101,7 @@ std::string EffectSets::unlike_a_sensor(const Fit& fitted, const Effect& effect)
   const double full = f.cwiseAbs().maxCoeff();
   const double gain = full / g.cwiseAbs().maxCoeff();
   const double bend = (f - gain * g).cwiseAbs().maxCoeff() / full;
-  if (bend < kCrookedest) return "";
+  if (bend < most) return "";
   return fmt::format(
       "a force sensor that is {:.0f} % of its reading off a straight line is none: "
       "a material or a contact that stiffens does that",

@@ -23,7 +23,7 @@ ExtendOptions extend_as(const TrialGround& g, const Model& model) {
 Model without_map(const Model& model, std::vector<std::string>& rebuilt) {
   Model plain = model;
   for (const std::string& name : model.effects())
-    if (require_effect(name).card().from_locations) {
+    if (require_effect(name).card().is_map) {
       std::erase_if(plain.parameters, [&](const Parameter& p) { return p.effect == name; });
       rebuilt.push_back(name);
     }
@@ -62,7 +62,7 @@ ExtendOptions trial_extend_options(const TrialGround& g) {
 bool has_map(const Model& model) {
   const std::vector<std::string> effects = model.effects();
   return std::any_of(effects.begin(), effects.end(), [](const std::string& name) {
-    return require_effect(name).card().from_locations;
+    return require_effect(name).card().is_map;
   });
 }
 

@@ -32,7 +32,7 @@ double remaining(const ImprovementStep& before, const ImprovementStep& after,
   };
   if (finding.by_presses)
     return by(make_press_folds(g.dataset, static_cast<int>(folds.held_out.size())), Map::kAnew);
-  if (!has_map(model) || require_effect(after.added).card().from_locations)
+  if (!has_map(model) || require_effect(after.added).card().is_map)
     return after.held_out.pooled / before.held_out.pooled;
   return by(folds, Map::kKnown);
 }

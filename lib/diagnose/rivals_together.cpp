@@ -17,7 +17,7 @@ bool both_act(const Candidate& a, const Candidate& b, const TrialGround& g) {
       try_effect(*b.effect, make_baseline(a.fitted.model, g, {}), g, lack);
   if (!both) return false;
   const EffectCard& card = b.effect->card();
-  if (card.solved || card.from_locations) refine(*both, g);
+  if (card.solved || card.is_map) refine(*both, g);
   return both->fitted.error.pooled < kLikeNoise * least &&
          both->fitted.error.pooled * kPlainlyMore < alone;
 }

@@ -65,9 +65,9 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base,
   double least = base.fitted.error.pooled;
   for (Candidate& c : candidates) {
     const EffectCard& card = c.effect->card();
-    if (card.solved || card.from_locations) order.push_back(&c);
+    if (card.solved || card.is_map) order.push_back(&c);
     // Offsets of presses imitate any misfit and are no measure of it.
-    else if (!card.by_press)
+    else if (!card.per_press)
       least = std::min(least, c.fitted.error.pooled);
   }
   std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
@@ -105,8 +105,8 @@ std::vector<const Effect*> untried(const Model& model) {
   std::vector<const Effect*> effects;
   for (const Effect* effect : catalogue()) {
     const EffectCard& card = effect->card();
-    if (card.name == "elastic") continue;
-    if (model.has(card.name) && (!card.terms || card.from_locations)) continue;
+    if (effect == &body_effect()) continue;
+    if (model.has(card.name) && (!card.terms || card.is_map)) continue;
     const bool included =
         std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
           return model.has(other->card().name) && contains(*other, card.name);

@@ -20,7 +20,7 @@ std::string with_error(double value, double error, const std::string& unit) {
 
 std::string describe_where(const Candidate& candidate) {
   const EffectCard& card = candidate.effect->card();
-  if (!card.from_locations) return card.signature;
+  if (!card.is_map) return card.signature;
   const MaterialSpec material = material_of(candidate.fitted.model);
   const auto stiffest = std::max_element(material.modulus.begin(), material.modulus.end());
   const auto softest = std::min_element(material.modulus.begin(), material.modulus.end());
@@ -48,7 +48,7 @@ std::string describe_evidence(const Candidate& candidate, const Measured& measur
       fmt::format("takes away {:.0f} % of the squared misfit beyond noise{}", 100 * finding.share,
                   finding.share > 0.005 && finding.p_value > kByChance ? ", as chance would" : "");
   const EffectCard& card = candidate.effect->card();
-  if (card.from_locations) {
+  if (card.is_map) {
     const MaterialSpec material = material_of(candidate.fitted.model);
     text += candidate.every_site ? "; it changes from place to place"
                                  : fmt::format("; {} regions", material.modulus.size());

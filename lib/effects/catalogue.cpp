@@ -1,5 +1,7 @@
 #include "effects/catalogue.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "effects/effects.h"
 
@@ -24,6 +26,33 @@ const Effect* find_effect(const std::string& name) {
   for (const Effect* effect : catalogue())
     if (effect->card().name == name) return effect;
   return nullptr;
+}
+
+namespace {
+
+// The first effect whose card has it; the test of the catalogue asserts that there is one.
+template <class Property>
+const Effect& effect_with(const Property& property) {
+  return **std::find_if(catalogue().begin(), catalogue().end(),
+                        [&](const Effect* e) { return property(e->card()); });
+}
+
+}  // namespace
+
+const Effect& body_effect() {
+  static const Effect& effect =
+      effect_with([](const EffectCard& card) { return !card.modulus.empty(); });
+  return effect;
+}
+
+const Effect& map_effect() {
+  static const Effect& effect = effect_with([](const EffectCard& card) { return card.is_map; });
+  return effect;
+}
+
+const Effect& maxwell_effect() {
+  static const Effect& effect = effect_with([](const EffectCard& card) { return card.maxwell; });
+  return effect;
 }
 
 const Effect& require_effect(const std::string& name) {

@@ -13,6 +13,13 @@ const std::vector<const Effect*>& catalogue();
 // Null when the name is unknown.
 const Effect* find_effect(const std::string& name);
 
+// The effect that is the body itself (EffectCard::modulus).
+const Effect& body_effect();
+// The effect that maps the body's modulus (EffectCard::is_map).
+const Effect& map_effect();
+// The effect of Maxwell elements (EffectCard::maxwell).
+const Effect& maxwell_effect();
+
 // Error(kUsage) that names the nearest effect and lists all.
 const Effect& require_effect(const std::string& name);
 

@@ -21,6 +21,8 @@ class Elastic : public Effect {
         .parameters = {{"E", "Pa", "Young's modulus (one row a region)", 0, 1e4, 1, 1e12, 1e4,
                         true},
                        {"nu", "1", "Poisson's ratio", 0, 0.4, 0, 0.499, 0.1, false, 0.5}},
+        .modulus = "E",
+        .poissons_ratio = "nu",
         .signature = "no body at all",
         .confounders = {},
         .separated_by = "a calibration weight: a common gain of the force sensor looks like E"};

@@ -36,7 +36,7 @@ class Regions : public Effect {
         .one_body = true,
         .local = true,
         .like_shape = true,
-        .from_locations = true,
+        .is_map = true,
         .signature = "too stiff at some positions and too soft at others, at all depths and rates",
         .confounders = {"layer", "inclusion", "base", "shift"},
         .separated_by = "new positions between the pressed ones, and a tool of another radius"};

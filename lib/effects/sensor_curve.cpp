@@ -21,6 +21,7 @@ class SensorCurve : public Effect {
                        {"c3", "1/N^2", "third order, z axis", 0, 0, -10, 10, 0.02, false},
                        {"d2", "1/N", "second order, x and y axes", 0, 0, -10, 10, 0.02, false},
                        {"d3", "1/N^2", "third order, x and y axes", 0, 0, -10, 10, 0.02, false}},
+        .most_bend = 0.05,  // the worst force sensors on sale are at 0.01
         .signature = "an error that follows the force, whatever place, depth or direction made it",
         .confounders = {"hyperelastic", "tip", "deadband"},
         .separated_by =

@@ -30,6 +30,7 @@ class Shift : public Effect {
         .needs_positions = true,
         .one_body = true,
         .one_tool = true,
+        .moves_body = true,
         .signature =
             "contact points off the scanned surface, stiffness and directions wrong by place",
         .confounders = {"sensor-rotation", "regions", "base"},

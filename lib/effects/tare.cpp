@@ -23,7 +23,7 @@ class Tare : public Effect {
                         false},
                        {"by1", "N", "offset along y", 0, 0, -1e6, 1e6, 0.1, false},
                        {"bz1", "N", "offset along z", 0, 0, -1e6, 1e6, 0.1, false}},
-        .by_press = true,
+        .per_press = true,
         .signature =
             "an error that is constant within a press, in the air as well, but not from "
             "press to press",

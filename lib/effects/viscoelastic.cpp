@@ -26,6 +26,7 @@ class Viscoelastic : public Effect {
                        {"tau1", "s", "its relaxation time", 1, 0.5, 1e-4, 1e5, 1, true}},
         .terms = true,
         .needs_time = true,
+        .maxwell = true,
         .signature = "too soft in fast loading, too stiff late in holds and in unloading",
         .confounders = {"damper", "sensor-lag", "sensor-drift", "softening"},
         .separated_by = "a fast press and a long hold at the same place and depth"};

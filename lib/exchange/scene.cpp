@@ -10,6 +10,7 @@
 #include "experiment/nearest_region.h"
 #include "model/relaxation_steps.h"
 #include "solid/mesh_press.h"
+#include "effects/catalogue.h"
 
 namespace hapsim {
 namespace {
@@ -33,7 +34,7 @@ FullSpec checked_effects(const Model& model, const MaterialSpec& material, bool 
     FullSpec own;
     if (!i.effect->full(i.values, material.modulus[0], own))
       refuse(model, card.name, "finite elements have no form of it");
-    if (card.solved && card.name != "regions" && !material.features.empty())
+    if (card.solved && !card.is_map && !material.features.empty())
       refuse(model, card.name, "it is solved on meshes of its own");
     if (own.curvature > 0) refuse(model, card.name, "the tool of the scene is flat and bonded");
     if (std::isfinite(own.friction))
@@ -49,10 +50,10 @@ FullSpec checked_effects(const Model& model, const MaterialSpec& material, bool 
                "the model has an effect that moves the body or is solved on meshes of its own",
                "take it out of the model (hs-identify --remove)");
   if (material.local)
-    refuse(model, "regions",
+    refuse(model, map_effect().card().name,
            "its contacts feel their own region alone; set local to 0 and fit again");
   if (!regional_relaxation_of(model, material).empty())
-    refuse(model, "viscoelastic", "its regions relax each in its own way");
+    refuse(model, maxwell_effect().card().name, "its regions relax each in its own way");
   return all;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -83,7 +84,7 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
 }
 
 void set_poisson_range(const Model& model, ExperimentOptions& options) {
-  const Parameter* nu = model.find("elastic", 0, "nu");
+  const Parameter* nu = poissons_ratio_of(model);
   if (nu == nullptr) return;
   options.nu_low = nu->state == ParameterState::kFree ? nu->lower : nu->value;
   options.nu_high = nu->state == ParameterState::kFree ? nu->upper : nu->value;

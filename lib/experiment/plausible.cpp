@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 
@@ -70,7 +71,7 @@ void require_presses(const Dataset& dataset) {
 
 std::string strange_modulus(const Model& model) {
   constexpr double kSoftest = 50, kHardest = 5e6;  // from brain and fat to cartilage and rubber
-  const Parameter* e = model.find("elastic", 0, "E");
+  const Parameter* e = modulus_of(model);
   if (e == nullptr || (e->value >= kSoftest && e->value <= kHardest)) return "";
   return fmt::format(
       "E = {:.3g} Pa is {} than soft bodies are: are forces in N and displacements in m?", e->value,
@@ -80,10 +81,10 @@ std::string strange_modulus(const Model& model) {
 std::vector<int> idle_regions(const Model& model) {
   std::vector<int> idle;
   for (const Parameter& p : model.parameters) {
-    if (p.effect != "elastic" || p.name != "E" || p.region == 0) continue;
+    if (!is_modulus(p) || p.region == 0) continue;
     const bool placed = std::any_of(
         model.parameters.begin(), model.parameters.end(),
-        [&](const Parameter& q) { return q.effect == "regions" && q.region == p.region; });
+        [&](const Parameter& q) { return is_of_map(q) && q.region == p.region; });
     if (!placed) idle.push_back(p.region);
   }
   return idle;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fit/press_offsets.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 
@@ -46,8 +47,8 @@ void tell_key_point_errors(Model& model, const std::vector<BoundaryLine>& lines,
     points.insert(points.end(), line.points.begin(), line.points.end() - (closed ? 1 : 0));
   }
   for (Parameter& x : model.parameters) {
-    if (x.effect != "regions" || x.name.front() != 'x') continue;
-    Parameter* y = model.find("regions", x.region, "y" + x.name.substr(1));
+    if (!is_of_map(x) || x.name.front() != 'x') continue;
+    Parameter* y = model.find(x.effect, x.region, "y" + x.name.substr(1));
     const Eigen::Vector2d here(x.value, y->value);
     std::size_t nearest = 0;
     for (std::size_t k = 1; k < std::min(points.size(), error.size()); ++k)

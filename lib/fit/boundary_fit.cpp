@@ -15,6 +15,7 @@
 #include "imaging/field_contacts.h"
 #include "model/model_edit.h"
 #include "regions/region_map.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -64,8 +65,7 @@ class BoundaryProblem {
         weights_(dataset_, selection_, model_forces(fitted, experiment, selection_, false).f,
                  options.fit.noise, options.fit.floor) {
     for (Parameter& p : model_.parameters) {
-      const bool modulus = p.effect == "elastic" && p.name == "E";
-      if (p.state == ParameterState::kFree && !modulus) p.state = ParameterState::kFixed;
+      if (p.state == ParameterState::kFree && !is_modulus(p)) p.state = ParameterState::kFixed;
     }
     free_ = model_.free_parameters();
   }
@@ -239,7 +239,7 @@ BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, co
         problem.covariance(solution.x).bottomRightCorner(shift.size(), shift.size());
     const std::vector<BoundaryLine> lines = graph.lines(shift);
     Model moved = problem.with_moduli(result.fitted.model, solution.x);
-    std::erase_if(moved.parameters, [](const Parameter& p) { return p.effect == "regions"; });
+    std::erase_if(moved.parameters, is_of_map);
     place_key_points(
         moved, [&](const Plan& p) { return graph.region(p, shift); }, lines, options.key_points);
     Fit fitted = fit(moved, experiment, all_episodes(dataset), options.fit);

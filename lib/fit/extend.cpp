@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "fit/extend_regions.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -65,7 +66,7 @@ bool comes_back(const PressView& view) {
 
 Model elastic_model(const Experiment& experiment, const Selection& selection) {
   const Dataset& dataset = experiment.dataset;
-  const Effect& elastic = require_effect("elastic");
+  const Effect& elastic = body_effect();
   Model model;
   model.parameters = effect_rows(elastic, 1, elastic.starts(summarise(dataset, 1), 1).front());
   const Eigen::VectorXd f = solved_forces(model, experiment, selection, false).f;
@@ -77,7 +78,7 @@ Model elastic_model(const Experiment& experiment, const Selection& selection) {
   if (gain <= 0)
     fail_input(dataset.recording.name, "the forces point the wrong way",
                "forces are of the body on the tool: pressing down (uz < 0) gives fz > 0");
-  Parameter& modulus = *model.find("elastic", 0, "E");
+  Parameter& modulus = *modulus_of(model);
   modulus.value = std::clamp(gain * modulus.value, modulus.lower, modulus.upper);
   return model;
 }
@@ -91,9 +92,9 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
   const EffectCard& card = effect.card();
   if (const std::string lack = lacking_for(card, dataset); !lack.empty())
     fail_input(dataset.recording.name, "the data cannot show " + name, lack);
-  if (fitted.has(name) && !(card.terms && !card.from_locations))
+  if (fitted.has(name) && !(card.terms && !card.is_map))
     fail_usage("the model has " + name + " already", "remove it first (--remove " + name + ")");
-  if (card.from_locations) return {with_regions(base_fit, experiment, selection, options)};
+  if (card.is_map) return {with_regions(base_fit, experiment, selection, options)};
 
   Model base = fitted;
   // What the new effect contains gives way to it.
@@ -101,7 +102,7 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
     return std::find(card.contains.begin(), card.contains.end(), p.effect) != card.contains.end();
   });
   int terms = card.terms      ? options.terms
-              : card.by_press ? static_cast<int>(dataset.episodes.size())
+              : card.per_press ? static_cast<int>(dataset.episodes.size())
                               : 1;
   if (fitted.has(name)) {
     int present = 0;
@@ -109,7 +110,7 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
     terms = present / static_cast<int>(card.parameters.size()) + 1;
     std::erase_if(base.parameters, [&](const Parameter& p) { return p.effect == name; });
   }
-  DataSummary summary = summarise(dataset, fitted.find("elastic", 0, "E")->value);
+  DataSummary summary = summarise(dataset, modulus_of(fitted)->value);
   if (card.solved && card.needs_positions)
     for (const LocationSample& s : location_samples(fitted, experiment, base_fit.about, selection,
                                                     {options.noise, options.floor}))

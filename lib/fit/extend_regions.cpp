@@ -6,6 +6,7 @@
 #include "effects/catalogue.h"
 #include "regions/region_boundary.h"
 #include "regions/region_map.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -15,14 +16,13 @@ constexpr int kKeyPoints = 8, kOldBoundaryPoints = 20000;  // of a boundary
 // One E a region, given by its logarithm over the fitted one.
 Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
   Model model = fitted;
-  const Parameter modulus = *fitted.find("elastic", 0, "E");
-  std::erase_if(model.parameters, [](const Parameter& p) {
-    return p.effect == "elastic" && p.name == "E" && p.region > 0;
-  });
+  const Parameter modulus = *modulus_of(fitted);
+  std::erase_if(model.parameters,
+                [](const Parameter& p) { return is_modulus(p) && p.region > 0; });
   for (std::size_t r = 0; r < log_gain.size(); ++r) {
     const int region = static_cast<int>(r);
     const double value = modulus.value * std::exp(log_gain[r]);
-    if (Parameter* row = model.find("elastic", region, "E")) {
+    if (Parameter* row = modulus_of(model, region)) {
       row->value = value;
       continue;
     }
@@ -30,8 +30,7 @@ Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
     added.region = region;
     added.value = value;
     const auto last =
-        std::find_if(model.parameters.rbegin(), model.parameters.rend(),
-                     [](const Parameter& p) { return p.effect == "elastic" && p.name == "E"; });
+        std::find_if(model.parameters.rbegin(), model.parameters.rend(), is_modulus);
     model.parameters.insert(last.base(), added);
   }
   return model;
@@ -89,7 +88,7 @@ Model with_regions(const Fit& base, const Experiment& experiment, const Selectio
   Model model = with_labels(base.model, samples, labels.label);
   if (options.regions == kEverySite) {
     // So many neighbouring moduli cannot be told apart through the body; each stands for its site.
-    Parameter local = effect_rows(require_effect("regions"), 1, {0, 0, 1}).back();
+    Parameter local = effect_rows(map_effect(), 1, {0, 0, 1}).back();
     local.name = "local";
     local.state = ParameterState::kFixed;
     model.parameters.push_back(local);

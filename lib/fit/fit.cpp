@@ -16,13 +16,14 @@
 #include "fit/maxwell_terms.h"
 #include "fit/move_limits.h"
 #include "fit/press_offsets.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
 
 std::vector<Unknown> unknowns(const Model& model) {
   std::vector<Unknown> result;
-  const Parameter* modulus = model.find("elastic", 0, "E");
+  const Parameter* modulus = modulus_of(model);
   const double typical = modulus != nullptr ? 0.1 * std::abs(modulus->value) : 1.0;
   for (const int i : model.free_parameters()) {
     const Parameter& p = model.parameters[i];
@@ -51,7 +52,7 @@ void set_values(Model& model, const Eigen::VectorXd& x) {
 std::vector<Unknown> spread(const Model& model, std::vector<Unknown> unknowns,
                             const Experiment& experiment, const Selection& selection) {
   const Dataset& dataset = experiment.dataset;
-  const double modulus = elastic_model(experiment, selection).find("elastic", 0, "E")->value;
+  const double modulus = modulus_of(elastic_model(experiment, selection))->value;
   double longest = 0;
   for (const int e : selection)
     if (!dataset.episodes[e].view.t.empty())

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "model/model_edit.h"
+#include "model/body_parameters.h"
+#include "effects/catalogue.h"
 
 namespace hapsim {
 namespace {
@@ -18,8 +20,8 @@ struct Sample {
 Sample fit_position(const Model& start, const Experiment& experiment, const Selection& selection,
                     const FitOptions& options) {
   const Fit result = fit(start, experiment, selection, options);
-  const Parameter& e = *result.model.find("elastic", 0, "E");
-  const Parameter& nu = *result.model.find("elastic", 0, "nu");
+  const Parameter& e = *modulus_of(result.model);
+  const Parameter& nu = *poissons_ratio_of(result.model);
   Sample sample{result.converged && std::isfinite(e.std_error) && e.std_error > 0, e.value,
                 e.std_error, nu.value, 0};
   if (nu.state == ParameterState::kFree) sample.nu_std = nu.std_error;
@@ -32,17 +34,18 @@ LocationTable fit_locations(const Model& model, const Experiment& experiment,
                             const FitOptions& options) {
   const Dataset& dataset = experiment.dataset;
   Model start = model;
-  if (start.has("regions")) remove_effect(start, "regions");
-  const bool nu_is_free = start.find("elastic", 0, "nu")->state == ParameterState::kFree;
+  const std::string& map = map_effect().card().name;
+  if (start.has(map)) remove_effect(start, map);
+  const bool nu_is_free = poissons_ratio_of(start)->state == ParameterState::kFree;
   for (Parameter& p : start.parameters)
     if (p.state == ParameterState::kFree) p.state = ParameterState::kFixed;
-  start.find("elastic", 0, "E")->state = ParameterState::kFree;
+  modulus_of(start)->state = ParameterState::kFree;
 
   std::vector<Selection> at(dataset.positions.size());
   for (std::size_t e = 0; e < dataset.episodes.size(); ++e)
     at[static_cast<std::size_t>(dataset.episodes[e].position)].push_back(static_cast<int>(e));
   const auto fit_all = [&](bool with_nu) {
-    start.find("elastic", 0, "nu")->state =
+    poissons_ratio_of(start)->state =
         with_nu ? ParameterState::kFree : ParameterState::kFixed;
     std::vector<Sample> samples;
     for (const Selection& selection : at) {

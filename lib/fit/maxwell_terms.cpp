@@ -24,7 +24,7 @@ std::vector<Terms> terms_of(const Model& model) {
   std::vector<Terms> result;
   for (const std::string& name : model.effects()) {
     const EffectCard& card = require_effect(name).card();
-    if (!card.terms || card.from_locations) continue;
+    if (!card.terms || card.is_map) continue;
     Terms terms{name, {}, card.parameters.size()};
     for (std::size_t k = 0; k < card.parameters.size(); ++k)
       if (card.parameters[k].unit == "s") terms.time = k;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -13,8 +14,8 @@ constexpr double kLogarithm = 0.7;  // a factor of two each way
 bool is_linear_in(const Parameter& p) {
   const EffectCard& card = require_effect(p.effect).card();
   if (card.stage != Stage::kBody && card.stage != Stage::kSupport) return false;
-  if (p.effect == "elastic" && p.name == "E") return p.region > 0;
-  return p.effect == "elastic" || card.solved;
+  if (is_modulus(p)) return p.region > 0;
+  return is_poissons_ratio(p) || card.solved;
 }
 
 }  // namespace

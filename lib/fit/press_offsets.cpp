@@ -19,7 +19,7 @@ Eigen::Index rows_of(const Dataset& dataset, int episode) {
 
 const Effect* offset_effect(const Model& model) {
   for (const std::string& name : model.effects())
-    if (const Effect& effect = require_effect(name); effect.card().by_press) return &effect;
+    if (const Effect& effect = require_effect(name); effect.card().per_press) return &effect;
   return nullptr;
 }
 

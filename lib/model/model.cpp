@@ -51,7 +51,7 @@ std::pair<std::string, int> split_term(const std::string& name) {
 const ParameterCard* parameter_card(const Effect& effect, const std::string& name) {
   for (const ParameterCard& p : effect.card().parameters) {
     if (p.name == name) return &p;
-    if (!effect.card().terms && !effect.card().by_press) continue;
+    if (!effect.card().terms && !effect.card().per_press) continue;
     const auto [stem, term] = split_term(name);
     if (term > 0 && split_term(p.name).first == stem) return &p;
   }
@@ -65,13 +65,13 @@ std::vector<Parameter> effect_rows(const Effect& effect, int terms,
     for (const ParameterCard& card : effect.card().parameters) {
       Parameter p;
       p.effect = effect.card().name;
-      const bool numbered = effect.card().terms || effect.card().by_press;
+      const bool numbered = effect.card().terms || effect.card().per_press;
       p.name = numbered ? split_term(card.name).first + std::to_string(k + 1) : card.name;
       p.value = rows.size() < values.size() ? values[rows.size()] : card.identity;
       p.unit = card.unit;
       p.lower = card.lower;
       p.upper = card.upper;
-      p.state = effect.card().by_press ? ParameterState::kDerived
+      p.state = effect.card().per_press ? ParameterState::kDerived
                 : card.fixed           ? ParameterState::kFixed
                                        : ParameterState::kFree;
       rows.push_back(p);

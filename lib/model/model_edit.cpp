@@ -4,15 +4,18 @@
 
 #include "base/error.h"
 #include "io/csv.h"
+#include "effects/catalogue.h"
 
 namespace hapsim {
 
 void remove_effect(Model& model, const std::string& effect) {
-  if (effect == "elastic") fail_usage("the effect elastic cannot be removed", "remove another");
+  const Effect* known = find_effect(effect);
+  if (known == &body_effect())
+    fail_usage("the effect " + effect + " cannot be removed", "remove another");
   if (!model.has(effect))
     fail_usage("the model has no effect '" + effect + "'", "it has " + effects_label(model));
   std::erase_if(model.parameters, [&](const Parameter& p) { return p.effect == effect; });
-  if (effect == "regions")
+  if (known->card().is_map)
     std::erase_if(model.parameters, [](const Parameter& p) { return p.region > 0; });
 }
 

@@ -10,6 +10,7 @@
 #include "effects/catalogue.h"
 #include "io/csv.h"
 #include "model/model.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -76,7 +77,7 @@ void check_row(const Parameter& p, const std::string& where) {
 void arrange_terms(Model& model) {
   for (const std::string& name : model.effects()) {
     const Effect& effect = require_effect(name);
-    if (!effect.card().terms && !effect.card().by_press) continue;
+    if (!effect.card().terms && !effect.card().per_press) continue;
     const auto key = [&](const Parameter& p) {
       const std::size_t digits = p.name.find_last_not_of("0123456789") + 1;
       const int term = digits < p.name.size() ? std::stoi(p.name.substr(digits)) : 0;
@@ -143,12 +144,15 @@ Model read_model(Input& input) {
                  "remove one of the rows");
     model.parameters.push_back(p);
   }
-  if (model.find("elastic", 0, "E") == nullptr || model.find("elastic", 0, "nu") == nullptr)
-    fail_input(table.name, "the model lacks E or nu of the effect elastic (region 0)",
+  const EffectCard& body = body_effect().card();
+  if (modulus_of(model) == nullptr || poissons_ratio_of(model) == nullptr)
+    fail_input(table.name,
+               fmt::format("the model lacks {} or {} of the effect {} (region 0)", body.modulus,
+                           body.poissons_ratio, body.name),
                "start from a file that hs-identify wrote");
   for (const std::string& name : model.effects()) {
     const Effect& effect = require_effect(name);
-    if (effect.card().from_locations) continue;
+    if (effect.card().is_map) continue;
     for (const ParameterCard& card : effect.card().parameters) {
       if (model.find(name, 0, card.name) != nullptr) continue;
       if (!card.optional)

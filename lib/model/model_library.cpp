@@ -153,7 +153,7 @@ std::optional<Model> with_values_of(const Model& start, const Model& known, bool
   bool taken = false;
   for (Parameter& p : model.parameters) {
     const EffectCard& card = require_effect(p.effect).card();
-    if (p.state != ParameterState::kFree || card.by_press || card.from_locations) continue;
+    if (p.state != ParameterState::kFree || card.per_press || card.is_map) continue;
     if (card.solved && !same_object) continue;
     if (rows_of(start, p.effect, p.region) != rows_of(known, p.effect, p.region)) continue;
     const Parameter* other = known.find(p.effect, p.region, p.name);

@@ -112,7 +112,7 @@ struct Evidence {
 // Offsets of single presses say nothing of the next ones.
 Model without_press_offsets(Model model) {
   std::erase_if(model.parameters,
-                [](const Parameter& p) { return require_effect(p.effect).card().by_press; });
+                [](const Parameter& p) { return require_effect(p.effect).card().per_press; });
   return model;
 }
 

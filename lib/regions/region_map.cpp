@@ -8,6 +8,7 @@
 
 #include "cluster/qda.h"
 #include "effects/catalogue.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -122,7 +123,7 @@ void label_body(TetMesh& body, const PlaneClassifier& classify) {
 }
 
 void KeyPoints::add(const Eigen::Vector2d& p, int region) {
-  std::vector<Parameter> rows = effect_rows(require_effect("regions"), 1, {p.x(), p.y(), 0});
+  std::vector<Parameter> rows = effect_rows(map_effect(), 1, {p.x(), p.y(), 0});
   rows.pop_back();  // `local` stands once for the model, and here not at all
   ++number_[region];
   for (Parameter& row : rows) {
@@ -162,9 +163,9 @@ Model region_model(const LocationTable& table, const RegionEstimate& regions,
   double nu = 0;
   for (const double v : table.nu) nu += v / static_cast<double>(table.size());
   Model model;
-  model.parameters = effect_rows(require_effect("elastic"), 1, {regions.value.front().E, nu});
-  model.find("elastic", 0, "E")->std_error = regions.value.front().E_std;
-  const Parameter modulus = *model.find("elastic", 0, "E");
+  model.parameters = body_rows(regions.value.front().E, nu);
+  modulus_of(model)->std_error = regions.value.front().E_std;
+  const Parameter modulus = *modulus_of(model);
   const int count = static_cast<int>(regions.value.size());
   for (int r = 1; r < count; ++r) {
     Parameter row = modulus;

@@ -110,7 +110,7 @@ TEST_P(EveryEffect, HasACompleteCard) {
 
 TEST_P(EveryEffect, DoesNothingAtItsIdentity) {
   const Effect& effect = *GetParam();
-  if (effect.card().name == "elastic" || effect.card().from_locations) return;
+  if (effect.card().name == "elastic" || effect.card().is_map) return;
   std::vector<double> identity;
   for (const ParameterCard& p : effect.card().parameters) identity.push_back(p.identity);
   const PressView press = example_press();
@@ -121,7 +121,7 @@ TEST_P(EveryEffect, DoesNothingAtItsIdentity) {
 
 TEST_P(EveryEffect, DerivativesAreDifferences) {
   const Effect& effect = *GetParam();
-  if (effect.card().stage == Stage::kBody && effect.card().from_locations) return;
+  if (effect.card().stage == Stage::kBody && effect.card().is_map) return;
   PressView press = example_press();
   const auto& cards = effect.card().parameters;
   DataSummary data{true, 0.02, 0.8, 100, 2e4, 1, 300};
@@ -208,7 +208,7 @@ TEST(Catalogue, EffectsActInTheOrderOfTheirStages) {
         << catalogue()[k]->card().name;
   // Offsets by press are solved for as what is added last.
   for (std::size_t k = 0; k + 1 < catalogue().size(); ++k)
-    EXPECT_FALSE(catalogue()[k]->card().by_press) << catalogue()[k]->card().name;
+    EXPECT_FALSE(catalogue()[k]->card().per_press) << catalogue()[k]->card().name;
 }
 
 }  // namespace
