@@ -52,11 +52,12 @@ inline std::vector<Option> scan2ply_options() {
            number_option("--spacing", "M",
                          "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1)),
        switch_option("--keep-outliers", "Removes only points that are given twice."),
-       switch_option("--ascii", "Writes an ASCII PLY."),
+       switch_option("--ascii", "Writes text instead of a binary PLY."),
        {.flag = "--json",
         .kind = OptionKind::kFile,
         .value = "FILE",
-        .help = "Writes the summary, with every zone's motion, as JSON."}});
+        .help = "Writes the summary, with every zone's motion, as JSON.",
+        .writes = {"json"}}});
   add("Zones",
       {{.flag = "--zone",
         .kind = OptionKind::kFile,
