@@ -22,28 +22,6 @@ ToolSpec specification() {
   spec.summary = "name the physical effect that a model lacks";
   spec.input = "recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
   spec.description = {
-      "Refits the model, tries every effect of the catalogue on top of it, and ranks them by the "
-      "information criterion of true refits. An effect is called missing when the criterion gains "
-      "more than 10, the error on contact positions left out of the fit falls by at least 2 %, the "
-      "chance of a false alarm (signs of whole presses flipped, all effects tried counted) is "
-      "below 5 %, and it takes away at least 15 % of the squared misfit beyond noise. Where few "
-      "presses carry an effect that takes away half of the misfit and a tenth of the error on "
-      "unseen positions, its size may speak for it instead of the presses' signs. Effects that do "
-      "equally well are called indistinguishable, unless the winner leaves white noise and the "
-      "rival is far less likely (by more than 50 of the criterion). What changes the forces by "
-      "less "
-      "than an approximate law in the model may leave (hs-effects(7)) is possible at most. The "
-      "search goes on, on top of what was found; what was found before and is no longer needed "
-      "then "
-      "is dropped. Beside regions, other effects are judged on unseen positions with the boundary "
-      "and the regions' places known: they are made from the positions and err most there.",
-      "Fewer than six presses have too few signs to flip, so they are judged by their course in "
-      "time: sets of effects are grown side by side and ranked as above by independent samples, "
-      "and "
-      "an effect of the best set is missing when the set without it errs more than chance allows "
-      "(F "
-      "test, all effects tried counted, 1 %). That says nothing of other places, and regions and "
-      "offsets by press need six presses.",
       "Layers, inclusions, anisotropy, supports and regions are solved by finite elements on the "
       "coarser of a position's two meshes, and only where some position asks for "
       "another stiffness than the model's; hs-identify takes the finer one.",
@@ -60,6 +38,8 @@ ToolSpec specification() {
       "evidence says so.",
       "A common gain of the force sensor cannot be told from Young's modulus by any recording: "
       "check the sensor with a calibration weight."};
+  const std::vector<std::string> gates = gates_in_words();
+  spec.description.insert(spec.description.begin(), gates.begin(), gates.end());
   spec.options = experiment_flags();
   const std::vector<Option> own{
       {.flag = "--model",

@@ -10,8 +10,6 @@
 
 namespace hapsim {
 
-constexpr double kLikeNoise = 1.1;  // errors of less than this times the noise are noise alone
-
 // A fitted model that candidates are compared against.
 struct Baseline {
   Fit fitted;

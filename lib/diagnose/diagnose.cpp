@@ -39,16 +39,9 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
   return best;
 }
 
-constexpr double kAlike = 1.25;  // errors that differ by less
-
-// Where the winner leaves white noise and nothing else, the likelihood can be believed: a rival
-// that is so much less likely (of the criterion, by independent sample) is none, however alike the
-// errors.
-constexpr double kDecisive = 50, kLikeWhite = 1.5;
-
 bool decided(const Finding& winner, const Finding& rival, double noise) {
   return winner.rmse_after.pooled < kLikeNoise * noise && winner.memory < kLikeWhite &&
-         winner.criterion_gain - rival.criterion_gain > kDecisive * winner.memory;
+         winner.criterion_gain - rival.criterion_gain > kNoRival * winner.memory;
 }
 
 // Rivals that do as well as the best: another effect that passes the gates too and reaches nearly

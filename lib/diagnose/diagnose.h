@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/gates.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
 
@@ -15,16 +16,6 @@ enum class Verdict { kMissing, kPossible, kIndistinguishable, kAbsent, kNotTesta
 enum class ModelVerdict { kComplete, kIncomplete, kAmbiguous, kUnexplained };
 std::string verdict_name(Verdict verdict);
 std::string verdict_name(ModelVerdict verdict);
-
-// What must hold before an effect is called missing.
-struct Gates {
-  double criterion_gain = 10;   // fall of the information criterion
-  double held_out_fall = 0.02;  // relative fall of the error on unseen positions
-  double p_value = 0.05;        // family-wise, sign flips of whole presses
-  double share = 0.15;          // of the squared misfit beyond noise that the effect takes away
-  double rival_fall = 0.9;      // a rival with this share of the best held-out fall is as good
-  int most_effects = 4;
-};
 
 struct DiagnoseOptions {
   Gates gates;

@@ -13,8 +13,7 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kBeam = 3;       // sets that are grown on
-constexpr double kFalseAlarms = 0.01;  // chance of any, where nothing is missing
+constexpr std::size_t kBeam = 3;  // sets that are grown on
 
 const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
   const EffectSet* best = sets.find({});
@@ -73,7 +72,7 @@ Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& 
 }
 
 bool passes(const Finding& f, const Gates& gates) {
-  return f.criterion_gain > gates.criterion_gain && f.p_value < kFalseAlarms &&
+  return f.criterion_gain > gates.criterion_gain && f.p_value < kFewPressesLevel &&
          f.share >= gates.share;
 }
 

@@ -7,9 +7,6 @@
 
 namespace hapsim {
 
-// With fewer presses than these, sign flips have too few arrangements for a false-alarm rate.
-constexpr std::size_t kLeastPresses = 6;
-
 struct FewPresses {
   std::vector<Finding> findings;  // with verdicts; those that are missing first, the largest first
   std::vector<Finding> untestable;

@@ -13,10 +13,6 @@
 namespace hapsim {
 namespace {
 
-// From here on an effect's size may speak for it: of the squared misfit, and of the error on unseen
-// positions.
-constexpr double kMostOfIt = 0.5, kPlainFall = 0.1;
-
 // Family-wise chances of a false alarm: by sign flips, and where an effect has a test of its own by
 // that, times the number of effects tried (Bonferroni).
 std::vector<double> p_values(const std::vector<Measured>& measured, int flips, Random& random) {
