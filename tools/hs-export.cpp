@@ -1,6 +1,7 @@
 // hs-export: a model, its body and a press as the input of other solvers.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "base/error.h"
@@ -113,7 +114,9 @@ void write_vtu(std::ostream& out, const Scene& scene) {
 
 int run(const Arguments& arguments) {
   const std::string format = arguments.text("--format"), end = extension_of(arguments.output());
-  if (!end.empty() && end != kExtension.at(format))
+  const bool promised = std::any_of(kExtension.begin(), kExtension.end(),
+                                    [&](const auto& known) { return known.second == end; });
+  if (promised && end != kExtension.at(format))
     fail_usage(fmt::format("--output ends in .{}, and --format is {}", end, format),
                "end it in ." + kExtension.at(format));
   for (const char* flag : {"--press", "--tool-radius"})

@@ -42,7 +42,7 @@ std::string words_of(const TermChoice& choice, const std::string& effect) {
 }
 
 // Models to fit on the chosen episodes: fitted step by step, one effect after the other.
-Starts build(const Plan& plan, const Experiment& w, const Selection& selection,
+Starts build(const IdentifyPlan& plan, const Experiment& w, const Selection& selection,
              const FitOptions& fit_options, const ExtendOptions& extend,
              const Linearisation& known = {}) {
   Model model = plan.start;
@@ -78,9 +78,10 @@ Starts build(const Plan& plan, const Experiment& w, const Selection& selection,
 }
 
 // Adds what a diagnosis finds missing, step by step; each step goes into the history.
-Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, const TetMesh& body,
-                                 ExperimentOptions options, const FitOptions& fit_options,
-                                 const Experiment& w, double force_rms) {
+Improvement improve_step_by_step(const Arguments& arguments, const IdentifyPlan& plan,
+                                 const TetMesh& body, ExperimentOptions options,
+                                 const FitOptions& fit_options, const Experiment& w,
+                                 double force_rms) {
   options.draft = true;
   options.progress = nullptr;
   const Experiment draft = make_experiment({body}, w.dataset, options);
@@ -121,7 +122,7 @@ Improvement improve_step_by_step(const Arguments& arguments, const Plan& plan, c
   return improvement;
 }
 
-void describe_fit(Fit& fitted, const Plan& plan, const Experiment& w) {
+void describe_fit(Fit& fitted, const IdentifyPlan& plan, const Experiment& w) {
   Model& model = fitted.model;
   model.metadata = plan.start.metadata;
   unmark(model);
@@ -135,8 +136,8 @@ void describe_fit(Fit& fitted, const Plan& plan, const Experiment& w) {
 }
 
 // The best so far of a fit that a signal ended, marked.
-int write_unfinished(const Arguments& arguments, const Plan& plan, const Experiment& w, Fit result,
-                     const SearchState& search) {
+int write_unfinished(const Arguments& arguments, const IdentifyPlan& plan, const Experiment& w,
+                     Fit result, const SearchState& search) {
   SearchState state = search;
   state.done = result.starts_done;
   describe_fit(result, plan, w);
@@ -177,7 +178,7 @@ int run(const Arguments& arguments) {
   if (arguments.given("--acfm")) return run_acfm(arguments);
   if (arguments.given("--stiffening"))
     fail_usage("--stiffening is of analytical models", "add --acfm N, or --add hyperelastic");
-  const Plan plan = make_plan(arguments);
+  const IdentifyPlan plan = make_plan(arguments);
   ExtendOptions extend;
   extend.regions = regions_asked(arguments.text("--regions"));
   extend.terms = plan.terms.count;
@@ -248,7 +249,7 @@ int run(const Arguments& arguments) {
     quick.starts = 1;
     // Each fold starts from the fit on all data; regions come from the training positions alone,
     // so they are built anew.
-    Plan refit = plan;
+    IdentifyPlan refit = plan;
     refit.start = result.model;
     refit.add.clear();
     refit.say = nullptr;

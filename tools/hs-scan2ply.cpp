@@ -113,7 +113,7 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
   }
   const double standoff = arguments.given("--standoff") ? arguments.number("--standoff")
                                                         : (file.beam.bar > 0 ? file.beam.bar : 0.1);
-  const Plan plan = plan_scan(*file.robot, file.beam, standoff, targets);
+  const ScanPlan plan = plan_scan(*file.robot, file.beam, standoff, targets);
   for (const int t : plan.unreachable) {
     const Vec3& p = targets[static_cast<std::size_t>(t)].point;
     std::fputs(

@@ -60,7 +60,7 @@ inline TermsAsked terms_asked(const Arguments& arguments) {
   return asked;
 }
 
-struct Plan {
+struct IdentifyPlan {
   Model start;                   // empty: elastic from the data
   bool automatic = false;        // what to add is found by diagnosis
   std::vector<std::string> add;  // in order
@@ -83,8 +83,8 @@ inline std::vector<std::string> missing_effects(const std::string& path) {
   return missing;
 }
 
-inline Plan make_plan(const Arguments& arguments) {
-  Plan plan;
+inline IdentifyPlan make_plan(const Arguments& arguments) {
+  IdentifyPlan plan;
   plan.terms = terms_asked(arguments);
   plan.say = [&arguments](const std::string& text) { say(arguments, "hs-identify", text); };
   plan.fix = arguments.list("--fix");

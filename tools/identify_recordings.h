@@ -98,7 +98,8 @@ inline void require_one_setup(const Dataset& dataset, const std::string& what) {
 // Refuses, before anything is prepared, too few places, and what is asked of recordings of several
 // bodies or tools and knows one only: features of this tool, and effects (of the start, or to be
 // added) whose parameters belong to one.
-inline void require_fit_for(const Arguments& arguments, const Plan& plan, const Dataset& dataset) {
+inline void require_fit_for(const Arguments& arguments, const IdentifyPlan& plan,
+                            const Dataset& dataset) {
   if (plan.automatic) require_one_setup(dataset, "--effects auto");
   for (const char* flag : {"--boundary", "--image", "--library"})
     if (arguments.given(flag)) require_one_setup(dataset, flag);

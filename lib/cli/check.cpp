@@ -46,12 +46,12 @@ bool promises_format(const std::string& extension) {
   return known.count(extension) != 0;
 }
 
-// What a file is to be written as stands in its name, or nowhere.
+// A name that promises another format than is written is refused; one that promises none is a name.
 void check_extension(const Option& option, const std::string& text) {
   const std::string extension = extension_of(text);
   const auto& known = option.writes;
   if (extension.empty() || std::find(known.begin(), known.end(), extension) != known.end()) return;
-  if (known.front() == "csv" && !promises_format(extension)) return;
+  if (!promises_format(extension)) return;
   std::string list;
   for (std::size_t i = 0; i < known.size(); ++i)
     list += (i == 0 ? "." : i + 1 == known.size() ? " or ." : ", .") + known[i];

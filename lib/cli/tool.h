@@ -40,8 +40,8 @@ struct Option {
   std::string value = {};  // name of the value in the help: "UNIT"
   std::string help = {};   // one or two sentences
   std::string group = {};  // heading of --help and man page that it stands under; "" for none
-  // kFile that is written: the extensions it may have, "csv" first where it is a table. Another one
-  // is refused before the work; of a table only one that promises another format, as "ply" does.
+  // kFile that is written: the extensions of what it may be. One that promises another format, as
+  // "ply" does of a table, is refused before the work.
   std::vector<std::string> writes = {};
   std::string default_text = {};          // value when not given, "" for none
   std::vector<std::string> choices = {};  // kChoice

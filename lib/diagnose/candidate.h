@@ -63,11 +63,13 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseli
                                     const TrialGround& ground, std::string& lack);
 // Fits with finite elements solved what was fitted by estimates.
 void refine(Candidate& candidate, const TrialGround& ground);
-// Its error on held-out positions, on the known map if it makes none (held_out_for()).
+// Its error on held-out positions: with any map made anew if the effect is one, else with the map
+// kept (see held_out_for()).
 void hold_out(Candidate& candidate, const TrialGround& ground, const Folds& folds);
-// Of regions: where positions stand for themselves and others are interpolated between them, if
-// that errs much less on unseen positions than boundaries do (a stiffness that changes gradually),
-// unless boundaries alone explain what was pressed.
+// For a map only. Regions with boundaries suit a stiffness that jumps; where it changes gradually,
+// a modulus at each position with interpolation between them predicts unseen positions better.
+// Takes the latter where its unseen error is much smaller, unless boundaries already leave the
+// pressed positions noise alone.
 void prefer_sites(Candidate& candidate, const Baseline& baseline, const TrialGround& ground,
                   const Folds& folds);
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,

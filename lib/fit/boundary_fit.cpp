@@ -13,14 +13,14 @@
 #include "fit/boundary_error.h"
 #include "fit/boundary_graph.h"
 #include "imaging/field_contacts.h"
+#include "model/body_parameters.h"
 #include "model/model_edit.h"
 #include "regions/region_map.h"
-#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
 
-using Plan = Eigen::Vector2d;
+using PlanPoint = Eigen::Vector2d;
 
 constexpr int kScanPoints = 20000;
 constexpr std::size_t kKept = 24;  // meshes, some 40 MB each
@@ -195,7 +195,7 @@ class BoundaryProblem {
 std::vector<BoundaryLine> boundaries_of(const Model& model, const TetMesh& mesh,
                                         double tool_radius) {
   const MaterialSpec material = material_of(model);
-  const PlaneClassifier classify = [&](const Plan& p) {
+  const PlaneClassifier classify = [&](const PlanPoint& p) {
     return region_at(material, {p.x(), p.y(), 0});
   };
   auto lines = region_boundaries(classify, {}, mesh, kScanPoints);
@@ -217,7 +217,7 @@ BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, co
   const std::vector<BoundaryLine> before = result.lines;
   for (int round = 0; round < options.rounds && !result.fitted.stopped; ++round) {
     const MaterialSpec material = material_of(result.fitted.model);
-    const PlaneClassifier classify = [&](const Plan& p) {
+    const PlaneClassifier classify = [&](const PlanPoint& p) {
       return region_at(material, {p.x(), p.y(), 0});
     };
     const BoundaryGraph graph(result.lines, classify, options.key_points, 4 * tool_radius);
@@ -241,7 +241,8 @@ BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, co
     Model moved = problem.with_moduli(result.fitted.model, solution.x);
     std::erase_if(moved.parameters, is_of_map);
     place_key_points(
-        moved, [&](const Plan& p) { return graph.region(p, shift); }, lines, options.key_points);
+        moved, [&](const PlanPoint& p) { return graph.region(p, shift); }, lines,
+        options.key_points);
     Fit fitted = fit(moved, experiment, all_episodes(dataset), options.fit);
     const auto tell_errors = [&](const std::vector<BoundaryLine>& where) {
       result.error.clear();
@@ -264,7 +265,7 @@ BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, co
     result.better = true;
     result.moved.clear();
     for (const BoundaryLine& line : lines)
-      for (const Plan& p : line.points) result.moved.push_back(distance_to(before, p));
+      for (const PlanPoint& p : line.points) result.moved.push_back(distance_to(before, p));
     tell_errors(lines);
   }
   return result;

@@ -7,9 +7,9 @@
 namespace hapsim {
 namespace {
 
-using Plan = Eigen::Vector2d;
+using PlanPoint = Eigen::Vector2d;
 
-Plan left_of(const Plan& along) {
+PlanPoint left_of(const PlanPoint& along) {
   return {-along.y(), along.x()};
 }
 
@@ -25,7 +25,7 @@ struct BoundaryGraph::Foot {
 BoundaryGraph::BoundaryGraph(const std::vector<BoundaryLine>& lines,
                              const PlaneClassifier& classify, int keys, double join) {
   for (const BoundaryLine& boundary : lines) {
-    std::vector<Plan> points = key_points(boundary, keys);
+    std::vector<PlanPoint> points = key_points(boundary, keys);
     Line line;
     line.closed = (points.front() - points.back()).norm() < 1e-9;
     if (line.closed) points.pop_back();
@@ -35,9 +35,9 @@ BoundaryGraph::BoundaryGraph(const std::vector<BoundaryLine>& lines,
     const std::size_t n = line.count;
     int votes = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const Plan& before = line.closed ? points[(i + n - 1) % n] : points[i == 0 ? 0 : i - 1];
-      const Plan& after = line.closed ? points[(i + 1) % n] : points[std::min(i + 1, n - 1)];
-      const Plan normal = left_of(after - before).normalized();
+      const PlanPoint& before = line.closed ? points[(i + n - 1) % n] : points[i == 0 ? 0 : i - 1];
+      const PlanPoint& after = line.closed ? points[(i + 1) % n] : points[std::min(i + 1, n - 1)];
+      const PlanPoint normal = left_of(after - before).normalized();
       const double off = 0.25 * length(boundary) / (keys - 1);
       const int left = classify(points[i] + off * normal);
       const int right = classify(points[i] - off * normal);
@@ -54,38 +54,38 @@ BoundaryGraph::BoundaryGraph(const std::vector<BoundaryLine>& lines,
     for (int end = 0; end < 2; ++end)
       for (const Line& other : line_) {
         if (&one == &other || other.closed) continue;
-        const Plan& here = point_[one.first + (end == 0 ? 0 : one.count - 1)];
+        const PlanPoint& here = point_[one.first + (end == 0 ? 0 : one.count - 1)];
         for (const std::size_t there : {other.first, other.first + other.count - 1})
           if ((point_[there] - here).norm() < join) one.goes_on[end] = false;
       }
 }
 
-BoundaryGraph::Foot BoundaryGraph::foot_on(const Line& line, const Plan& p) const {
+BoundaryGraph::Foot BoundaryGraph::foot_on(const Line& line, const PlanPoint& p) const {
   Foot best;
   const std::size_t segments = line.closed ? line.count : line.count - 1;
   for (std::size_t j = 0; j < segments; ++j) {
     const std::size_t from = line.first + j, to = line.first + (j + 1) % line.count;
-    const Plan along = point_[to] - point_[from];
+    const PlanPoint along = point_[to] - point_[from];
     const double way = (p - point_[from]).dot(along) / std::max(along.squaredNorm(), 1e-300);
     const bool open_start = !line.closed && j == 0 && line.goes_on[0];
     const bool open_end = !line.closed && j + 1 == segments && line.goes_on[1];
     const double low = open_start ? -std::numeric_limits<double>::infinity() : 0;
     const double high = open_end ? std::numeric_limits<double>::infinity() : 1;
     const double foot = std::clamp(way, low, high);
-    const Plan off = p - (point_[from] + foot * along);
+    const PlanPoint off = p - (point_[from] + foot * along);
     if (off.norm() >= best.size) continue;
     best.size = off.norm();
     best.key[0] = from;
     best.key[1] = to;
     best.way = std::clamp(way, 0.0, 1.0);
     // At a corner the normal of the key point says which side it is.
-    const Plan side = foot == way ? left_of(along) : normal_[way < foot ? from : to];
+    const PlanPoint side = foot == way ? left_of(along) : normal_[way < foot ? from : to];
     best.distance = off.dot(side) < 0 ? -best.size : best.size;
   }
   return best;
 }
 
-BoundaryGraph::Blend BoundaryGraph::at(const Plan& p, const Eigen::VectorXd& shift,
+BoundaryGraph::Blend BoundaryGraph::at(const PlanPoint& p, const Eigen::VectorXd& shift,
                                        double width) const {
   const Line* nearest = nullptr;
   Foot foot;
@@ -111,7 +111,7 @@ BoundaryGraph::Blend BoundaryGraph::at(const Plan& p, const Eigen::VectorXd& shi
   return blend;
 }
 
-int BoundaryGraph::region(const Plan& p, const Eigen::VectorXd& shift) const {
+int BoundaryGraph::region(const PlanPoint& p, const Eigen::VectorXd& shift) const {
   const Blend blend = at(p, shift, 1e-9);
   return blend.share > 0.5 ? blend.left : blend.right;
 }

@@ -49,24 +49,27 @@ struct FusionReport {
   std::array<double, 2> band() const;
 };
 
-// A Kalman filter with the fast force as its input (thesis 4.4 with what is printed wrong put
-// right): the rate's magnitude counts; with it the walk of b falls and the noise of the slow source
-// grows, so the fast source gains weight in fast motion; variances, not densities; Joseph's update;
-// slow forces are put in at their own time. At a new contact b is zero, for there is no force yet,
-// and g and c stay. The noise also has what half a sample of time makes in the fast force. The size
-// of a component's variances, which changes nothing that is given out, follows the differences
-// seen, one a factor 2 of the rate: of the sample's own, or of the mean rate since the newest slow
-// force that was there when it was given out, if that is larger, since what has been forecast since
-// then is what may be wrong. Its logarithm goes up by kScaleStep times what their normalised square
-// is above one, which brings the mean of that to one on any motion; what is seen at one rate counts
-// for its neighbours nearly as much.
+// A Kalman filter whose input is the fast force (thesis 4.4, its errata put right).
 //
-// What the filter adds to the fast force is forecast over the slow source's lateness, and may be
-// worse than nothing where that is long beside the motion. So it is let in by a share, one a factor
-// 2 of the rate: the one by which what was added and had been missing, as the slow forces then
-// told, agree best in the mean square (Bates and Granger, Operational Research Quarterly 20, 1969),
-// from a half at the start. step() and observe() allocate nothing and lock
-// nothing.
+// Weights. The magnitude of the tool's rate decides: the faster the motion, the less b may walk and
+// the noisier the slow source counts, so the fast source gains weight. The noise includes what half
+// a sample of time makes in the fast force. Slow forces are put in at their own time, by Joseph's
+// form of the update. A new contact begins with b = 0, because there is no force yet; g and c stay.
+//
+// Size of the variances. It changes no force, only the stated uncertainty. Each component has one
+// scale a band of rates (a factor 2 wide). A band is chosen by the sample's rate, or by the mean
+// rate since the newest slow force known at that time, whichever is larger: what was forecast since
+// then is what may be wrong. After each slow force the scale's logarithm rises by kScaleStep times
+// the excess of the normalised squared difference over one, so that its mean becomes one on any
+// motion. Neighbouring bands learn nearly as much.
+//
+// Share. The correction is a forecast over the slow source's lateness, and may be worse than
+// nothing where that is long beside the motion. Therefore only a share of it is added, one a band
+// of rates, a half at first: the share by which the corrections agree best, in the mean square,
+// with what the slow forces later showed to have been missing (Bates and Granger, Operational
+// Research Quarterly 20, 1969).
+//
+// step() and observe() allocate nothing and lock nothing.
 class Fusion {
  public:
   static constexpr double kScaleStep = 0.2;

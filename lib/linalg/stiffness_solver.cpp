@@ -53,11 +53,11 @@ bool StiffnessSolver::factorise(const SymmetricSparse& matrix) {
 Eigen::MatrixXd StiffnessSolver::solve(const Eigen::MatrixXd& b) const {
   if (direct_) return direct_->solve(b);
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(b.rows(), b.cols());
-  report_ = iterative_->solve(b, x, kResidual);
-  if (!report_.converged)
+  const IterationReport report = iterative_->solve(b, x, kResidual);
+  if (!report.converged)
     fail_numerics("",
                   fmt::format("conjugate gradients stopped after {} steps at a residual of {:.1g}",
-                              report_.iterations, report_.residual),
+                              report.iterations, report.residual),
                   "use the direct solver, or a mesh of better elements");
   return x;
 }

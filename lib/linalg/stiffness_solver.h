@@ -35,13 +35,9 @@ class StiffnessSolver {
   // A X = B. Error(kNoConvergence) when the iteration stops above a relative residual of 2e-9.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
 
-  int iterations() const { return report_.iterations; }  // of the last solution; 0: direct
-  double residual() const { return report_.residual; }
-
  private:
   std::unique_ptr<SparseCholesky> direct_;
   std::unique_ptr<ConjugateGradients> iterative_;
-  mutable IterationReport report_;
 };
 
 }  // namespace hapsim

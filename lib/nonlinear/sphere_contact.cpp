@@ -23,7 +23,6 @@ struct SphereContact::Impl {
   VectorXd moment;  // integral of each hat times r^2 about the axis
   MatrixXd fields;  // displacements of unit pressure on each hat
   MatrixXd compliance;
-  mutable VectorXd field;
 
   Impl(const BodyModel& model, const std::vector<std::uint8_t>& held, const Vec3& at,
        const Vec3& outward, double reach)
@@ -128,17 +127,13 @@ int SphereContact::hats() const {
   return static_cast<int>(impl_->surface.area.size());
 }
 
-VectorXd SphereContact::field() const {
-  return impl_->field;
-}
-
-SpherePress SphereContact::press(double radius, double depth) const {
-  const Impl& c = *impl_;
+SpherePress SphereContact::press(double radius, double depth) {
+  Impl& c = *impl_;
   VectorXd gap, by_radius, pressure;
   c.gaps(radius, gap, by_radius);
   const std::vector<Index> active = c.active_set(gap - depth * c.surface.area, pressure);
   SpherePress result;
-  c.field = c.fields * pressure;
+  result.field = c.fields * pressure;
   result.force = c.surface.area.dot(pressure);
   // Pressures by depth on the same active set; they carry every other derivative.
   VectorXd by_depth = VectorXd::Zero(pressure.size());
@@ -152,7 +147,7 @@ SpherePress SphereContact::press(double radius, double depth) const {
   if (result.force > 0)
     result.contact_radius = std::sqrt(2.5 * c.moment.dot(pressure) / result.force);
   // d force / dc = (d field / d depth)' dK/dc field.
-  impl_->assembly.set_state(c.field);
+  c.assembly.set_state(result.field);
   for (const MatrixXd& d : c.assembly.derivatives(c.fields * by_depth, false).constants)
     result.by_constants.push_back(d.row(0).transpose());
   return result;

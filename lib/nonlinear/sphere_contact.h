@@ -18,6 +18,7 @@ struct SpherePress {
                               // by about 0.18 (h/a)^2 for edges h at the contact's border
   bool fits = true;           // false: the contact reaches the rim of the prepared surface
   std::vector<Eigen::VectorXd> by_constants;  // by law: d force / d its constants
+  Eigen::VectorXd field;                      // the body's displacements (3 nodes) [m]
 };
 
 // The surface about the contact carries pressures that are linear on its triangles (hats on corner
@@ -42,10 +43,9 @@ class SphereContact {
   int hats() const;
   // The tip of `radius` with its lowest point `depth` below `point` along the normal [m]; force
   // zero for depth <= 0. The tip's profile is the sphere's own, radius - sqrt(radius^2 - r^2).
-  // Error(kNoConvergence) when the active set does not settle.
-  SpherePress press(double radius, double depth) const;
-  // The body's displacements of the last press (3 nodes) [m].
-  Eigen::VectorXd field() const;
+  // Error(kNoConvergence) when the active set does not settle. Not const: the elements' state
+  // serves it as scratch.
+  SpherePress press(double radius, double depth);
 
  private:
   struct Impl;

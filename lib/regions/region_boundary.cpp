@@ -8,7 +8,7 @@
 namespace hapsim {
 namespace {
 
-using Plan = Eigen::Vector2d;
+using PlanPoint = Eigen::Vector2d;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kAngles = 24, kOffsets = 16;  // of the straight lines tried
@@ -25,9 +25,9 @@ constexpr double kMixing = 0.2;
 // Signed distance [m] from a boundary through `middle`: shape = angle of the normal, offset along
 // it [m] and, of a bent one, curvature [1/m]. A round one has centre and radius [m].
 enum class Shape { kStraight, kBent, kRound };
-double distance_from(Shape kind, const Eigen::VectorXd& shape, const Plan& p) {
+double distance_from(Shape kind, const Eigen::VectorXd& shape, const PlanPoint& p) {
   if (kind == Shape::kRound) return shape[2] - (p - shape.head<2>()).norm();
-  const Plan normal(std::cos(shape[0]), std::sin(shape[0]));
+  const PlanPoint normal(std::cos(shape[0]), std::sin(shape[0]));
   const double along = normal.x() * p.y() - normal.y() * p.x();
   const double bend = kind == Shape::kBent ? 0.5 * shape[2] * along * along : 0;
   return normal.dot(p) - shape[1] - bend;
@@ -60,9 +60,10 @@ class Search {
     Found best;
     for (int a = 0; a < kAngles; ++a)
       for (int k = 0; k < kOffsets; ++k)
-        keep_better(best, fitted(Shape::kStraight,
-                                 Plan(kPi * a / kAngles, reach_ * ((2.0 * k + 1) / kOffsets - 1))));
-    return refined(best, Plan(kPi / kAngles, reach_ / kOffsets));
+        keep_better(best,
+                    fitted(Shape::kStraight,
+                           PlanPoint(kPi * a / kAngles, reach_ * ((2.0 * k + 1) / kOffsets - 1))));
+    return refined(best, PlanPoint(kPi / kAngles, reach_ / kOffsets));
   }
   // From the straight one on, to both sides.
   Found bent(const Found& line) const {
@@ -77,7 +78,7 @@ class Search {
     Found best;
     for (const LocationSample& s : samples_)
       for (const double radius : {0.15, 0.3, 0.5}) {
-        const Plan centre = s.point.head<2>() - middle_;
+        const PlanPoint centre = s.point.head<2>() - middle_;
         keep_better(
             best, fitted(Shape::kRound, Eigen::Vector3d(centre.x(), centre.y(), radius * reach_)));
       }
@@ -89,7 +90,7 @@ class Search {
     const bool rises = found.log_gain[1] >= found.log_gain[0];
     boundary.log_gain[0] = found.log_gain[rises ? 0 : 1];
     boundary.log_gain[1] = found.log_gain[rises ? 1 : 0];
-    boundary.side = [found, rises, middle = middle_](const Plan& p) {
+    boundary.side = [found, rises, middle = middle_](const PlanPoint& p) {
       return static_cast<int>((distance_from(found.kind, found.shape, p - middle) > 0) == rises);
     };
     boundary.criterion = found.squares + static_cast<double>(2 + found.shape.size()) *
@@ -160,9 +161,9 @@ class Search {
   const std::vector<LocationSample>& samples_;
   const std::vector<std::vector<float>>& share_;
   double step_, reach_ = 0;  // [m]: of the grid, and the samples' extent
-  Plan middle_ = Plan::Zero();
+  PlanPoint middle_ = PlanPoint::Zero();
   std::vector<std::size_t> cell_;  // that any sample feels
-  std::vector<Plan> place_;        // their centres, from the middle
+  std::vector<PlanPoint> place_;   // their centres, from the middle
 };
 
 }  // namespace

@@ -13,9 +13,9 @@
 namespace hapsim {
 namespace {
 
-using Plan = Eigen::Vector2d;
+using PlanPoint = Eigen::Vector2d;
 
-Plan plan_of(const Vec3& p) {
+PlanPoint plan_of(const Vec3& p) {
   return p.head<2>();
 }
 
@@ -23,7 +23,7 @@ Plan plan_of(const Vec3& p) {
 class Shadow {
  public:
   explicit Shadow(const TetMesh& body) {
-    low_ = Plan::Constant(std::numeric_limits<double>::infinity());
+    low_ = PlanPoint::Constant(std::numeric_limits<double>::infinity());
     high_ = -low_;
     for (const Vec3& node : body.nodes) {
       low_ = low_.cwiseMin(plan_of(node));
@@ -35,12 +35,12 @@ class Shadow {
       cover(plan_of(body.nodes[face[0]]), plan_of(body.nodes[face[1]]),
             plan_of(body.nodes[face[2]]));
   }
-  bool over(const Plan& p) const {
+  bool over(const PlanPoint& p) const {
     const int i = column(p.x()), j = row(p.y());
     return covered_[static_cast<std::size_t>(j * kCells + i)] != 0;
   }
-  const Plan& low() const { return low_; }
-  const Plan& high() const { return high_; }
+  const PlanPoint& low() const { return low_; }
+  const PlanPoint& high() const { return high_; }
 
  private:
   static constexpr int kCells = 256;
@@ -49,23 +49,23 @@ class Shadow {
   int row(double y) const { return cell_of((y - low_.y()) / cell_.y()); }
   static int cell_of(double v) { return std::clamp(static_cast<int>(v), 0, kCells - 1); }
 
-  void cover(const Plan& a, const Plan& b, const Plan& c) {
-    const auto side = [](const Plan& p, const Plan& q, const Plan& r) {
+  void cover(const PlanPoint& a, const PlanPoint& b, const PlanPoint& c) {
+    const auto side = [](const PlanPoint& p, const PlanPoint& q, const PlanPoint& r) {
       return (q.x() - p.x()) * (r.y() - p.y()) - (q.y() - p.y()) * (r.x() - p.x());
     };
     const double area = side(a, b, c);
     if (area == 0) return;
-    const Plan least = a.cwiseMin(b).cwiseMin(c), most = a.cwiseMax(b).cwiseMax(c);
+    const PlanPoint least = a.cwiseMin(b).cwiseMin(c), most = a.cwiseMax(b).cwiseMax(c);
     for (int j = row(least.y()); j <= row(most.y()); ++j)
       for (int i = column(least.x()); i <= column(most.x()); ++i) {
-        const Plan p = low_ + Plan((i + 0.5) * cell_.x(), (j + 0.5) * cell_.y());
+        const PlanPoint p = low_ + PlanPoint((i + 0.5) * cell_.x(), (j + 0.5) * cell_.y());
         const bool in =
             side(a, b, p) / area >= 0 && side(b, c, p) / area >= 0 && side(c, a, p) / area >= 0;
         if (in) covered_[static_cast<std::size_t>(j * kCells + i)] = 1;
       }
   }
 
-  Plan low_, high_, cell_;
+  PlanPoint low_, high_, cell_;
   std::vector<char> covered_;
 };
 
@@ -77,13 +77,13 @@ PlaneClassifier region_classifier(const LocationTable& table, const std::vector<
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     points.row(i) = plan_of(table.point[i]).transpose();
   if (rule == RegionRule::kNearest)
-    return [points, label](const Plan& p) {
+    return [points, label](const PlanPoint& p) {
       Eigen::Index nearest = 0;
       (points.rowwise() - p.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
       return label[static_cast<std::size_t>(nearest)];
     };
   const auto qda = std::make_shared<Qda>(choose_qda(points, label, regions));
-  return [qda](const Plan& p) { return qda->classify(p); };
+  return [qda](const PlanPoint& p) { return qda->classify(p); };
 }
 
 int contradicted(const PlaneClassifier& classify, const LocationTable& table,
@@ -99,18 +99,18 @@ std::vector<BoundaryLine> region_boundaries(const PlaneClassifier& classify,
                                             const std::optional<TetMesh>& body, int scan_points) {
   if (body) {
     const Shadow shadow(*body);
-    return class_boundaries([&](const Plan& p) { return shadow.over(p) ? classify(p) : -1; },
+    return class_boundaries([&](const PlanPoint& p) { return shadow.over(p) ? classify(p) : -1; },
                             shadow.low(), shadow.high(), scan_points);
   }
-  Plan low = plan_of(table.point.front()), high = low;
+  PlanPoint low = plan_of(table.point.front()), high = low;
   for (const Vec3& p : table.point) {
     low = low.cwiseMin(plan_of(p));
     high = high.cwiseMax(plan_of(p));
   }
-  const Plan size = high - low;
+  const PlanPoint size = high - low;
   const double n = static_cast<double>(table.size());
   const double spacing = std::max(std::sqrt(size.x() * size.y() / n), size.maxCoeff() / n);
-  const Plan margin = Plan::Constant(0.5 * spacing);
+  const PlanPoint margin = PlanPoint::Constant(0.5 * spacing);
   return class_boundaries(classify, low - margin, high + margin, scan_points);
 }
 
@@ -138,11 +138,12 @@ void place_key_points(Model& model, const PlaneClassifier& classify,
                       const std::vector<BoundaryLine>& lines, int keys) {
   KeyPoints key(model);
   for (const BoundaryLine& line : lines) {
-    const std::vector<Plan> points = key_points(line, keys);
+    const std::vector<PlanPoint> points = key_points(line, keys);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Plan along = points[std::min(i + 1, points.size() - 1)] - points[i == 0 ? 0 : i - 1];
+      const PlanPoint along =
+          points[std::min(i + 1, points.size() - 1)] - points[i == 0 ? 0 : i - 1];
       if (along.norm() <= 0) continue;
-      const Plan across = Plan(-along.y(), along.x()).normalized();
+      const PlanPoint across = PlanPoint(-along.y(), along.x()).normalized();
       // As near as the classes on both sides are still these two.
       double off = 0.25 * length(line) / (keys - 1);
       for (int attempt = 0; attempt < 6; ++attempt, off /= 2) {

@@ -38,7 +38,7 @@ PointCloud read_positions(Input& input, double unit) {
 }
 
 void write_plan(std::ostream& out, const Robot& robot, const std::vector<Target>& targets,
-                const Plan& plan, double standoff) {
+                const ScanPlan& plan, double standoff) {
   Metadata metadata;
   metadata.set("robot", robot.name());
   metadata.set("tip", robot.tip());

@@ -19,6 +19,6 @@ PointCloud read_positions(Input& input, double unit);
 
 // CSV q1..qN,d,x,y,z,nx,ny,nz, a row a pose; it can be read again as a robot's scan.
 void write_plan(std::ostream& out, const Robot& robot, const std::vector<Target>& targets,
-                const Plan& plan, double standoff);
+                const ScanPlan& plan, double standoff);
 
 }  // namespace hapsim

@@ -67,11 +67,11 @@ std::vector<Target> raster_on_grid(const Region& region, double pitch, double he
   return targets;
 }
 
-Plan plan_scan(const Robot& robot, const Beam& beam, double standoff,
-               const std::vector<Target>& targets) {
+ScanPlan plan_scan(const Robot& robot, const Beam& beam, double standoff,
+                   const std::vector<Target>& targets) {
   constexpr int kRolls = 8;
   const Pose from_sensor = beam.mount.inverse();
-  Plan plan;
+  ScanPlan plan;
   Eigen::VectorXd now = robot.middle();
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const Vec3 direction = -targets[t].normal;

@@ -16,7 +16,7 @@ struct Target {
   Vec3 normal;  // outward, unit: the beam comes against it
 };
 
-// Plan view x0, y0, x1, y1 in the object's frame [m].
+// ScanPlan view x0, y0, x1, y1 in the object's frame [m].
 using Region = std::array<double, 4>;
 
 // Places on a known surface, given by points with normals: one a cubic cell of `pitch` [m] (the
@@ -33,7 +33,7 @@ struct PlannedPose {
   Eigen::VectorXd q;
 };
 
-struct Plan {
+struct ScanPlan {
   std::vector<PlannedPose> poses;
   std::vector<int> unreachable;  // targets
 };
@@ -42,8 +42,8 @@ struct Plan {
 // its normal, beam against the normal. The turn about the beam is free: the one that moves the
 // joints least from the pose before is taken, of every 45 degrees. Neither collisions nor the way
 // between poses are checked.
-Plan plan_scan(const Robot& robot, const Beam& beam, double standoff,
-               const std::vector<Target>& targets);
+ScanPlan plan_scan(const Robot& robot, const Beam& beam, double standoff,
+                   const std::vector<Target>& targets);
 
 // Evenly spread points (about `spacing` [m]) with normals on the faces of a surface.
 PointCloud sample_surface(const Surface& surface, double spacing);

@@ -98,7 +98,7 @@ TEST(ContactLaw, TipIsTheSphereOnABlock) {
   mesh = to_second_order(mesh);
   BodyModel model{&mesh, {isotropic_law(1, nu)}};
   model.dilatation = Dilatation::kElement;
-  const SphereContact sphere(model, mesh.fixed, Vec3::Zero(), Vec3::UnitZ(), 1.25);
+  SphereContact sphere(model, mesh.fixed, Vec3::Zero(), Vec3::UnitZ(), 1.25);
   const double half_space = 4.0 / 3 / (1 - nu * nu);
   for (const double share : {0.25, 0.5, 1.0}) {
     const double depth = share * kRadius * kRadius / R;

@@ -57,7 +57,7 @@ void judge_sphere(const char* what, double depth_of_body, double nu, double R,
   std::vector<Eigen::VectorXd> forces;
   for (const double rim : kRims) {
     const TetMesh mesh = test::half_space(rim, kFar, depth_of_body).mesh;
-    const SphereContact sphere(body_of(mesh, nu), mesh.fixed, Vec3::Zero(), Vec3::UnitZ(), 1.5);
+    SphereContact sphere(body_of(mesh, nu), mesh.fixed, Vec3::Zero(), Vec3::UnitZ(), 1.5);
     forces.emplace_back(depths.size());
     for (std::size_t k = 0; k < depths.size(); ++k)
       forces.back()[static_cast<Eigen::Index>(k)] = sphere.press(R, depths[k]).force / known[k];

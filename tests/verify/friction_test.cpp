@@ -64,7 +64,7 @@ TEST(TipFriction, WithoutFrictionItIsTheSphereContact) {
   Pressed p(coarse(), law, 0);
   BodyModel model{&coarse(), {law}};
   model.dilatation = Dilatation::kElement;
-  const SphereContact sphere(model, coarse().fixed, Vec3::Zero(), Vec3::UnitZ(), 1.7);
+  SphereContact sphere(model, coarse().fixed, Vec3::Zero(), Vec3::UnitZ(), 1.7);
   for (const double depth : {0.02, 0.05, 0.03, -0.01}) {
     p.to({0.01, 0, -depth});
     const double expected = sphere.press(kRadius, depth).force;

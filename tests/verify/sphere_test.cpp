@@ -90,7 +90,7 @@ TEST(Sphere, IsDimitriadisOnABondedLayer) {
 TEST(Sphere, DerivativesAreTheDifferences) {
   const Prepared p(10, 10, 0.4, 8, 4);
   const double R = 5, depth = 0.2, nu = 0.4;
-  const SphereContact contact = p.on(nu, 1);
+  SphereContact contact = p.on(nu, 1);
   const SpherePress s = contact.press(R, depth);
   const double h = 1e-6;
   const double by_depth =

@@ -53,7 +53,7 @@ TEST(PlanScan, EveryPlannedBeamHitsItsTarget) {
   const Beam beam = scanner();
   const auto targets = raster_on_surface(coarse_phantom(), 0.012, {}, 1.2);
   ASSERT_GT(targets.size(), 50u);
-  const Plan plan = plan_scan(robot, beam, 0.1, targets);
+  const ScanPlan plan = plan_scan(robot, beam, 0.1, targets);
   EXPECT_TRUE(plan.unreachable.empty()) << plan.unreachable.size() << " of " << targets.size();
   Eigen::Matrix4d mount = beam.mount.matrix(), object = beam.object.matrix();
   for (const PlannedPose& pose : plan.poses) {
@@ -69,7 +69,7 @@ TEST(PlanScan, ARasterDrivenWithNoiseGivesThePhantomBack) {
   const Robot robot(test::arm_urdf(), "arm.urdf", "", "");
   const Beam beam = scanner();
   const auto targets = raster_on_surface(coarse_phantom(), 0.004, {}, 1.45);
-  const Plan plan = plan_scan(robot, beam, 0.1, targets);
+  const ScanPlan plan = plan_scan(robot, beam, 0.1, targets);
   EXPECT_LT(plan.unreachable.size(), targets.size() / 100);
 
   // Driven: the joints stand 0.1 mrad off what the encoders say, the laser has 0.1 mm of noise.
@@ -126,7 +126,7 @@ TEST(PlanScan, NamesWhatIsOutOfReach) {
   const Robot robot(test::arm_urdf(), "arm.urdf", "", "");
   const auto targets = raster_on_grid({0.5, -0.2, 1.5, 0.2}, 0.1, 0.05);
   EXPECT_EQ(targets.size(), 55u);
-  const Plan plan = plan_scan(robot, {}, 0.1, targets);
+  const ScanPlan plan = plan_scan(robot, {}, 0.1, targets);
   EXPECT_EQ(plan.poses.size() + plan.unreachable.size(), targets.size());
   for (const int t : plan.unreachable)
     EXPECT_GT(targets[static_cast<std::size_t>(t)].point.x(), 0.6);
