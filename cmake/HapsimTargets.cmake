@@ -60,10 +60,16 @@ function(hapsim_layer name)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 endfunction()
 
-# hapsim_tool(<name> USES layer ...): a command in tools/<name>.cpp, installed with its man page.
+# hapsim_tool(<name> USES layer ...): a command in tools/<name>.cpp, or of a folder of that name,
+# installed with its man page.
 function(hapsim_tool name)
   cmake_parse_arguments(arg "" "" "USES" ${ARGN})
-  add_executable(${name} ${PROJECT_SOURCE_DIR}/tools/${name}.cpp)
+  set(source ${PROJECT_SOURCE_DIR}/tools/${name}.cpp)
+  if(NOT EXISTS ${source})
+    set(source ${PROJECT_SOURCE_DIR}/tools/${name}/${name}.cpp)
+  endif()
+  add_executable(${name} ${source})
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tools)
   list(TRANSFORM arg_USES PREPEND hapsim_)
   target_link_libraries(${name} PRIVATE hapsim_cli ${arg_USES})
   hapsim_flags(${name})

@@ -8,17 +8,9 @@
 namespace hapsim {
 
 const std::vector<const Effect*>& catalogue() {
-  static const std::vector<const Effect*> effects{
-      &backlash_effect(),     &elastic_effect(),      &regions_effect(),
-      &layer_effect(),        &inclusion_effect(),    &anisotropic_effect(),
-      &hyperelastic_effect(), &temperature_effect(),  &softening_effect(),
-      &viscoelastic_effect(), &damper_effect(),       &base_effect(),
-      &shift_effect(),        &tip_effect(),          &slack_effect(),
-      &friction_effect(),     &adhesion_effect(),     &sensor_rotation_effect(),
-      &sensor_gain_effect(),  &sensor_curve_effect(), &sensor_lag_effect(),
-      &sensor_bias_effect(),  &sensor_drift_effect(), &deadband_effect(),
-      &tare_effect(),
-  };
+#define HAPSIM_ADDRESS_OF_EFFECT(name) &name##_effect(),
+  static const std::vector<const Effect*> effects{HAPSIM_EFFECTS(HAPSIM_ADDRESS_OF_EFFECT)};
+#undef HAPSIM_ADDRESS_OF_EFFECT
   return effects;
 }
 

@@ -49,19 +49,19 @@ struct EffectCard {
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
   bool one_body = false;       // its parameters are of one body's shape or place
   bool one_tool = false;       // its parameters are of one tool
-  bool per_press = false;  // a set of parameters a press, solved for exactly in every fit
-  bool solved = false;    // finite elements are solved for its parameters (add_feature())
-  double form_error = 0;  // share of the force that it changes by which its law may err
-  bool local = false;     // may act at few positions only, of which the others tell nothing
-  bool like_shape = false;      // a wrong shape of the body looks like it
-  bool is_map = false;          // a map over the body, made from what each place asks for
+  bool per_press = false;      // a set of parameters a press, solved for exactly in every fit
+  bool solved = false;         // finite elements are solved for its parameters (add_feature())
+  double form_error = 0;       // share of the force that it changes by which its law may err
+  bool local = false;          // may act at few positions only, of which the others tell nothing
+  bool like_shape = false;     // a wrong shape of the body looks like it
+  bool is_map = false;         // a map over the body, made from what each place asks for
   // The body itself, which every model has and which is neither tried nor removed: its parameters
   // that are Young's modulus (a row a region) and Poisson's ratio.
   std::string modulus, poissons_ratio;
   bool maxwell = false;     // terms of a modulus and a relaxation time: Maxwell elements
   bool moves_body = false;  // says where the body lies
-  double most_bend = 0;  // a sensor bends by no more of its range off a straight line; 0: any does
-  std::string signature;        // what its absence looks like in the residuals
+  double most_bend = 0;   // a sensor bends by no more of its range off a straight line; 0: any does
+  std::string signature;  // what its absence looks like in the residuals
   std::vector<std::string> confounders;
   std::string separated_by;           // the measurement that tells it from them
   std::vector<std::string> contains;  // effects that this one includes as a special case

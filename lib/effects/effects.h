@@ -1,34 +1,25 @@
-// The effects' single objects; each is defined in the file of its name.
+// Every effect: one line in this list and one file. A test may ask for an effect by its function;
+// nothing else does, for the catalogue has them all.
 #pragma once
 
 #include "effects/effect.h"
 
 namespace hapsim {
 
-const Effect& backlash_effect();
-const Effect& elastic_effect();
-const Effect& regions_effect();
-const Effect& layer_effect();
-const Effect& inclusion_effect();
-const Effect& anisotropic_effect();
-const Effect& base_effect();
-const Effect& shift_effect();
-const Effect& hyperelastic_effect();
-const Effect& temperature_effect();
-const Effect& softening_effect();
-const Effect& viscoelastic_effect();
-const Effect& damper_effect();
-const Effect& tip_effect();
-const Effect& slack_effect();
-const Effect& friction_effect();
-const Effect& adhesion_effect();
-const Effect& sensor_rotation_effect();
-const Effect& sensor_gain_effect();
-const Effect& sensor_curve_effect();
-const Effect& sensor_lag_effect();
-const Effect& sensor_bias_effect();
-const Effect& sensor_drift_effect();
-const Effect& deadband_effect();
-const Effect& tare_effect();
+// In the order in which a force passes through them: motion, body, support, contact, sensor.
+// clang-format off
+#define HAPSIM_EFFECTS(X) \
+  X(backlash) \
+  X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(hyperelastic) X(temperature) \
+  X(softening) X(viscoelastic) X(damper) \
+  X(base) X(shift) \
+  X(tip) X(slack) X(friction) X(adhesion) \
+  X(sensor_rotation) X(sensor_gain) X(sensor_curve) X(sensor_lag) X(sensor_bias) X(sensor_drift) \
+  X(deadband) X(tare)
+// clang-format on
+
+#define HAPSIM_DECLARE_EFFECT(name) const Effect& name##_effect();
+HAPSIM_EFFECTS(HAPSIM_DECLARE_EFFECT)
+#undef HAPSIM_DECLARE_EFFECT
 
 }  // namespace hapsim

@@ -32,15 +32,7 @@ Recording beginning_of_presses(const Recording& recording, double seconds,
       if (keep[row] != 0) column[to++] = column[row];
     column.resize(to);
   };
-  thin(cut.line);
-  thin(cut.press);
-  thin(cut.t);
-  thin(cut.position);
-  thin(cut.u);
-  thin(cut.f);
-  thin(cut.temp);
-  thin(cut.contact);
-  for (auto& column : cut.extra) thin(column);
+  each_column(cut, thin);
   thin(setup_of_row);
   return cut;
 }

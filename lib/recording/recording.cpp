@@ -53,7 +53,8 @@ void write_recording(std::ostream& out, const Recording& r) {
   add(!r.t.empty(), {"t"});
   add(true, {"x", "y", "z", "ux", "uy", "uz"});
   add(!r.f.empty(), {"fx", "fy", "fz"});
-  add(!r.temp.empty(), {"temp"});
+  for (const OptionalColumn& column : kOptionalColumns)
+    add(!(r.*column.values).empty(), {column.name});
   add(!r.contact.empty(), {"contact"});
   header.insert(header.end(), r.extra_header.begin(), r.extra_header.end());
 
@@ -69,7 +70,9 @@ void write_recording(std::ostream& out, const Recording& r) {
     put(r.position[row]);
     put(r.u[row]);
     if (!r.f.empty()) put(r.f[row]);
-    if (!r.temp.empty()) fields[c++] = format_number(r.temp[row]);
+    for (const OptionalColumn& column : kOptionalColumns)
+      if (const auto& values = r.*column.values; !values.empty())
+        fields[c++] = format_number(values[row]);
     if (!r.contact.empty()) fields[c++] = r.contact[row] != 0 ? "1" : "0";
     for (const auto& column : r.extra) fields[c++] = column[row];
     writer.row(fields);

@@ -39,6 +39,28 @@ struct Recording {
   std::vector<Press> presses() const;         // in order of first appearance
 };
 
+// Further measured columns, each of which may be absent: reading, writing, joining and cutting know
+// them by this list alone.
+struct OptionalColumn {
+  const char* name;
+  std::vector<double> Recording::*values;
+};
+inline constexpr OptionalColumn kOptionalColumns[] = {{"temp", &Recording::temp}};
+
+// Calls visit(column) with every vector of one entry a row; columns that are absent are empty.
+template <class Visit>
+void each_column(Recording& r, const Visit& visit) {
+  visit(r.line);
+  visit(r.press);
+  visit(r.t);
+  visit(r.position);
+  visit(r.u);
+  visit(r.f);
+  visit(r.contact);
+  for (const OptionalColumn& column : kOptionalColumns) visit(r.*column.values);
+  for (std::vector<std::string>& column : r.extra) visit(column);
+}
+
 // How many components of the forces were measured: a load cell of one axis leaves zeros in every
 // row of the others, which say nothing of noise or error. At least 1.
 int measured_axes(const std::vector<Vec3>& forces);

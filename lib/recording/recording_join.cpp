@@ -23,9 +23,13 @@ void require_alike(const Recording& first, const Recording& next) {
   };
   if (told(next, "tool", "flat") != told(first, "tool", "flat")) differ("another tool");
   if (told(next, "recovery", "") != told(first, "recovery", "")) differ("another recovery");
-  if (next.t.empty() != first.t.empty() || next.temp.empty() != first.temp.empty() ||
-      next.f.empty() != first.f.empty())
-    differ("other columns (t, temp or forces)");
+  bool alike = next.t.empty() == first.t.empty() && next.f.empty() == first.f.empty();
+  std::string optional;
+  for (const OptionalColumn& column : kOptionalColumns) {
+    alike = alike && (next.*column.values).empty() == (first.*column.values).empty();
+    optional += std::string(", ") + column.name;
+  }
+  if (!alike) differ("other columns (t" + optional + " or forces)");
 }
 
 // The declared noise of all together: none unless each declares one.
@@ -75,7 +79,8 @@ Recording join_recordings(const std::vector<Recording>& recordings) {
     append(all.position, next.position);
     append(all.u, next.u);
     append(all.f, next.f);
-    append(all.temp, next.temp);
+    for (const OptionalColumn& column : kOptionalColumns)
+      append(all.*column.values, next.*column.values);
     append(all.contact, next.contact);
     if (has_contact) all.contact.resize(all.rows(), 1);
   }

@@ -11,9 +11,19 @@
 namespace hapsim {
 namespace {
 
-enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kFx, kFy, kFz, kTemp, kContact, kColumns };
-constexpr std::array<const char*, kColumns> kNames{
-    "press", "t", "x", "y", "z", "ux", "uy", "uz", "fx", "fy", "fz", "temp", "contact"};
+// Those of kOptionalColumns follow.
+enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kFx, kFy, kFz, kContact, kOptional };
+constexpr std::size_t kColumns = kOptional + std::size(kOptionalColumns);
+
+constexpr std::array<const char*, kColumns> names() {
+  std::array<const char*, kColumns> names{"press", "t",  "x",  "y",  "z",  "ux",
+                                          "uy",    "uz", "fx", "fy", "fz", "contact"};
+  for (std::size_t k = kOptional; k < kColumns; ++k)
+    names[k] = kOptionalColumns[k - kOptional].name;
+  return names;
+}
+constexpr std::array<const char*, kColumns> kNames = names();
+
 constexpr double kLargestPosition = 10;     // [m]; beyond it the unit is wrong
 constexpr double kLargestDisplacement = 1;  // [m]
 constexpr double kLargestForce = 1e6;       // [N]
@@ -60,8 +70,7 @@ class RecordingReader {
     const bool any_force = present[kFx] || present[kFy] || present[kFz];
     for (std::size_t k = 0; k < kColumns; ++k) {
       const bool force = k >= kFx && k <= kFz;
-      const bool optional =
-          k == kT || k == kTemp || k == kContact || (force && !need_forces && !any_force);
+      const bool optional = k == kT || k >= kContact || (force && !need_forces && !any_force);
       if (!present[k] && !optional)
         fail_missing_column(recording_.name, kNames[k], header, {kNames.begin(), kNames.end()});
     }
@@ -123,8 +132,9 @@ class RecordingReader {
     r.position.emplace_back(v[kX], v[kY], v[kZ]);
     r.u.emplace_back(v[kUx], v[kUy], v[kUz]);
     if (present_[kFx]) r.f.emplace_back(v[kFx], v[kFy], v[kFz]);
-    if (present_[kTemp]) r.temp.push_back(v[kTemp]);
     if (present_[kContact]) r.contact.push_back(v[kContact] != 0 ? 1 : 0);
+    for (std::size_t k = kOptional; k < kColumns; ++k)
+      if (present_[k]) (r.*kOptionalColumns[k - kOptional].values).push_back(v[k]);
     std::size_t extra = 0;
     for (std::size_t c = 0; c < fields.size() && !r.extra.empty(); ++c)
       if (meaning_[c] == kColumns) r.extra[extra++].emplace_back(fields[c]);

@@ -16,11 +16,11 @@ lib/import/ temperature
 lib/compare/ temperature
 lib/scan/ tip
 tools/hs-reconstruct.cpp base
-tools/hs-scan2ply.cpp shift
+tools/hs-scan2ply/hs-scan2ply.cpp shift
 tools/hs-cluster.cpp regions
-tools/compare_body.h regions
-tools/tetmesh_report.h regions
-tools/simulate_ tip
+tools/hs-compare/body.h regions
+tools/hs-tetmesh/report.h regions
+tools/hs-simulate/ tip
 "
 export literal="\"($(IFS='|'; echo "${names[*]}"))\""
 export call="(^|[^A-Za-z0-9_])($(IFS='|'; echo "${names[*]//-/_}"))_effect\\("

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "compare/error_map.h"
-#include "compare_report.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
 #include "formats/ply.h"
+#include "hs-compare/report.h"
 #include "report/palette.h"
 
 namespace hapsim {

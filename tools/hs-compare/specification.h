@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cli/tool.h"
-#include "compare_follow.h"
 #include "formats/format_table.h"
+#include "hs-compare/follow.h"
 
 namespace hapsim {
 

@@ -9,7 +9,7 @@
 #include "cli/tool.h"
 #include "experiment/experiment.h"
 #include "fit/rest_of_press.h"
-#include "identify_recordings.h"
+#include "hs-identify/recordings.h"
 
 namespace hapsim {
 

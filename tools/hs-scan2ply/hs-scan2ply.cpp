@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "cli/tool.h"
 #include "formats/format_table.h"
+#include "hs-scan2ply/specification.h"
 #include "io/extension.h"
 #include "io/number.h"
 #include "reconstruct/clean_points.h"
@@ -20,7 +21,6 @@
 #include "scan/register.h"
 #include "scan/scan_file.h"
 #include "scan/touch.h"
-#include "scan2ply_specification.h"
 #include "volume/isosurface.h"
 #include "volume/volume.h"
 

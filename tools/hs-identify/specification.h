@@ -3,13 +3,13 @@
 
 #include "common_options.h"
 #include "effects/catalogue.h"
-#include "identify_boundary.h"
-#include "identify_follow.h"
-#include "identify_image.h"
-#include "identify_library.h"
-#include "identify_recordings.h"
-#include "identify_search.h"
-#include "identify_until.h"
+#include "hs-identify/boundary.h"
+#include "hs-identify/follow.h"
+#include "hs-identify/image.h"
+#include "hs-identify/library.h"
+#include "hs-identify/recordings.h"
+#include "hs-identify/search.h"
+#include "hs-identify/until.h"
 
 namespace hapsim {
 

@@ -8,14 +8,14 @@
 #include "base/random.h"
 #include "common_options.h"
 #include "experiment/forces.h"
+#include "hs-simulate/live.h"
+#include "hs-simulate/specification.h"
 #include "io/csv.h"
 #include "model/model_edit.h"
 #include "simulate/field_rows.h"
 #include "simulate/full_simulation.h"
 #include "simulate/own_mesh.h"
 #include "simulate/regional_relaxation.h"
-#include "simulate_live.h"
-#include "simulate_specification.h"
 
 namespace hapsim {
 namespace {

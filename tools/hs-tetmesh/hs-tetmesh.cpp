@@ -9,11 +9,11 @@
 #include "cli/tool.h"
 #include "formats/body_input.h"
 #include "formats/format_table.h"
+#include "hs-tetmesh/report.h"
 #include "recording/recording.h"
 #include "tetmesh/body_mesh.h"
 #include "tetmesh/contact_mesh.h"
 #include "tetmesh/curve_edges.h"
-#include "tetmesh_report.h"
 
 namespace hapsim {
 namespace {

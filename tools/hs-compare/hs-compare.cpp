@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "base/error.h"
-#include "compare_body.h"
-#include "compare_follow.h"
-#include "compare_report.h"
-#include "compare_specification.h"
 #include "formats/body_input.h"
+#include "hs-compare/body.h"
+#include "hs-compare/follow.h"
+#include "hs-compare/report.h"
+#include "hs-compare/specification.h"
 #include "io/quantity.h"
 #include "report/figures.h"
 #include "report/junit.h"

@@ -14,7 +14,7 @@
 #include "experiment/plausible.h"
 #include "fit/extend.h"
 #include "formats/tetmesh_io.h"
-#include "identify_plan.h"
+#include "hs-identify/plan.h"
 #include "recording/recording_join.h"
 
 namespace hapsim {
