@@ -77,9 +77,9 @@ class Pairs {
  public:
   Pairs(const std::string& diagnosed, const std::string& truth, const std::string& path)
       : diagnosed_(body(diagnosed)), truth_(body(truth)), path_(path) {}
-  Pair& of(const Truth& truth) {
-    const auto [it, fresh] = pairs_.try_emplace({truth.open, truth.presses});
-    if (!fresh) return it->second;
+  const Pair& of(const Truth& truth) {
+    const std::pair<bool, int> kind{truth.open, truth.presses};
+    if (const auto known = pairs_.find(kind); known != pairs_.end()) return known->second;
     ExperimentOptions options;
     options.noise = kNoise;
     options.cache = default_cache_directory();
@@ -87,9 +87,9 @@ class Pairs {
     finer.rim_edge = kTrueRim;
     finer.nu_low = finer.nu_high = true_base({}).find("elastic", 0, "nu")->value;
     options.draft = true;  // as hs-diagnose
-    it->second = {make_experiment(truth_, motion(path_, truth), finer),
-                  make_experiment(diagnosed_, motion(path_, truth), options)};
-    return it->second;
+    const Pair pair{make_experiment(truth_, motion(path_, truth), finer),
+                    make_experiment(diagnosed_, motion(path_, truth), options)};
+    return pairs_.emplace(kind, pair).first->second;
   }
 
  private:
@@ -219,7 +219,7 @@ struct Options {
 
 Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const Levels& levels,
           int seed, const Options& options) {
-  Pair& pair = pairs.of(truth);
+  const Pair& pair = pairs.of(truth);
   Trial trial;
   trial.truth = truth.name;
   trial.effects = joined(truth.effects);
@@ -235,25 +235,24 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
     return trial;
   }
   measure(truth.noise, pair.truth, seed, drawn.forces);
-  Experiment& w = pair.diagnosed;
+  Experiment w = pair.diagnosed;
   const Selection everything = all_episodes(w.dataset);
   const std::vector<int> rows = stacked_rows(w.dataset, everything);
   for (std::size_t i = 0; i < rows.size(); ++i)
     w.dataset.recording.f[rows[i]] = drawn.forces.segment<3>(3 * static_cast<Eigen::Index>(i));
+  w.dataset.axes = measured_axes(w.dataset.recording.f);
   if (!options.keep.empty()) {
     Output output(fmt::format("{}/{}-{}.csv", options.keep, truth.name, seed));
     write_recording(output.stream(), w.dataset.recording);
     output.commit();
   }
   const FitOptions fit_options{w.noise.value, w.floor, true};
-  std::vector<Model> starts{elastic_model(w.dataset, everything, *w.body)};
-  for (const std::string& effect : truth.base) {
-    const Model fitted = fit_best(starts, w.dataset, everything, *w.body, fit_options).model;
-    starts = with_effect(fitted, effect, w.dataset, everything, *w.body, {});
-  }
-  const Model model = fit_best(starts, w.dataset, everything, *w.body, fit_options).model;
+  std::vector<Model> starts{elastic_model(w, everything)};
+  for (const std::string& effect : truth.base)
+    starts = with_effect(fit_best(starts, w, everything, fit_options), effect, w, everything, {});
+  const Model model = fit_best(starts, w, everything, fit_options).model;
   const std::clock_t begin = std::clock();  // of the processor: other programs do not count
-  const Diagnosis d = diagnose(model, w, {});
+  const Diagnosis d = diagnose(model, w, w.allowance(), {});
   trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   trial.verdict = verdict_name(d.verdict);
   for (const Finding& finding : d.findings) {
@@ -261,20 +260,22 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
       fmt::print(stderr,
                  "{} {:.2g} {}: {} {}, gain {:.1f}, p {:.3f}, unseen {:.4g} -> {:.4g}; {}\n",
                  truth.name, trial.level, seed, finding.effect, verdict_name(finding.verdict),
-                 finding.criterion_gain, finding.p_value, finding.held_out_now,
-                 finding.held_out_after, finding.evidence);
+                 finding.criterion_gain, finding.p_value, finding.held_out_now.told(),
+                 finding.held_out_after.told(), finding.evidence);
     std::string* list = finding.verdict == Verdict::kMissing             ? &trial.missing
                         : finding.verdict == Verdict::kIndistinguishable ? &trial.rivals
                                                                          : nullptr;
     if (list != nullptr) *list += (list->empty() ? "" : " ") + finding.effect;
   }
-  const double floor = std::hypot(d.noise, d.floor * d.force_rms);
-  trial.now = d.held_out / floor;
-  trial.after = d.held_out_end / floor;
+  const double floor = std::hypot(d.noise, d.floor * d.force_rms.told());
+  trial.now = d.held_out.told() / floor;
+  trial.after = d.held_out_end.told() / floor;
   trial.own_form = truth.model != nullptr;
   if (trial.rivals.empty() && !trial.missing.empty())
-    trial.presses =
-        held_out_of(d.rivals.front(), w, make_press_folds(w.dataset, 6), Map::kAnew).rmse / floor;
+    trial.presses = held_out_of(as_it_is(d.rivals.front(), w), {w, {d.noise, d.floor}},
+                                make_press_folds(w.dataset, 6), Map::kAnew)
+                        .error.told() /
+                    floor;
   if (trial.rivals.empty() && !d.rivals.empty())
     count_sizes(d.rivals.front(), drawn.model, pair.truth, trial);
   return trial;

@@ -382,7 +382,6 @@ Model true_base(const std::vector<std::string>& base) {
 }
 
 Eigen::VectorXd forces_of(const Experiment& w, const Model& model) {
-  w.body->solve(material_of(model));  // exact, not linear about an earlier strength
   return solved_forces(model, w, all_episodes(w.dataset), false).f;
 }
 

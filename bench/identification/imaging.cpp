@@ -2,6 +2,7 @@
 #include <cmath>
 #include <ctime>
 #include <memory>
+#include <optional>
 
 #include "cases.h"
 #include "contact/field_stiffness.h"
@@ -19,9 +20,9 @@ constexpr double kModulus = 1e4, kPoisson = 0.45, kDepth = 3e-3, kRatio = 5, kRa
 struct Setting {
   Vec3 centre;
   Object object;
-  Experiment w;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
+  std::optional<Experiment> undrawn;  // without forces
 };
 
 std::shared_ptr<Setting> make_setting(const std::string& name, double depth,
@@ -50,7 +51,7 @@ std::shared_ptr<Setting> make_setting(const std::string& name, double depth,
   options.cache = out + "/cache";
   options.noise = 0.01 * peak(s->forces);
   options.nu_low = options.nu_high = kPoisson;
-  s->w = make_experiment(s->object.meshed, std::move(r), options);
+  s->undrawn = make_experiment(s->object.meshed, std::move(r), options);
   return s;
 }
 
@@ -60,7 +61,7 @@ double cost_of_gradient(const Setting& s) {
   grid.low = {0.02, 0.02, 0.02};
   grid.step = 0.01;
   grid.count = {10, 10, 5};  // 500
-  FieldBody body(make_contact_base(s.object.meshed), s.w.dataset.positions[24], kToolRadius,
+  FieldBody body(make_contact_base(s.object.meshed), s.undrawn->dataset.positions[24], kToolRadius,
                  kRimEdge * kToolRadius, kGrowth, grid);
   const Eigen::VectorXd field = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size()));
   const auto seconds = [&](bool derivatives) {
@@ -87,20 +88,19 @@ double thread_seconds() {
 
 std::vector<Result> trial(const std::string& name, const Setting& s, bool seen, int draw) {
   const double begin = thread_seconds();
-  Dataset data = s.w.dataset;
-  const double noise = s.w.noise.value;
+  const double noise = s.undrawn->noise.value;
   Random random(static_cast<std::uint64_t>(draw));
-  measure(data.recording, s.presses, s.forces, 0, noise, random);
-  const Selection all = all_episodes(data);
-  Model model = elastic_model(data, all, *s.w.body);
+  const Experiment w = measured(*s.undrawn, s.presses, s.forces, 0, noise, random);
+  const Selection all = all_episodes(w.dataset);
+  Model model = elastic_model(w, all);
   Parameter& nu = *model.find("elastic", 0, "nu");
   nu.value = kPoisson;
   nu.state = ParameterState::kFixed;
-  model = fit(model, data, all, *s.w.body, {noise, s.w.floor, true}).model;
+  const Fit fitted = fit(model, w, all, {noise, w.floor, true});
   ImageOptions options;
   options.threads = 1;
   const StiffnessImage image =
-      stiffness_image(model, data, *s.w.body, s.object.meshed, noise, options);
+      stiffness_image(fitted.model, w, fitted.about, s.object.meshed, options);
   const double none = std::nan("");
   std::vector<Result> results{
       {name, draw, "balls", seen ? 1.0 : 0.0, double(image.found.balls.size()), none, 0.5},

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cases.h"
 #include "fit/extend.h"
@@ -21,10 +22,10 @@ constexpr int kMost = 20;        // positions on a body
 
 // Everything that the draws of one case share.
 struct Setting {
-  Experiment w;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
   double noise = 0;
+  std::optional<Experiment> undrawn;  // without forces
 };
 
 struct Plan {
@@ -61,15 +62,13 @@ std::shared_ptr<Setting> make_setting(const Plan& plan, const std::string& out) 
   ExperimentOptions options;
   options.cache = out + "/cache";
   options.noise = s->noise;
-  s->w = make_experiment(object.meshed, std::move(r), options);
+  s->undrawn = make_experiment(object.meshed, std::move(r), options);
   return s;
 }
 
-Dataset drawn(const Setting& s, bool gains, int draw) {
-  Dataset dataset = s.w.dataset;
+Experiment drawn(const Setting& s, bool gains, int draw) {
   Random random(static_cast<std::uint64_t>(draw));
-  measure(dataset.recording, s.presses, s.forces, gains ? s.w.floor : 0, s.noise, random);
-  return dataset;
+  return measured(*s.undrawn, s.presses, s.forces, gains ? s.undrawn->floor : 0, s.noise, random);
 }
 
 Result value_of(const std::string& trial, int draw, const Model& model, const std::string& effect,
@@ -79,30 +78,27 @@ Result value_of(const std::string& trial, int draw, const Model& model, const st
 }
 
 FitOptions fit_options(const Setting& s) {
-  return {s.noise, s.w.floor, true};
+  return {s.noise, s.undrawn->floor, true};
+}
+
+Fit elastic_fit(const Setting& s, const Experiment& w) {
+  const Selection all = all_episodes(w.dataset);
+  return fit(elastic_model(w, all), w, all, fit_options(s));
 }
 
 std::vector<Result> fit_elastic(const std::string& trial, const Setting& s, bool gains, int draw) {
-  const Dataset data = drawn(s, gains, draw);
-  const Selection all = all_episodes(data);
-  const Fit result = fit(elastic_model(data, all, *s.w.body), data, all, *s.w.body, fit_options(s));
+  const Fit result = elastic_fit(s, drawn(s, gains, draw));
   return {value_of(trial, draw, result.model, "elastic", "E", kModulus, -0.03),
           value_of(trial, draw, result.model, "elastic", "nu", kPoisson, 0.03)};
 }
 
-Model elastic_fit(const Setting& s, const Dataset& data) {
-  const Selection all = all_episodes(data);
-  return fit(elastic_model(data, all, *s.w.body), data, all, *s.w.body, fit_options(s)).model;
-}
-
 std::vector<Result> fit_two_terms(const std::string& trial, const Setting& s, int draw) {
-  const Dataset data = drawn(s, true, draw);
-  const Selection all = all_episodes(data);
+  const Experiment w = drawn(s, true, draw);
+  const Selection all = all_episodes(w.dataset);
   ExtendOptions extend;
   extend.terms = 2;
-  const Fit result =
-      fit_best(with_effect(elastic_fit(s, data), "viscoelastic", data, all, *s.w.body, extend),
-               data, all, *s.w.body, fit_options(s));
+  const Fit result = fit_best(with_effect(elastic_fit(s, w), "viscoelastic", w, all, extend), w,
+                              all, fit_options(s));
   std::vector<Result> results{value_of(trial, draw, result.model, "elastic", "E", kModulus, -0.03),
                               value_of(trial, draw, result.model, "elastic", "nu", kPoisson, 0.03)};
   for (int k = 0; k < 2; ++k) {
@@ -115,8 +111,8 @@ std::vector<Result> fit_two_terms(const std::string& trial, const Setting& s, in
   return results;
 }
 
-TermChoice chosen_terms(const Setting& s, const Dataset& data) {
-  return choose_terms(elastic_fit(s, data), "viscoelastic", 3, data, all_episodes(data), *s.w.body,
+TermChoice chosen_terms(const Setting& s, const Experiment& w) {
+  return choose_terms(elastic_fit(s, w), "viscoelastic", 3, w, all_episodes(w.dataset),
                       fit_options(s), {});
 }
 
@@ -126,10 +122,10 @@ std::vector<Result> choose(const std::string& trial, const Setting& s, int draw)
 }
 
 std::vector<Result> hold_shortly(const std::string& trial, const Setting& s, int draw) {
-  const Dataset data = drawn(s, true, draw);
-  const TermChoice choice = chosen_terms(s, data);
+  const Experiment w = drawn(s, true, draw);
+  const TermChoice choice = chosen_terms(s, w);
   const Model& model = choice.trials[static_cast<std::size_t>(choice.terms - 1)].fit.model;
-  const std::vector<std::string> said = untold_times(model, data);
+  const std::vector<std::string> said = untold_times(model, w.dataset);
   return {{trial, draw, "terms", 2, double(choice.terms), std::nan(""), 0},
           {trial, draw, "said", 1, said.empty() ? 0.0 : 1.0, std::nan(""), 0.5}};
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "cases.h"
 #include "fit/boundary_fit.h"
@@ -33,11 +34,10 @@ struct Regions {
 struct Setting {
   Regions truth;
   Object object;
-  Recording recording;
-  ExperimentOptions options;
   std::vector<TruePress> presses;
   std::vector<Vec3> forces;
   double noise = 0;
+  std::optional<Experiment> undrawn;  // without forces
 };
 
 std::shared_ptr<Setting> make_setting(const Regions& truth, const std::string& out) {
@@ -57,11 +57,12 @@ std::shared_ptr<Setting> make_setting(const Regions& truth, const std::string& o
   Recording r = record(positions, s->presses, 0, 25);  // 500 samples
   s->forces = true_forces(r, s->presses, K, kModulus, {});
   s->noise = 0.01 * peak(s->forces);
-  s->options.cache = out + "/cache";
-  s->options.threads = 1;
-  s->options.noise = s->noise;
-  s->options.nu_low = s->options.nu_high = kPoisson;  // normal presses do not tell it: known
-  s->recording = std::move(r);
+  ExperimentOptions options;
+  options.cache = out + "/cache";
+  options.threads = 1;
+  options.noise = s->noise;
+  options.nu_low = options.nu_high = kPoisson;  // normal presses do not tell it: known
+  s->undrawn = make_experiment(s->object.meshed, std::move(r), options);
   return s;
 }
 
@@ -78,19 +79,16 @@ double boundary_error(const std::vector<BoundaryLine>& lines, const Regions& tru
 }
 
 std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
-  // Its own: a body is solved for one material at a time.
-  Experiment w = make_experiment(s.object.meshed, s.recording, s.options);
-  Dataset& data = w.dataset;
   Random random(static_cast<std::uint64_t>(draw));
-  measure(data.recording, s.presses, s.forces, 0, s.noise, random);
-  const Selection all = all_episodes(data);
+  const Experiment w = measured(*s.undrawn, s.presses, s.forces, 0, s.noise, random);
+  const Selection all = all_episodes(w.dataset);
   const FitOptions options{s.noise, w.floor, true};
-  Model start = elastic_model(data, all, *w.body);
+  Model start = elastic_model(w, all);
   Parameter& nu = *start.find("elastic", 0, "nu");
   nu.value = kPoisson;
   nu.state = ParameterState::kFixed;
-  const Fit plain = fit(start, data, all, *w.body, options);
-  const LocationTable table = fit_locations(plain.model, data, *w.body, options);
+  const Fit plain = fit(start, w, all, options);
+  const LocationTable table = fit_locations(plain.model, w, options);
   const RegionEstimate regions = estimate_regions(table, {});
   const int count = static_cast<int>(regions.value.size());
   const double none = std::nan("");
@@ -108,16 +106,16 @@ std::vector<Result> trial(const std::string& name, const Setting& s, int draw) {
   results.push_back({name, draw, "QDA mm", 0, 1e3 * boundary_error(lines, s.truth), none, 6});
   Model refined = region_model(table, regions, classify, lines, 8);
   refined.find("elastic", 0, "nu")->state = ParameterState::kFixed;
-  const Fit first = fit(refined, data, all, *w.body, options);
-  results.push_back({name, draw, "QDA rmse N", 0, first.rmse, none, 0.1});
+  const Fit first = fit(refined, w, all, options);
+  results.push_back({name, draw, "QDA rmse N", 0, first.error.pooled, none, 0.1});
   BoundaryOptions boundary;
   boundary.threads = 1;
   boundary.fit = options;
-  const BoundaryFit moved = refine_boundaries(first, data, *w.body, s.object.meshed, boundary);
+  const BoundaryFit moved = refine_boundaries(first, w, s.object.meshed, boundary);
   results.push_back(
       {name, draw, "refined mm", 0, 1e3 * boundary_error(moved.lines, s.truth), none, 6});
   const Fit& fitted = moved.fitted;
-  results.push_back({name, draw, "rmse N", 0, fitted.rmse, none, 0.1});
+  results.push_back({name, draw, "rmse N", 0, fitted.error.pooled, none, 0.1});
   results.push_back({name, draw, "noise N", 0, s.noise, none, 0});
   for (int r = 0; r < count; ++r) {
     const Parameter& e = *fitted.model.find("elastic", r, "E");

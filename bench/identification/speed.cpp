@@ -139,6 +139,7 @@ std::vector<double> values_of(const Model& model) {
 void by_differences(const Model& start, const Experiment& w, double ours, const std::string& what) {
   const Selection all = all_episodes(w.dataset);
   const Eigen::VectorXd f = measured_forces(w.dataset, all);
+  const Linearisation about = w.places.solve(material_of(start));
   Model trial = start;
   const std::vector<int> free = start.free_parameters();
   int evaluations = 0;
@@ -146,7 +147,7 @@ void by_differences(const Model& start, const Experiment& w, double ours, const 
     for (std::size_t c = 0; c < free.size(); ++c)
       trial.parameters[free[c]].value = x[static_cast<Eigen::Index>(c)];
     ++evaluations;
-    return Eigen::VectorXd((solved_forces(trial, w, all, false).f - f) / w.noise.value);
+    return Eigen::VectorXd((model_forces(trial, w, about, all, false).f - f) / w.noise.value);
   };
   const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                          Eigen::MatrixXd* J) {
@@ -247,7 +248,7 @@ int run(const std::string& out, const std::string& bin) {
   ExperimentOptions options;
   for (const bool relaxing : {false, true}) {
     const double begin = processor_seconds();
-    Experiment w = make_experiment(s.object.meshed, measured(s, relaxing), options);
+    const Experiment w = make_experiment(s.object.meshed, measured(s, relaxing), options);
     fmt::print("preparation, {} samples: {:.3f} s\n", w.dataset.rows(),
                processor_seconds() - begin);
     const Selection all = all_episodes(w.dataset);
@@ -255,13 +256,14 @@ int run(const std::string& out, const std::string& bin) {
     Fit result;
     const Model start = start_model(relaxing);
     const std::string what = relaxing ? "six parameters" : "E and nu";
-    const auto fit_once = [&] { result = fit(start, w.dataset, all, *w.body, fit_options); };
+    const auto fit_once = [&] { result = fit(start, w, all, fit_options); };
     const double ours = median_time(21, fit_once);
-    print(what + ", hapsim", ours, ours, 0, values_of(result.model), result.rmse);
+    print(what + ", hapsim", ours, ours, 0, values_of(result.model), result.error.pooled);
     if (relaxing) {
       fit_options.starts = 20;
       const double many = median_time(5, fit_once);
-      print(what + ", hapsim, 20 starts", many, ours, 0, values_of(result.model), result.rmse);
+      print(what + ", hapsim, 20 starts", many, ours, 0, values_of(result.model),
+            result.error.pooled);
     }
     by_differences(start, w, ours, what + ", hapsim by differences");
     const fs::path folder = fs::absolute(out) / (relaxing ? "six" : "elastic");

@@ -115,6 +115,14 @@ void measure(Recording& r, const std::vector<TruePress>& presses, const std::vec
   }
 }
 
+Experiment measured(Experiment experiment, const std::vector<TruePress>& presses,
+                    const std::vector<Vec3>& forces, double gain, double noise, Random& random) {
+  Dataset& dataset = experiment.dataset;
+  measure(dataset.recording, presses, forces, gain, noise, random);
+  dataset.axes = measured_axes(dataset.recording.f);
+  return experiment;
+}
+
 double peak(const std::vector<Vec3>& forces) {
   double most = 0;
   for (const Vec3& f : forces) most = std::max(most, f.norm());

@@ -51,6 +51,9 @@ std::vector<Vec3> true_forces(const Recording& recording, const std::vector<True
 // by itself), each component by `noise` [N].
 void measure(Recording& recording, const std::vector<TruePress>& presses,
              const std::vector<Vec3>& forces, double gain, double noise, Random& random);
+// The experiment with forces measured so.
+Experiment measured(Experiment experiment, const std::vector<TruePress>& presses,
+                    const std::vector<Vec3>& forces, double gain, double noise, Random& random);
 
 double peak(const std::vector<Vec3>& forces);  // [N]
 
