@@ -240,7 +240,6 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
   const std::vector<int> rows = stacked_rows(w.dataset, everything);
   for (std::size_t i = 0; i < rows.size(); ++i)
     w.dataset.recording.f[rows[i]] = drawn.forces.segment<3>(3 * static_cast<Eigen::Index>(i));
-  w.dataset.axes = measured_axes(w.dataset.recording.f);
   if (!options.keep.empty()) {
     Output output(fmt::format("{}/{}-{}.csv", options.keep, truth.name, seed));
     write_recording(output.stream(), w.dataset.recording);

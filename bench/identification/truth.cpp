@@ -119,7 +119,6 @@ Experiment measured(Experiment experiment, const std::vector<TruePress>& presses
                     const std::vector<Vec3>& forces, double gain, double noise, Random& random) {
   Dataset& dataset = experiment.dataset;
   measure(dataset.recording, presses, forces, gain, noise, random);
-  dataset.axes = measured_axes(dataset.recording.f);
   return experiment;
 }
 

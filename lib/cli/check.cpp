@@ -40,9 +40,9 @@ void check_choice(const Option& option, const std::string& text) {
 // Extensions by which people and programs know a format.
 bool promises_format(const std::string& extension) {
   static const std::set<std::string> known{
-      "asc",  "bin", "ele", "feb", "gz",  "htm",  "html", "inp", "json", "mat", "msh",
-      "node", "obj", "ods", "off", "pcd", "pdf",  "ply",  "png", "pts",  "scn", "stl",
-      "svg",  "tsv", "vtk", "vtu", "xls", "xlsx", "xml",  "xyz", "yaml", "zip"};
+      "asc", "bin",  "csv", "dat", "ele", "feb", "gz",   "htm", "html", "inp",  "json", "mat",
+      "msh", "node", "obj", "ods", "off", "pcd", "pdf",  "ply", "png",  "pts",  "scn",  "stl",
+      "svg", "tsv",  "txt", "vtk", "vtu", "xls", "xlsx", "xml", "xyz",  "yaml", "zip"};
   return known.count(extension) != 0;
 }
 

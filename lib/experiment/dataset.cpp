@@ -85,7 +85,6 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
       episode.view.session.push_back(recording.t[row] - session_start);
     }
   }
-  dataset.axes = measured_axes(recording.f);
   dataset.recording = std::move(recording);
   return dataset;
 }

@@ -32,10 +32,10 @@ struct Dataset {
   std::vector<Episode> episodes;
   std::vector<Setup> setups;  // distinct, in the order of the recording
   std::vector<int> setup_of;  // by position
-  int axes = 3;               // force components that are not 0 in every row (measured_axes())
   std::size_t rows() const { return recording.rows(); }
-  std::size_t bodies() const;  // distinct ones
-  std::size_t tools() const;   // distinct radii
+  int axes() const { return measured_axes(recording.f); }  // of the force that were measured
+  std::size_t bodies() const;                              // distinct ones
+  std::size_t tools() const;                               // distinct radii
 };
 
 // Contact points of one setup within kSamePlace are one position. `setup_of_row`: by row of the

@@ -207,7 +207,7 @@ Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selecti
 
 ForceError force_error(const Dataset& dataset, const Eigen::VectorXd& residual) {
   const auto count = static_cast<double>(residual.size());
-  return {residual.size() == 0 ? 0 : std::sqrt(residual.squaredNorm() / count), dataset.axes};
+  return {residual.size() == 0 ? 0 : std::sqrt(residual.squaredNorm() / count), dataset.axes()};
 }
 
 }  // namespace hapsim

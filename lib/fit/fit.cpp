@@ -401,7 +401,7 @@ HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment
                        const Folds& folds, const FitOptions& options) {
   const Dataset& dataset = experiment.dataset;
   HeldOut result;
-  result.error.axes = dataset.axes;
+  result.error.axes = dataset.axes();
   FitOptions about = options;
   about.rounds = 0;
   double squares = 0, components = 0;

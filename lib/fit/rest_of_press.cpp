@@ -58,7 +58,7 @@ LaterError later_error(const Fit& fitted, const Dataset& whole, double seconds) 
       ++error.rows;
     }
   }
-  error.rmse = std::sqrt(squares / std::max(1.0, whole.axes * static_cast<double>(error.rows)));
+  error.rmse = std::sqrt(squares / std::max(1.0, whole.axes() * static_cast<double>(error.rows)));
   error.median = upper_median(std::move(share));
   return error;
 }
