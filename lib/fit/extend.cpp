@@ -101,9 +101,9 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
   std::erase_if(base.parameters, [&](const Parameter& p) {
     return std::find(card.contains.begin(), card.contains.end(), p.effect) != card.contains.end();
   });
-  int terms = card.terms      ? options.terms
+  int terms = card.terms       ? options.terms
               : card.per_press ? static_cast<int>(dataset.episodes.size())
-                              : 1;
+                               : 1;
   if (fitted.has(name)) {
     int present = 0;
     for (const Parameter& p : fitted.parameters) present += p.effect == name;

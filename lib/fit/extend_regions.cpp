@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
+#include "model/body_parameters.h"
 #include "regions/region_boundary.h"
 #include "regions/region_map.h"
-#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -17,8 +17,7 @@ constexpr int kKeyPoints = 8, kOldBoundaryPoints = 20000;  // of a boundary
 Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
   Model model = fitted;
   const Parameter modulus = *modulus_of(fitted);
-  std::erase_if(model.parameters,
-                [](const Parameter& p) { return is_modulus(p) && p.region > 0; });
+  std::erase_if(model.parameters, [](const Parameter& p) { return is_modulus(p) && p.region > 0; });
   for (std::size_t r = 0; r < log_gain.size(); ++r) {
     const int region = static_cast<int>(r);
     const double value = modulus.value * std::exp(log_gain[r]);
@@ -29,8 +28,7 @@ Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
     Parameter added = modulus;
     added.region = region;
     added.value = value;
-    const auto last =
-        std::find_if(model.parameters.rbegin(), model.parameters.rend(), is_modulus);
+    const auto last = std::find_if(model.parameters.rbegin(), model.parameters.rend(), is_modulus);
     model.parameters.insert(last.base(), added);
   }
   return model;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
-#include "model/model_edit.h"
-#include "model/body_parameters.h"
 #include "effects/catalogue.h"
+#include "model/body_parameters.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -45,8 +45,7 @@ LocationTable fit_locations(const Model& model, const Experiment& experiment,
   for (std::size_t e = 0; e < dataset.episodes.size(); ++e)
     at[static_cast<std::size_t>(dataset.episodes[e].position)].push_back(static_cast<int>(e));
   const auto fit_all = [&](bool with_nu) {
-    poissons_ratio_of(start)->state =
-        with_nu ? ParameterState::kFree : ParameterState::kFixed;
+    poissons_ratio_of(start)->state = with_nu ? ParameterState::kFree : ParameterState::kFixed;
     std::vector<Sample> samples;
     for (const Selection& selection : at) {
       samples.push_back(fit_position(start, experiment, selection, options));

@@ -49,6 +49,7 @@ use() { # TOOL BODY
       "$tool" --follow data.csv --body "$body" --model model.csv --rate 20 -q -o made.csv && cat map.ply >>made.csv ;;
   hs-fuse) "$tool" --live fast.csv --body "$body" --model model.csv --acfm acfm.csv -q -o live.csv && grep -c '^1,' live.csv >made.csv ;;
   hs-link)
+    : >far.err  # the last one's words are not this one's
     "$tool" --listen 0 --body "$body" --model model.csv --tool-radius 0.004 --idle 60 2>far.err &
     local far=$! port=
     for _ in {1..600}; do grep -q listening far.err && break; sleep 0.05; done
