@@ -16,8 +16,8 @@ struct MaxwellStiffness {
 };
 
 // K [N/m]; the body's force on the tool is -K u, less K_j h_j for each Maxwell element beside it,
-// h_j its memory of u (fem/memory.h). The derivative by each free parameter of the material, by its
-// column.
+// h_j its memory of u (material/maxwell_memory.h). The derivative by each free parameter of the
+// material, by its column.
 struct PositionStiffness {
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
   std::vector<std::pair<int, Eigen::Matrix3d>> by_column;

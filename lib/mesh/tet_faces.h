@@ -1,4 +1,4 @@
-// The faces of tetrahedra brought together: private to lib/geometry.
+// The faces of tetrahedra brought together: private to lib/formats, lib/mesh and lib/tetmesh.
 #pragma once
 
 #include <algorithm>

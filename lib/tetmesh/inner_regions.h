@@ -1,4 +1,4 @@
-// Surfaces inside a body that bound its regions: private to lib/geometry.
+// Surfaces inside a body that bound its regions: private to lib/tetmesh.
 #pragma once
 
 #include <string>
