@@ -5,9 +5,9 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "io/csv.h"
+#include "model/body_parameters.h"
 #include "model/model_edit.h"
 #include "model/model_library.h"
-#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -85,8 +85,10 @@ void list(const std::vector<LibraryEntry>& entries, std::ostream& out) {
     const Described& d = e.described;
     const auto told = [&](const char* key) { return e.model.metadata.find(key).value_or(""); };
     writer.row({std::to_string(e.id), e.stored, d.material, d.object, format_number(d.element_size),
-                d.tool, format_number(d.tool_radius), effects_label(e.model), format_number(modulus_of(e.model)->value),
-                format_number(poissons_ratio_of(e.model)->value), told("rmse"), told("force_noise")});
+                d.tool, format_number(d.tool_radius), effects_label(e.model),
+                format_number(modulus_of(e.model)->value),
+                format_number(poissons_ratio_of(e.model)->value), told("rmse"),
+                told("force_noise")});
   }
 }
 

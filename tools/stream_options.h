@@ -9,10 +9,10 @@
 #include "effects/catalogue.h"
 #include "io/stream.h"
 #include "mesh/tetmesh.h"
+#include "model/body_parameters.h"
 #include "model/model.h"
 #include "realtime/motion_lines.h"
 #include "watch/online_identification.h"
-#include "model/body_parameters.h"
 
 namespace hapsim {
 

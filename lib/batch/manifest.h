@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/stream.h"
 #include "effects/catalogue.h"
+#include "io/stream.h"
 
 namespace hapsim {
 
@@ -38,7 +38,7 @@ struct ManifestRow {
   std::string raw;     // a table of another machine, instead of data
   bool block = false;  // the body is the block that import_options state
   std::string scan_unit = "m";
-  double tool_radius = 0;           // [m]; 0: the recording's own
+  double tool_radius = 0;                           // [m]; 0: the recording's own
   std::string effects = body_effect().card().name;  // separated by commas
   std::array<std::vector<std::string>, kBatchStages.size()> options;
   std::vector<std::string> common;  // flags of hs-identify, hs-diagnose and hs-simulate alike

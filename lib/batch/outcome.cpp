@@ -9,8 +9,8 @@
 
 #include "base/error.h"
 #include "batch/step_script.h"
-#include "io/csv.h"
 #include "effects/catalogue.h"
+#include "io/csv.h"
 
 namespace hapsim {
 namespace {

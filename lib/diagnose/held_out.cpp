@@ -61,9 +61,8 @@ ExtendOptions trial_extend_options(const TrialGround& g) {
 
 bool has_map(const Model& model) {
   const std::vector<std::string> effects = model.effects();
-  return std::any_of(effects.begin(), effects.end(), [](const std::string& name) {
-    return require_effect(name).card().is_map;
-  });
+  return std::any_of(effects.begin(), effects.end(),
+                     [](const std::string& name) { return require_effect(name).card().is_map; });
 }
 
 // Refits in a fold start from the fit on all data.

@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "effects/catalogue.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
 #include "model/relaxation_steps.h"
 #include "solid/mesh_press.h"
-#include "effects/catalogue.h"
 
 namespace hapsim {
 namespace {

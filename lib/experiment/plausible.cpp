@@ -82,9 +82,9 @@ std::vector<int> idle_regions(const Model& model) {
   std::vector<int> idle;
   for (const Parameter& p : model.parameters) {
     if (!is_modulus(p) || p.region == 0) continue;
-    const bool placed = std::any_of(
-        model.parameters.begin(), model.parameters.end(),
-        [&](const Parameter& q) { return is_of_map(q) && q.region == p.region; });
+    const bool placed =
+        std::any_of(model.parameters.begin(), model.parameters.end(),
+                    [&](const Parameter& q) { return is_of_map(q) && q.region == p.region; });
     if (!placed) idle.push_back(p.region);
   }
   return idle;

@@ -9,8 +9,8 @@
 
 #include "base/median.h"
 #include "import/block.h"
-#include "io/quantity.h"
 #include "io/number.h"
+#include "io/quantity.h"
 #include "recording/force_noise.h"
 
 namespace hapsim {

@@ -72,8 +72,8 @@ std::vector<Parameter> effect_rows(const Effect& effect, int terms,
       p.lower = card.lower;
       p.upper = card.upper;
       p.state = effect.card().per_press ? ParameterState::kDerived
-                : card.fixed           ? ParameterState::kFixed
-                                       : ParameterState::kFree;
+                : card.fixed            ? ParameterState::kFixed
+                                        : ParameterState::kFree;
       rows.push_back(p);
     }
   return rows;

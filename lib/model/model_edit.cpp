@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "io/csv.h"
 #include "effects/catalogue.h"
+#include "io/csv.h"
 
 namespace hapsim {
 

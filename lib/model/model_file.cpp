@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "io/csv.h"
-#include "model/model.h"
 #include "model/body_parameters.h"
+#include "model/model.h"
 
 namespace hapsim {
 namespace {

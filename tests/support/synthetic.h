@@ -47,7 +47,7 @@ inline Experiment experiment(double rim_edge = 0.3, std::array<int, 3> cells = {
   options.noise = 0.01;
   options.floor = 0.01;
   return make_experiment(block_mesh({0.08, 0.08, 0.04}, cells[0], cells[1], cells[2], 1), presses(),
-                        options);
+                         options);
 }
 
 // Replaces the measured forces by the model's on the body of `truth`, and noise.
