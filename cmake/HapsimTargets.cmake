@@ -1,9 +1,12 @@
 # How every target of hapsim is made: one place for the flags.
 
-# hapsim_flags(<target>): the warnings every file must pass. g++ 12 warns falsely where a literal is joined
+# A program holds what it calls of the rooms it links, also where they are compiled whole.
+add_link_options(-Wl,--gc-sections)
+
+# hapsim_flags(<target>): a section for each function and object, and the warnings every file must pass. g++ 12 warns falsely where a literal is joined
 # to a string: of overlapping copies, and, when <string> is precompiled, of sizes and bounds too.
 function(hapsim_flags target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
+  target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
     -Wno-missing-field-initializers
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
