@@ -1,13 +1,20 @@
 # How every target of hapsim is made: one place for the flags.
 
-# A program holds what it calls of the rooms it links, also where they are compiled whole.
+# A program holds what it calls of the rooms it links, also where they are compiled whole, and equal
+# functions once where the linker can tell them.
+include(CheckLinkerFlag)
 add_link_options(-Wl,--gc-sections)
+check_linker_flag(CXX "-fuse-ld=gold;-Wl,--icf=safe" HAPSIM_LINKER_FOLDS)
+if(HAPSIM_LINKER_FOLDS)
+  add_link_options(-fuse-ld=gold -Wl,--icf=safe)
+endif()
 
-# hapsim_flags(<target>): a section for each function and object, and the warnings every file must pass. g++ 12 warns falsely where a literal is joined
-# to a string: of overlapping copies, and, when <string> is precompiled, of sizes and bounds too.
+# hapsim_flags(<target>): a section for each function and object, and the warnings every file must pass.
+# g++ 12 warns falsely where a literal is joined to a string: of overlapping copies, and, when <string> is
+# precompiled, of sizes and bounds too.
 function(hapsim_flags target)
-  target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
-    -Wno-missing-field-initializers
+  target_compile_options(${target} PRIVATE -ffunction-sections -fdata-sections
+    -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi -Wno-missing-field-initializers
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
 endfunction()
