@@ -212,7 +212,7 @@ int run_live_fusion(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines motion(input);
   const double radius = stream_radius(arguments, motion.metadata(), input.name());
-  keep_within(motion, body);
+  motion.within(body.nodes);
   AcfmLoop fast(acfm), coarse(acfm);
   FusedLoop loop(
       fast,

@@ -6,13 +6,7 @@
 
 #include "base/error.h"
 #include "cli/tool.h"
-#include "effects/catalogue.h"
 #include "io/stream.h"
-#include "mesh/tetmesh.h"
-#include "model/body_parameters.h"
-#include "model/model.h"
-#include "realtime/motion_lines.h"
-#include "watch/online_identification.h"
 
 namespace hapsim {
 
@@ -34,25 +28,6 @@ inline std::vector<Option> online_flags(const std::string& who) {
            .repeatable = true}};
 }
 
-inline std::vector<double> relaxation_times(const Arguments& arguments) {
-  std::vector<double> times;
-  for (const std::string& text : arguments.list("--times")) {
-    double tau = 0;
-    if (!parse_number(text, tau) || !(tau > 0) || times.size() + 1 >= kMostUnknowns)
-      fail_usage("--times " + shown(text) + " is no relaxation time, or one too many",
-                 "give at most five [s]: 0.05,0.5");
-    times.push_back(tau);
-  }
-  return times;
-}
-
-// A body of unit modulus.
-inline Model unit_model(double nu) {
-  Model unit;
-  unit.parameters = body_rows(1, nu);
-  return unit;
-}
-
 // --tool-radius, or the stream's own [m].
 inline double stream_radius(const Arguments& arguments, const Metadata& metadata,
                             const std::string& name) {
@@ -61,12 +36,6 @@ inline double stream_radius(const Arguments& arguments, const Metadata& metadata
   if (!(radius > 0))
     fail_input(name, "the motion does not say its tool's radius", "give --tool-radius M [m]");
   return radius;
-}
-
-inline void keep_within(MotionSource& motion, const TetMesh& body) {
-  Vec3 low = body.nodes.front(), high = low;
-  for (const Vec3& node : body.nodes) low = low.cwiseMin(node), high = high.cwiseMax(node);
-  motion.within(low, high);
 }
 
 // Answers rows until they end. What was answered stays, before a bad row and after a signal too:
@@ -84,12 +53,6 @@ void answer_stream(const Arguments& arguments, const std::string& tool, Input& i
   finish();
   if (input.ended_by_signal())
     say(arguments, tool, "ended by a signal; what was answered until then is written");
-}
-
-inline void require_contact_points(const MotionLines& lines, const std::string& name,
-                                   const std::string& columns) {
-  if (!lines.has_contact_point())
-    fail_input(name, "there are no contact points", "give " + columns);
 }
 
 }  // namespace hapsim

@@ -22,7 +22,7 @@ void append(std::string& buffer, double value) {
 
 }  // namespace
 
-MotionLines::MotionLines(Input& input, bool forces) : csv_(input) {
+MotionLines::MotionLines(Input& input, bool forces) : csv_(input), name_(input.name()) {
   const auto& header = csv_.header();
   std::array<bool, kColumns> present{};
   for (const std::string& name : header) {
@@ -38,6 +38,10 @@ MotionLines::MotionLines(Input& input, bool forces) : csv_(input) {
     if (needed && !present[k])
       fail_missing_column(input.name(), kNames[k], header, {kNames.begin(), kNames.end()});
   }
+}
+
+void MotionLines::require_contact_points(const std::string& columns) const {
+  if (!known_) fail_input(name_, "there are no contact points", "give " + columns);
 }
 
 bool MotionLines::next(MotionLine& line) {
@@ -80,6 +84,10 @@ void write_force_line(std::string& buffer, const MotionLine& line, const Vec3& f
       append(buffer, (*v)[k] == 0 ? 0.0 : (*v)[k]);  // no minus zero
     }
   buffer += line.in_air ? ",0\n" : ",1\n";
+}
+
+void append_columns(std::string& row, const Vec3& v) {
+  for (int k = 0; k < 3; ++k) row += ',' + format_number(v[k] == 0 ? 0.0 : v[k]);
 }
 
 }  // namespace hapsim

@@ -18,6 +18,8 @@ class MotionLines : public MotionSource {
   // `forces`: each line has a measured one, fx,fy,fz.
   explicit MotionLines(Input& input, bool forces = false);
   bool has_contact_point() const override { return known_; }
+  // Error(kBadInput) naming the `columns` to give, where the columns are those of the tool's tip.
+  void require_contact_points(const std::string& columns) const;
   const Metadata& metadata() const { return csv_.metadata(); }
   bool next(MotionLine& line) override;
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override;
@@ -27,6 +29,7 @@ class MotionLines : public MotionSource {
  private:
   enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kContact, kFx, kFy, kFz, kColumns };
   CsvReader csv_;
+  std::string name_;          // of the input
   std::vector<int> meaning_;  // column of the file -> Column, kColumns: passed over
   std::array<double, kColumns> value_{};
   std::vector<std::string_view> fields_;
@@ -38,5 +41,7 @@ class MotionLines : public MotionSource {
 inline const std::vector<std::string> kForceColumns{"press", "t",  "x",  "y",  "z",  "ux",
                                                     "uy",    "uz", "fx", "fy", "fz", "contact"};
 void write_force_line(std::string& buffer, const MotionLine& line, const Vec3& force);
+// Appends ",x,y,z" to a row, as format_number() has them; zero has no sign.
+void append_columns(std::string& row, const Vec3& v);
 
 }  // namespace hapsim

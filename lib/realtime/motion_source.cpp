@@ -43,10 +43,10 @@ void MotionCheck::check(const MotionLine& line, const std::function<std::string(
   first_ = false;
 }
 
-void MotionCheck::within(const Vec3& low, const Vec3& high) {
+void MotionCheck::within(const std::vector<Vec3>& nodes) {
   bounded_ = true;
-  low_ = low;
-  high_ = high;
+  low_ = high_ = nodes.front();
+  for (const Vec3& node : nodes) low_ = low_.cwiseMin(node), high_ = high_.cwiseMax(node);
 }
 
 }  // namespace hapsim

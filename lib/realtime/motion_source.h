@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "base/vec3.h"
 
@@ -22,8 +23,8 @@ class MotionCheck {
  public:
   // `where` it stands is asked for when it is wrong: names take memory.
   void check(const MotionLine& line, const std::function<std::string()>& where);
-  // Of presses on a body in this box: contact points and displacements of its size.
-  void within(const Vec3& low, const Vec3& high);
+  // Of presses on a body with these nodes [m]: contact points and displacements of its size.
+  void within(const std::vector<Vec3>& nodes);
 
  private:
   bool first_ = true, bounded_ = false;
@@ -42,9 +43,9 @@ class MotionSource {
   // The bytes that answer it, in place of `buffer`, which keeps its memory from one to the next.
   virtual void write_force(std::string& buffer, const MotionLine& line,
                            const Vec3& force) const = 0;
-  // From now on next() refuses contact points and displacements that no press of a body in this box
-  // [m] has.
-  void within(const Vec3& low, const Vec3& high) { check_.within(low, high); }
+  // From now on next() refuses contact points and displacements that no press of a body with
+  // these nodes [m] has.
+  void within(const std::vector<Vec3>& nodes) { check_.within(nodes); }
 
  protected:
   MotionCheck check_;

@@ -8,7 +8,9 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "io/csv.h"
+#include "realtime/motion_lines.h"
 #include "stream_options.h"
+#include "watch/identified_material.h"
 
 namespace hapsim {
 
@@ -40,14 +42,14 @@ inline std::vector<Option> follow_flags() {
 }
 
 inline int run_follow(const Arguments& arguments) {
-  const std::vector<double> times = relaxation_times(arguments);
+  const std::vector<double> times = parse_relaxation_times(arguments.list("--times"), "--times");
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
   MotionLines lines(input, true);
-  require_contact_points(lines, input.name(), "press,t,x,y,z,ux,uy,uz,fx,fy,fz");
+  lines.require_contact_points("press,t,x,y,z,ux,uy,uz,fx,fy,fz");
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
-  keep_within(lines, mesh);
+  lines.within(mesh.nodes);
   const PreparedBody body(mesh, unit_model(arguments.number("--nu")), options);
   UnitResponse response(body, times);
   OnlineIdentification identification(static_cast<int>(times.size()) + 1,
@@ -55,25 +57,14 @@ inline int run_follow(const Arguments& arguments) {
                                           ? static_cast<double>(arguments.integer("--memory"))
                                           : std::numeric_limits<double>::infinity());
   Output output(arguments.output());
-  std::vector<std::string> header{"t", "rows", "E", "E_std"};
-  for (std::size_t i = 1; i <= times.size(); ++i)
-    header.insert(header.end(), {fmt::format("E{}", i), fmt::format("E{}_std", i)});
-  header.push_back("rmse");
-  CsvWriter csv(output.stream(), lines.metadata(), header);
+  CsvWriter csv(output.stream(), lines.metadata(), estimate_columns(times.size()));
   output.stream().flush();
   MotionLine line;
   long rows = 0;
   const long every = arguments.integer("--every");
   int press = 0;
   const auto tell = [&] {
-    const OnlineEstimate e = identification.estimate();
-    std::vector<std::string> row{format_number(line.t), std::to_string(rows)};
-    for (Eigen::Index i = 0; i < e.moduli.size(); ++i) {
-      row.push_back(fmt::format("{:.6g}", e.moduli[i]));
-      row.push_back(std::isfinite(e.error[i]) ? fmt::format("{:.3g}", e.error[i]) : "");
-    }
-    row.push_back(std::isfinite(e.rmse) ? fmt::format("{:.4g}", e.rmse) : "");
-    csv.row(row);
+    csv.row(estimate_row(line.t, rows, identification.estimate()));
     output.stream().flush();
   };
   answer_stream(
@@ -94,12 +85,8 @@ inline int run_follow(const Arguments& arguments) {
         if (rows % every != 0) tell();
         output.commit();
         const OnlineEstimate e = identification.estimate();
-        std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", e.moduli[0], e.error[0]);
-        for (std::size_t i = 0; i < times.size(); ++i)
-          words += fmt::format(", {:.4g} Pa at {:g} s", e.moduli[static_cast<Eigen::Index>(i + 1)],
-                               times[i]);
         say(arguments, "hs-identify",
-            fmt::format("{} rows: {}; error {:.3g} N", rows, words, e.rmse));
+            fmt::format("{} rows: {}; error {:.3g} N", rows, moduli_words(e, times, 4), e.rmse));
       });
   return 0;
 }

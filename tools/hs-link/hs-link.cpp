@@ -6,18 +6,18 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "common_options.h"
-#include "effects/catalogue.h"
 #include "hs-link/specification.h"
 #include "io/csv.h"
 #include "io/interrupt.h"
 #include "link/impaired_channel.h"
 #include "link/telepresence.h"
 #include "link/udp.h"
-#include "model/model_edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"
+#include "realtime/motion_lines.h"
 #include "realtime/real_time.h"
 #include "stream_options.h"
+#include "watch/identified_material.h"
 
 namespace hapsim {
 namespace {
@@ -74,40 +74,13 @@ int run_teleoperator(const Arguments& arguments) {
   return 0;
 }
 
-void write_identified(const std::string& path, const OnlineEstimate& found, double nu,
-                      const std::vector<double>& times) {
-  Model model;
-  const auto add = [&](const Effect& effect, const std::vector<double>& values, int terms) {
-    const auto rows = effect_rows(effect, terms, values);
-    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
-  };
-  add(body_effect(), {found.moduli[0], nu}, 1);
-  model.parameters[0].std_error = found.error[0];
-  model.parameters[1].state = ParameterState::kFixed;
-  if (!times.empty()) {
-    std::vector<double> values;
-    for (std::size_t i = 0; i < times.size(); ++i)
-      values.insert(values.end(), {found.moduli[static_cast<Eigen::Index>(i + 1)], times[i]});
-    add(maxwell_effect(), values, static_cast<int>(times.size()));
-  }
-  model.metadata.set("rmse", format_number(found.rmse));
-  Output output(path);
-  write_model(output.stream(), model);
-  output.commit();
-}
-
-void append(std::string& text, double value) {
-  text += ',';
-  text += format_number(value == 0 ? 0.0 : value);
-}
-
 int run_operator(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines motion(input);
-  require_contact_points(motion, input.name(), "press,t,x,y,z,ux,uy,uz");
+  motion.require_contact_points("press,t,x,y,z,ux,uy,uz");
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, motion.metadata(), input.name());
-  const std::vector<double> times = relaxation_times(arguments);
+  const std::vector<double> times = parse_relaxation_times(arguments.list("--times"), "--times");
   const double nu = arguments.number("--nu"), rate = arguments.number("--rate");
   const PreparedBody body(load_body(arguments), unit_model(nu), options);
   UnitResponse response(body, times);
@@ -155,7 +128,7 @@ int run_operator(const Arguments& arguments) {
     channel.push(monotonic_ns(), write_packet(near.move(line)));
     write_force_line(text, line, near.felt());
     text.pop_back();
-    for (int k = 0; k < 3; ++k) append(text, near.measured()[k]);
+    append_columns(text, near.measured());
     text += near.predicts() ? ",1\n" : ",0\n";
     output.stream() << text;
     output.stream().flush();
@@ -202,14 +175,14 @@ int run_operator(const Arguments& arguments) {
   quality("before identification", 0, at);
   if (settled < all) quality("after it", settled, all);
   const OnlineEstimate& found = near.estimate();
-  std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", found.moduli[0], found.error[0]);
-  for (std::size_t i = 0; i < times.size(); ++i)
-    words += fmt::format(", {:.3g} Pa at {:g} s", found.moduli[static_cast<Eigen::Index>(i + 1)],
-                         times[i]);
   line(fmt::format("identified after {:.2f} s in at most {:.3g} ms: {}",
-                   static_cast<double>(at) / rate, 1e3 * near.longest_identification(), words));
-  if (arguments.given("--identified"))
-    write_identified(arguments.text("--identified"), found, nu, times);
+                   static_cast<double>(at) / rate, 1e3 * near.longest_identification(),
+                   moduli_words(found, times, 3)));
+  if (arguments.given("--identified")) {
+    Output identified(arguments.text("--identified"));
+    write_model(identified.stream(), identified_model(found, times, nu));
+    identified.commit();
+  }
   return 0;
 }
 

@@ -103,7 +103,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
     };
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
-  keep_within(*in.source, mesh);
+  in.source->within(mesh.nodes);
   say(arguments, "hs-simulate",
       fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
                   body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
@@ -125,7 +125,7 @@ inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
   if (arguments.given("--body")) {
     const TetMesh mesh = load_body(arguments);
     surface.emplace(boundary_surface(mesh), "body");
-    keep_within(*in.source, mesh);
+    in.source->within(mesh.nodes);
   }
   if (!surface && !in.source->has_contact_point())
     fail_input(in.input.name(),

@@ -1,0 +1,67 @@
+#include "compare/comparison_report.h"
+
+#include <filesystem>
+
+#include "compare/report_body.h"
+#include "compare/report_tables.h"
+#include "compare/wording.h"
+
+namespace hapsim {
+namespace {
+
+// The last diagnosis tells the verdict; its first row is the model as a whole.
+std::string model_verdict(const Report& report) {
+  if (report.diagnoses.empty()) return "";
+  for (const DiagnosisRow& row : report.diagnoses.back().rows)
+    if (row.effect == "model") {
+      for (const auto& [name, text] : row.notes)
+        if (name == "evidence") return row.verdict + ": " + text;
+      return row.verdict;
+    }
+  return "";
+}
+
+void add_provenance(const Recording& measured, const std::vector<SimulatedVersion>& versions,
+                    const ReportExtras& extras, Report& report) {
+  const auto add = [&](const char* key, const std::string& value) {
+    report.provenance.emplace_back(key, value);
+  };
+  add("hapsim", extras.program);
+  add("measured", measured.name);
+  for (const SimulatedVersion& v : versions)
+    add("simulated", v.name + (v.name == v.recording.name ? "" : " = " + v.recording.name));
+  report.provenance.insert(report.provenance.end(), extras.files.begin(), extras.files.end());
+  const auto metadata = [&](const Recording& r, const std::string& of) {
+    for (const Metadata::Line& line : r.metadata.lines())
+      report.provenance.emplace_back(of + (line.key.empty() ? " comment" : " " + line.key),
+                                     line.value);
+  };
+  metadata(measured, "measured:");
+  metadata(versions.back().recording, "simulated:");
+}
+
+}  // namespace
+
+Report comparison_report(const Recording& measured, const std::vector<SimulatedVersion>& versions,
+                         const Comparison& c, const ErrorMap& map, const ReportExtras& extras) {
+  const Recording& simulated = versions.back().recording;
+  Report report;
+  report.title = extras.title.value_or("Measured and simulated forces of " +
+                                       std::filesystem::path(measured.name).filename().string());
+  if (extras.history) add_history(*extras.history, report);
+  for (const auto& [version, table] : extras.diagnoses) add_diagnosis(table, version, report);
+  const std::string diagnosed = model_verdict(report);
+  report.verdict = verdict_line(c) + (diagnosed.empty() ? "" : " The model is " + diagnosed);
+  report.good = diagnosed.empty() ? only_noise_left(c) : diagnosed.rfind("complete", 0) == 0;
+  for (const Observation& o : c.observations) report.sentences.push_back(o.sentence);
+  add_numbers(c, simulated.metadata, report);
+  if (extras.model) add_parameters(*extras.model, report);
+  add_body(c, map, extras.model ? &*extras.model : nullptr, report);
+  add_presses(measured, versions, c, report);
+  add_residual_plots(measured, simulated, c, report);
+  add_tables(c, report);
+  add_provenance(measured, versions, extras, report);
+  return report;
+}
+
+}  // namespace hapsim

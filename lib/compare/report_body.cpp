@@ -1,0 +1,102 @@
+#include "compare/report_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/wording.h"
+#include "experiment/forces.h"
+#include "experiment/nearest_region.h"
+
+namespace hapsim {
+namespace {
+
+// How much stiffer the body is than the model, as its presses say.
+BodyLayer stiffness_layer(const Comparison& c, const ErrorMap& map) {
+  BodyLayer layer{.name = "stiffness",
+                  .title = "stiffer by [%]",
+                  .note =
+                      "How much stiffer than the model the body is near the pressed positions: "
+                      "measured over simulated force, less one.",
+                  .scale = BodyLayer::Scale::kSigned};
+  double top = 0;
+  for (const BinError& e : c.by_position().errors) {
+    const bool known = std::isfinite(e.gain);
+    layer.at_position.push_back(known ? 100 * (e.gain - 1) : 0);
+    layer.at_position_text.push_back(known
+                                         ? fmt::format("{:+.1f} ± {:.1f} % stiffer than the model",
+                                                       100 * (e.gain - 1), 100 * e.gain_error)
+                                         : "stiffness not known");
+    top = std::max(top, std::abs(layer.at_position.back()));
+  }
+  layer.top = round_up(std::clamp(top, 1.0, 200.0));
+  layer.value = map_error(map.surface, c.facts.positions, layer.at_position, map.reach).error;
+  return layer;
+}
+
+// The model's regions in plan view, where it has several.
+BodyLayer region_layer(const Comparison& c, const ErrorMap& map, const Model& model) {
+  const MaterialSpec material = material_of(model);
+  BodyLayer layer{.name = "regions",
+                  .title = "region",
+                  .note = "Regions of the model, seen from above.",
+                  .scale = BodyLayer::Scale::kKinds,
+                  .top = static_cast<double>(material.modulus.size()) - 1,
+                  .local = false};
+  for (const Vec3& v : map.surface.vertices) layer.value.push_back(region_at(material, v));
+  for (const Vec3& p : c.facts.positions) {
+    const int region = region_at(material, p);
+    layer.at_position.push_back(region);
+    layer.at_position_text.push_back(fmt::format(
+        "region {}, E {:.3g} Pa", region, material.modulus[static_cast<std::size_t>(region)]));
+  }
+  return layer;
+}
+
+}  // namespace
+
+double round_up(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)));
+  for (const double step : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0})
+    if (value <= step * unit * (1 + 1e-9)) return step * unit;
+  return value;
+}
+
+double top_error(const Comparison& c) {
+  double top = 2 * c.noise.value;
+  for (const BinError& e : c.by_position().errors) top = std::max(top, e.rmse);
+  return round_up(top > 0 ? top : 1);
+}
+
+BodyLayer error_layer(const Comparison& c, const ErrorMap& map) {
+  BodyLayer layer{.name = "error",
+                  .title = "error [N]",
+                  .note =
+                      "Typical error (rmse) of the presses near by; grey where nothing was "
+                      "pressed near.",
+                  .mark = c.noise.value,
+                  .mark_name = "noise",
+                  .value = map.error};
+  for (const BinError& e : c.by_position().errors) {
+    layer.at_position.push_back(e.rmse);
+    layer.at_position_text.push_back("error " + newtons(e.rmse));
+  }
+  layer.top = top_error(c);
+  return layer;
+}
+
+void add_body(const Comparison& c, const ErrorMap& map, const Model* model, Report& report) {
+  report.body.vertices = map.surface.vertices;
+  report.body.faces = map.surface.faces;
+  report.body.distance = map.distance;
+  report.body.reach = map.reach;
+  report.body.positions = c.facts.positions;
+  report.body.layers = {error_layer(c, map)};
+  if (map.surface.faces.empty()) return;
+  report.body.layers.push_back(stiffness_layer(c, map));
+  if (model != nullptr && material_of(*model).modulus.size() > 1)
+    report.body.layers.push_back(region_layer(c, map, *model));
+}
+
+}  // namespace hapsim

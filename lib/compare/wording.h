@@ -1,0 +1,27 @@
+// A comparison in short sentences: what hs-compare says, and the top of its report.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compare/comparison.h"
+#include "compare/report_curves.h"
+
+namespace hapsim {
+
+std::string newtons(double force);                      // "0.0468 N"
+std::string percent_of(double part, double whole);      // "3.5 %"; "-" of nothing
+std::string times_noise(const Comparison& comparison);  // "1.2"; "?" where the noise is unknown
+
+// No structure was found, and the typical error is within 15 % of the sensor noise.
+bool only_noise_left(const Comparison& comparison);
+
+// The typical error beside the force and the noise, in one sentence.
+std::string verdict_line(const Comparison& comparison);
+
+// That sentence and what supports it: sizes, noise, the error of each of several versions, what the
+// error depends on, and the three worst positions.
+std::vector<std::string> summary_lines(const Comparison& comparison, const Recording& measured,
+                                       const std::vector<SimulatedVersion>& versions);
+
+}  // namespace hapsim
