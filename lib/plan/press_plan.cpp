@@ -268,4 +268,20 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
   return plan;
 }
 
+std::vector<std::string> plan_lines(const MeasurementPlan& plan, const std::string& file) {
+  std::vector<std::string> lines;
+  const auto line = [&](const std::string& text) { lines.push_back(text); };
+  if (plan.parameter.empty())
+    line(fmt::format("to tell them apart, record {} ({:.3g} standard deviations of the noise):",
+                     file, plan.separation));
+  else
+    line(fmt::format("to know {} better, record {} (its standard error falls to {:.0f} %):",
+                     plan.parameter, file, 100 * plan.separation));
+  for (const PlannedPress& p : plan.presses)
+    line(fmt::format("  at ({:.1f}, {:.1f}, {:.1f}) mm: {}{}", 1e3 * p.position.x(),
+                     1e3 * p.position.y(), 1e3 * p.position.z(), p.motion,
+                     p.separation > 0 ? fmt::format(" ({:.3g} alone)", p.separation) : ""));
+  return lines;
+}
+
 }  // namespace hapsim

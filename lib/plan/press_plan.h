@@ -37,4 +37,7 @@ struct MeasurementPlan {
 MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment& experiment,
                              std::size_t count = 3);
 
+// What to record, and what for: the file of the motion, then a line a press.
+std::vector<std::string> plan_lines(const MeasurementPlan& plan, const std::string& file);
+
 }  // namespace hapsim

@@ -124,5 +124,20 @@ TEST_F(Plan, TheMotionIsOneTheToolCanDo) {
   }
 }
 
+TEST(PlanLines, SayWhatTheMotionIsFor) {
+  MeasurementPlan plan;
+  plan.presses = {{"fast, held", Vec3(0.01, 0.02, 0.04), 3.5}, {"slow", Vec3(0, 0, 0.04), 0}};
+  plan.separation = 4.5;
+  EXPECT_EQ(
+      plan_lines(plan, "next.csv"),
+      (std::vector<std::string>{
+          "to tell them apart, record next.csv (4.5 standard deviations of the noise):",
+          "  at (10.0, 20.0, 40.0) mm: fast, held (3.5 alone)", "  at (0.0, 0.0, 40.0) mm: slow"}));
+  plan.parameter = "elastic nu";
+  plan.separation = 0.25;
+  EXPECT_EQ(plan_lines(plan, "next.csv")[0],
+            "to know elastic nu better, record next.csv (its standard error falls to 25 %):");
+}
+
 }  // namespace
 }  // namespace hapsim

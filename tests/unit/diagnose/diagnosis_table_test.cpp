@@ -1,0 +1,108 @@
+// A diagnosis as tables, JSON, words and cases.
+#include "diagnose/diagnosis_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "expect_error.h"
+
+namespace hapsim {
+namespace {
+
+const DiagnosedFiles kFiles{"data.csv", "body.ply", "m0.csv"};
+
+Finding finding(const std::string& effect, Verdict verdict) {
+  Finding f;
+  f.effect = effect;
+  f.verdict = verdict;
+  f.rmse_now.pooled = 0.5;
+  f.rmse_after.pooled = 0.25;
+  f.evidence = "evidence of " + effect;
+  return f;
+}
+
+Diagnosis diagnosed() {
+  Diagnosis d;
+  d.verdict = ModelVerdict::kIncomplete;
+  d.explanation = "something is missing";
+  d.findings = {finding("friction", Verdict::kMissing), finding("regions", Verdict::kPossible),
+                finding("tare", Verdict::kAbsent), finding("temperature", Verdict::kNotTestable)};
+  d.findings[0].confused_with = {"slack", "shape"};
+  d.findings[1].every_site = true;
+  return d;
+}
+
+CsvTable written(const Diagnosis& d) {
+  std::ostringstream out;
+  write_diagnosis(out, d, kFiles, "7");
+  Input input = Input::from_bytes(out.str(), "effects.csv");
+  return read_csv(input);
+}
+
+TEST(DiagnosisTable, NamesTheCommandOnlyWhereTheEffectMayBeThere) {
+  const CsvTable table = written(diagnosed());
+  ASSERT_EQ(table.rows(), 5u);
+  const auto cell = [&](const std::string& column, std::size_t row) {
+    return table.columns[static_cast<std::size_t>(table.find(column))][row];
+  };
+  EXPECT_EQ(cell("effect", 0), "model");
+  EXPECT_EQ(cell("evidence", 0), "something is missing");
+  EXPECT_EQ(cell("command", 1),
+            "hs-identify data.csv --body body.ply --model m0.csv --add friction -o better.csv");
+  EXPECT_NE(cell("command", 2).find("--add regions --regions sites"), std::string::npos);
+  EXPECT_EQ(cell("command", 3), "");
+  EXPECT_EQ(cell("confused_with", 1), "slack shape");
+  EXPECT_EQ(cell("rmse_after", 1), "0.25");
+  EXPECT_EQ(cell("rmse_after", 4), "");  // not tried
+  EXPECT_EQ(table.metadata.find("seed"), "7");
+}
+
+TEST(DiagnosisTable, WhatIsMissingIsReadAgain) {
+  Diagnosis d = diagnosed();
+  EXPECT_EQ(missing_effects(written(d)), (std::vector<std::string>{"friction"}));
+  d.findings[2].verdict = Verdict::kMissing;
+  EXPECT_EQ(missing_effects(written(d)), (std::vector<std::string>{"friction", "tare"}));
+  Input other = Input::from_bytes("a,b\n1,2\n", "other.csv");
+  const CsvTable table = read_csv(other);
+  EXPECT_EQ(error_of([&] { missing_effects(table); }).rfind("other.csv: this is no diagnosis", 0),
+            0u);
+}
+
+TEST(DiagnosisTable, JsonHasTheSame) {
+  const auto json = nlohmann::json::parse(diagnosis_json(diagnosed(), kFiles));
+  EXPECT_EQ(json["verdict"], verdict_name(ModelVerdict::kIncomplete));
+  ASSERT_EQ(json["effects"].size(), 4u);
+  EXPECT_EQ(json["effects"][0]["verdict"], "missing");
+  EXPECT_EQ(json["effects"][0]["confused_with"][1], "shape");
+  EXPECT_DOUBLE_EQ(json["effects"][0]["rmse_after"], 0.25);
+}
+
+TEST(DiagnosisTable, OnlyWhatIsLackingIsToBeAdded) {
+  const std::vector<std::string> lines = diagnosis_lines(diagnosed(), kFiles);
+  EXPECT_EQ(lines.front(), "incomplete: something is missing");
+  const auto commands = std::count_if(lines.begin(), lines.end(), [](const std::string& l) {
+    return l.find("add it: ") != std::string::npos;
+  });
+  EXPECT_EQ(commands, 1);
+  EXPECT_NE(std::find(lines.begin(), lines.end(),
+                      "  temperature   not testable: evidence of temperature"),
+            lines.end());
+}
+
+TEST(DiagnosisTable, CasesFailWhereAnEffectIsLacking) {
+  const std::vector<JunitCase> cases = diagnosis_cases(diagnosed());
+  ASSERT_EQ(cases.size(), 5u);
+  EXPECT_EQ(cases[0].failure, "incomplete: something is missing");
+  EXPECT_EQ(cases[1].failure, "missing: evidence of friction");
+  EXPECT_EQ(cases[2].failure, "");  // possible
+  EXPECT_EQ(cases[3].failure, "");
+  EXPECT_TRUE(cases[4].skipped);
+  Diagnosis complete;
+  EXPECT_EQ(diagnosis_cases(complete)[0].failure, "");
+}
+
+}  // namespace
+}  // namespace hapsim
