@@ -129,6 +129,21 @@ double squares(const Acfm& model, const Dataset& dataset, const Episode& e,
 
 }  // namespace
 
+std::vector<Vec3> contact_normals(const Dataset& dataset, const SignedDistance& surface) {
+  std::vector<Vec3> normals;
+  for (const Vec3& p : dataset.positions) {
+    const SurfaceSide side = surface.at(p);
+    if (std::abs(side.distance) > 3 * dataset.setups.front().tool_radius)
+      fail_input(dataset.recording.name,
+                 fmt::format("the contact at ({:.6g}, {:.6g}, {:.6g}) lies {:.3g} m off the "
+                             "surface, more than 3 tool radii",
+                             p.x(), p.y(), p.z(), std::abs(side.distance)),
+                 "check the unit and that the body and the recording share one frame");
+    normals.push_back(side.normal);
+  }
+  return normals;
+}
+
 AcfmFit fit_acfm(const Dataset& dataset, const std::vector<Vec3>& normals,
                  const AcfmFitOptions& options) {
   const Fitter fitter(dataset, normals, options);

@@ -7,6 +7,7 @@
 
 #include "acfm/acfm.h"
 #include "experiment/dataset.h"
+#include "mesh/signed_distance.h"
 
 namespace hapsim {
 
@@ -30,6 +31,10 @@ struct AcfmFit {
   int derived_axes = 0;                                                  // not moved in these data
   std::vector<std::string> remarks;  // what is not determined, in words
 };
+
+// The normals of dataset.positions, outward. Error(kBadInput): a contact more than three tool radii
+// off the surface.
+std::vector<Vec3> contact_normals(const Dataset& dataset, const SignedDistance& surface);
 
 // Each direction of each position by itself: residuals (measured - model) / noise, parameters ks >
 // 0, k_i >= 0, tau_i in its window, thesis (5.44)-(5.50), with the derivatives of the exact step in

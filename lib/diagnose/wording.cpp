@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/model_edit.h"
+
 namespace hapsim {
 namespace {
 
@@ -97,6 +99,20 @@ std::string describe_verdict(const Diagnosis& d, bool structure_left) {
       return "nothing is missing that these data could show above the sizes named with each "
              "effect.";
   }
+}
+
+std::string step_words(const ImprovementStep& step, double noise) {
+  const double rmse = step.fitted.error.told(), held_out = step.held_out.told();
+  return fmt::format("{}: error {:.4g} N{}, {:.3g} x noise", effects_label(step.fitted.model), rmse,
+                     std::isnan(held_out) ? "" : fmt::format(", unseen {:.4g} N", held_out),
+                     rmse / noise);
+}
+
+std::string end_words(const Improvement& improvement) {
+  if (!improvement.refused.empty())
+    return improvement.refused +
+           " was called missing but does not help on unseen presses: left out";
+  return verdict_name(improvement.last.verdict) + ": " + improvement.last.explanation;
 }
 
 }  // namespace hapsim

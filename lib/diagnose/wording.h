@@ -4,6 +4,7 @@
 #include <string>
 
 #include "diagnose/candidate.h"
+#include "diagnose/improve.h"
 
 namespace hapsim {
 
@@ -13,5 +14,10 @@ std::string describe_where(const Candidate& candidate);
 std::string describe_evidence(const Candidate& candidate, const Measured& measured,
                               const Finding& finding);
 std::string describe_verdict(const Diagnosis& diagnosis, bool structure_left);
+
+// A version of an improved model with its errors; `noise` of the force [N].
+std::string step_words(const ImprovementStep& step, double noise);
+// Why an improvement ended.
+std::string end_words(const Improvement& improvement);
 
 }  // namespace hapsim

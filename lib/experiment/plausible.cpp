@@ -69,6 +69,13 @@ void require_presses(const Dataset& dataset) {
     }
 }
 
+void require_one_setup(const Dataset& dataset, const std::string& what) {
+  if (dataset.setups.size() > 1)
+    fail_usage(what + " is for one body and one tool, and these recordings have " +
+                   (dataset.bodies() > 1 ? "several bodies" : "several tools"),
+               "give it the recordings of one of them");
+}
+
 std::string strange_modulus(const Model& model) {
   constexpr double kSoftest = 50, kHardest = 5e6;  // from brain and fat to cartilage and rubber
   const Parameter* e = modulus_of(model);

@@ -18,6 +18,9 @@ void require_enough_data(const Model& model, const Dataset& dataset, const Selec
 // column is named).
 void require_presses(const Dataset& dataset);
 
+// Error(kUsage) when there are several bodies or tools: `what` knows one of each only.
+void require_one_setup(const Dataset& dataset, const std::string& what);
+
 // A sentence when the modulus is far from that of soft bodies, as forces in mN or displacements in
 // mm give; "" when it is not.
 std::string strange_modulus(const Model& model);

@@ -147,6 +147,12 @@ std::string not_shared(const EffectCard& effect, const Dataset& dataset) {
   return "";
 }
 
+void require_shared(const std::vector<std::string>& effects, const Dataset& dataset) {
+  for (const std::string& name : effects)
+    if (const std::string why = not_shared(require_effect(name).card(), dataset); !why.empty())
+      fail_usage(name + " cannot be shared", why);
+}
+
 std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
   if (std::string why = not_shared(effect, dataset); !why.empty()) return why;
   if (effect.needs_time && dataset.recording.t.empty())

@@ -30,6 +30,9 @@ std::vector<Model> with_effect(const Fit& fitted, const std::string& effect,
 // else what to do, in words.
 std::string not_shared(const EffectCard& effect, const Dataset& dataset);
 
+// Error(kUsage) naming the first of these effects whose parameters cannot be shared so.
+void require_shared(const std::vector<std::string>& effects, const Dataset& dataset);
+
 // Empty when these data can test the effect, else what they lack, in words.
 std::string lacking_for(const EffectCard& effect, const Dataset& dataset);
 

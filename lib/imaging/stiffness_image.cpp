@@ -168,4 +168,13 @@ double modulus_ratio(const StiffnessImage& image, const Vec3& p) {
   return ratio;
 }
 
+std::vector<double> image_moduli(const StiffnessImage& image, const TetMesh& body, double modulus) {
+  std::vector<double> moduli;
+  for (const auto& n : body.tets) {
+    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+    moduli.push_back(modulus * modulus_ratio(image, p));
+  }
+  return moduli;
+}
+
 }  // namespace hapsim

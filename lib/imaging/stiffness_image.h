@@ -50,5 +50,7 @@ std::vector<std::string> words_of(const StiffnessImage& image);
 
 // The modulus over the model's at a point: the balls', or where none was found the field's.
 double modulus_ratio(const StiffnessImage& image, const Vec3& p);
+// The modulus [Pa] in the middle of each tetrahedron of a body whose model has the one `modulus`.
+std::vector<double> image_moduli(const StiffnessImage& image, const TetMesh& body, double modulus);
 
 }  // namespace hapsim

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/counted.h"
 #include "base/error.h"
 #include "common_options.h"
 #include "diagnose/improve.h"
 #include "diagnose/wording.h"
-#include "effects/catalogue.h"
 #include "experiment/plausible.h"
-#include "fit/extend.h"
+#include "fit/fit_record.h"
+#include "fit/fit_request.h"
+#include "fit/fit_words.h"
 #include "fit/location_fit.h"
-#include "fit/maxwell_terms.h"
 #include "hs-identify/acfm.h"
 #include "hs-identify/boundary.h"
 #include "hs-identify/follow.h"
@@ -21,64 +20,18 @@
 #include "hs-identify/library.h"
 #include "hs-identify/plan.h"
 #include "hs-identify/recordings.h"
-#include "hs-identify/report.h"
 #include "hs-identify/search.h"
 #include "hs-identify/specification.h"
 #include "hs-identify/until.h"
+#include "linalg/blas.h"
 #include "model/model_edit.h"
 #include "model/model_history.h"
 
 namespace hapsim {
 namespace {
 
-std::string words_of(const TermChoice& choice, const std::string& effect) {
-  std::string trials;
-  for (const TermTrial& t : choice.trials)
-    trials += fmt::format(
-        "{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.fit.error.told(),
-        std::isnan(t.held_out.pooled) ? "" : fmt::format(", unseen {:.4g} N", t.held_out.told()));
-  return fmt::format("{} of {} chosen ({})", counted(choice.terms, "term", "terms"), effect,
-                     trials);
-}
-
-// Models to fit on the chosen episodes: fitted step by step, one effect after the other.
-Starts build(const IdentifyPlan& plan, const Experiment& w, const Selection& selection,
-             const FitOptions& fit_options, const ExtendOptions& extend,
-             const Linearisation& known = {}) {
-  Model model = plan.start;
-  if (model.parameters.empty()) {
-    model = elastic_model(w, selection);
-    for (const std::string& what : plan.fix)
-      if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
-  }
-  Starts starts{{model}, known};
-  for (std::size_t k = 0; k < plan.add.size(); ++k) {
-    FitOptions quick = fit_options;
-    quick.exact_regions = false;
-    quick.starts = 1;  // the last fit searches
-    const Fit base = fit_best(starts.models, w, selection, quick, starts.known);
-    const EffectCard& card = require_effect(plan.add[k]).card();
-    const bool terms = card.terms && !card.is_map;
-    FitOptions searching = quick;
-    searching.starts = fit_options.starts;
-    ExtendOptions own = extend;
-    if (terms && plan.terms.automatic) {
-      const TermChoice choice =
-          choose_terms(base, plan.add[k], plan.terms.count, w, selection, searching, extend);
-      own.terms = choice.terms;
-      if (plan.say) plan.say(words_of(choice, plan.add[k]));
-    }
-    starts = {with_effect(base, plan.add[k], w, selection, own), base.about};
-    if (terms && !plan.terms.windows.empty())
-      for (Model& start : starts.models) set_windows(start, plan.add[k], plan.terms.windows);
-  }
-  for (Model& start : starts.models)
-    for (const std::string& what : plan.fix) set_state(start, what, ParameterState::kFixed);
-  return starts;
-}
-
 // Adds what a diagnosis finds missing, step by step; each step goes into the history.
-Improvement improve_step_by_step(const Arguments& arguments, const IdentifyPlan& plan,
+Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& plan,
                                  const TetMesh& body, ExperimentOptions options,
                                  const FitOptions& fit_options, const Experiment& w,
                                  double force_rms) {
@@ -100,47 +53,23 @@ Improvement improve_step_by_step(const Arguments& arguments, const IdentifyPlan&
   Improvement improvement = improve(start, w, draft, improve_options);
   for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
     const ImprovementStep& step = improvement.steps[k];
-    const std::string label = effects_label(step.fitted.model);
-    const double rmse = step.fitted.error.told(), held_out = step.held_out.told();
-    say(arguments, "hs-identify",
-        fmt::format("{}: error {:.4g} N{}, {:.3g} x noise", label, rmse,
-                    std::isnan(held_out) ? "" : fmt::format(", unseen {:.4g} N", held_out),
-                    rmse / w.noise.value));
+    say(arguments, "hs-identify", step_words(step, w.noise.value));
     // The last step is the model itself, which run() writes down.
     if (arguments.given("--history") && k + 1 < improvement.steps.size())
       add_history(arguments.text("--history"),
-                  {arguments.output() + ": " + label, label, rmse, held_out, w.noise.value,
-                   force_rms, static_cast<int>(step.fitted.model.free_parameters().size())});
+                  history_row(arguments.output() + ": " + effects_label(step.fitted.model),
+                              step.fitted, step.held_out.told(), w.noise.value, force_rms));
   }
-  if (improvement.stopped) return improvement;
-  if (!improvement.refused.empty())
-    say(arguments, "hs-identify",
-        improvement.refused + " was called missing but does not help on unseen presses: left out");
-  else
-    say(arguments, "hs-identify",
-        verdict_name(improvement.last.verdict) + ": " + improvement.last.explanation);
+  if (!improvement.stopped) say(arguments, "hs-identify", end_words(improvement));
   return improvement;
 }
 
-void describe_fit(Fit& fitted, const IdentifyPlan& plan, const Experiment& w) {
-  Model& model = fitted.model;
-  model.metadata = plan.start.metadata;
-  unmark(model);
-  for (const char* key : {"heldout", "until", "heldout_later"}) model.metadata.remove(key);
-  model.metadata.set("rmse", format_number(fitted.error.told()));
-  model.metadata.set("force_noise", format_number(w.noise.value));
-  if (w.dataset.tools() > 1)
-    model.metadata.remove("tool_radius");
-  else
-    model.metadata.set("tool_radius", format_number(w.dataset.setups.front().tool_radius));
-}
-
 // The best so far of a fit that a signal ended, marked.
-int write_unfinished(const Arguments& arguments, const IdentifyPlan& plan, const Experiment& w,
+int write_unfinished(const Arguments& arguments, const FitRequest& plan, const Experiment& w,
                      Fit result, const SearchState& search) {
   SearchState state = search;
   state.done = result.starts_done;
-  describe_fit(result, plan, w);
+  record_fit(result, plan.start.metadata, w);
   mark_unfinished(result.model, state);
   Output output(arguments.output());
   write_model(output.stream(), result.model);
@@ -178,26 +107,20 @@ int run(const Arguments& arguments) {
   if (arguments.given("--acfm")) return run_acfm(arguments);
   if (arguments.given("--stiffening"))
     fail_usage("--stiffening is of analytical models", "add --acfm N, or --add hyperelastic");
-  const IdentifyPlan plan = make_plan(arguments);
+  const FitRequest plan = asked_fit(arguments);
   ExtendOptions extend;
-  extend.regions = regions_asked(arguments.text("--regions"));
+  extend.regions = parse_regions(arguments.text("--regions"), "--regions");
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
   GivenRecordings given = load_recordings(arguments);
   require_fit_for(arguments, plan, given.dataset);
   RestOfPress rest(arguments, given);
   const TetMesh& body = given.bodies.front();
-  IdentifyLibrary library(arguments, given.dataset.recording, body);
+  const std::unique_ptr<LibraryUse> library =
+      asked_library(arguments, given.dataset.recording, body);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
-  set_poisson_range(plan.start, options);
-  if (plan.start.parameters.empty())
-    for (const std::string& what : plan.fix) {
-      const bool is_nu = what.rfind("nu=", 0) == 0 || what.rfind("elastic.nu=", 0) == 0;
-      double nu = 0;
-      if (is_nu && parse_number(what.substr(what.find('=') + 1), nu))
-        options.nu_low = options.nu_high = nu;
-    }
+  set_poisson_range(plan, options);
   const Experiment w = make_experiment(given.bodies, std::move(given.dataset), options);
   progress.reset();
   FitOptions fit_options{w.noise.value, w.floor, true};
@@ -230,9 +153,9 @@ int run(const Arguments& arguments) {
     cut_short = improvement.stopped ? "the model was improved" : "";
     folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
   } else {
-    Starts starts = build(plan, w, all, fit_options, extend);
+    Starts starts = build_starts(plan, w, all, fit_options, extend);
     require_enough_data(starts.models.front(), w.dataset, all);
-    if (plan.start.parameters.empty()) library.add_start(starts.models);
+    if (library && plan.start.parameters.empty()) library->add_start(starts.models);
     result = fit_best(starts.models, w, all, final_options, starts.known);
     if (arguments.given("--boundary") && result.converged)
       result = with_refined_boundaries(arguments, result, w, body, fit_options);
@@ -244,26 +167,7 @@ int run(const Arguments& arguments) {
   if (const long count = arguments.integer("--folds");
       count > 1 && !plan.automatic && !watch.interrupted()) {
     folds = make_folds(w.dataset, static_cast<int>(count));
-    FitOptions quick = fit_options;
-    quick.exact_regions = false;
-    quick.starts = 1;
-    // Each fold starts from the fit on all data; regions come from the training positions alone,
-    // so they are built anew.
-    IdentifyPlan refit = plan;
-    refit.start = result.model;
-    refit.add.clear();
-    refit.say = nullptr;
-    if (const std::string& map = map_effect().card().name; refit.start.has(map)) {
-      remove_effect(refit.start, map);
-      refit.add.push_back(map);
-    }
-    const Linearisation known = w.places.solve(material_of(refit.start));
-    unseen = held_out_error(
-                 [&](const Selection& training) {
-                   return build(refit, w, training, quick, extend, known);
-                 },
-                 w, folds, quick)
-                 .error;
+    unseen = held_out_error(plan, result.model, w, folds, fit_options, extend);
   }
   if (watch.end() && cut_short.empty()) {
     cut_short = "the error on unseen data was found";
@@ -271,10 +175,12 @@ int run(const Arguments& arguments) {
   }
   const double held_out = unseen.told();
   Model& model = result.model;
-  describe_fit(result, plan, w);
+  record_fit(result, plan.start.metadata, w);
   if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
   if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
-  report(arguments, w, result, held_out, folds.by, force_rms);
+  for (const std::string& line : fit_lines(w, result, held_out, folds.by, force_rms))
+    say(arguments, "hs-identify", line);
+  if (arguments.verbose()) say(arguments, "hs-identify", "BLAS: " + blas_name());
   rest.tell(result, w);
   Output output(arguments.output());
   write_model(output.stream(), model);
@@ -285,11 +191,13 @@ int run(const Arguments& arguments) {
   }
   if (arguments.given("--image") && cut_short.empty())
     write_asked_image(arguments, result, w, body);
-  library.store(model, [&] { output.commit(); });
+  if (library)
+    library->store(model, [&] { output.commit(); });
+  else
+    output.commit();
   if (arguments.given("--history"))
     add_history(arguments.text("--history"),
-                {arguments.output(), effects_label(model), result.error.told(), held_out,
-                 w.noise.value, force_rms, static_cast<int>(model.free_parameters().size())});
+                history_row(arguments.output(), result, held_out, w.noise.value, force_rms));
   if (!cut_short.empty())
     fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,
                   "the model that was fitted is written: go on from it with --model");

@@ -35,13 +35,9 @@ inline void write_asked_image(const Arguments& arguments, const Fit& fitted,
   Progress progress(arguments, "sensitivities", experiment.dataset.positions.size());
   options.progress = [&progress] { progress.step(); };
   const StiffnessImage image = stiffness_image(model, experiment, fitted.about, body, options);
-  std::vector<double> modulus;
-  for (const auto& n : body.tets) {
-    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
-    modulus.push_back(material.modulus[0] * modulus_ratio(image, p));
-  }
   Output output(arguments.text("--image"));
-  write_image(output.stream(), body, modulus, image_format(arguments.text("--image")));
+  write_image(output.stream(), body, image_moduli(image, body, material.modulus[0]),
+              image_format(arguments.text("--image")));
   output.commit();
   for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
 }

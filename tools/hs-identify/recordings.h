@@ -10,7 +10,6 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "common_options.h"
-#include "effects/catalogue.h"
 #include "experiment/plausible.h"
 #include "fit/extend.h"
 #include "formats/tetmesh_io.h"
@@ -87,18 +86,10 @@ inline GivenRecordings load_recordings(const Arguments& arguments) {
   return given;
 }
 
-// For what knows one body and one tool only.
-inline void require_one_setup(const Dataset& dataset, const std::string& what) {
-  if (dataset.setups.size() > 1)
-    fail_usage(what + " is for one body and one tool, and these recordings have " +
-                   (dataset.bodies() > 1 ? "several bodies" : "several tools"),
-               "give it the recordings of one of them");
-}
-
 // Refuses, before anything is prepared, too few places, and what is asked of recordings of several
 // bodies or tools and knows one only: features of this tool, and effects (of the start, or to be
 // added) whose parameters belong to one.
-inline void require_fit_for(const Arguments& arguments, const IdentifyPlan& plan,
+inline void require_fit_for(const Arguments& arguments, const FitRequest& plan,
                             const Dataset& dataset) {
   if (plan.automatic) require_one_setup(dataset, "--effects auto");
   for (const char* flag : {"--boundary", "--image", "--library"})
@@ -112,9 +103,7 @@ inline void require_fit_for(const Arguments& arguments, const IdentifyPlan& plan
     fail_usage("--locations is for one body, and there are several", "fit each body by itself");
   std::vector<std::string> effects = plan.start.effects();
   effects.insert(effects.end(), plan.add.begin(), plan.add.end());
-  for (const std::string& name : effects)
-    if (const std::string why = not_shared(require_effect(name).card(), dataset); !why.empty())
-      fail_usage(name + " cannot be shared", why);
+  require_shared(effects, dataset);
 }
 
 }  // namespace hapsim

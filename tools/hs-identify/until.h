@@ -1,13 +1,11 @@
 // hs-identify --until: the fit sees the beginning of each press and predicts the rest.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <optional>
 
-#include "base/error.h"
 #include "cli/tool.h"
 #include "experiment/experiment.h"
+#include "fit/fit_words.h"
 #include "fit/rest_of_press.h"
 #include "hs-identify/recordings.h"
 
@@ -46,10 +44,7 @@ class RestOfPress {
     whole_.reset();
     model.metadata.set("until", format_number(seconds_));
     model.metadata.set("heldout_later", format_number(error.rmse));
-    say(arguments_, "hs-identify",
-        fmt::format("after {:g} s, not seen by the fit: {} samples, error {:.4g} N, median {:.3g} "
-                    "% of the peak of the press",
-                    seconds_, error.rows, error.rmse, 100 * error.median));
+    say(arguments_, "hs-identify", later_words(error, seconds_));
   }
 
  private:

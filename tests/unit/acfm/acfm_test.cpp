@@ -8,8 +8,11 @@
 
 #include "acfm/acfm_fit.h"
 #include "acfm/acfm_loop.h"
+#include "acfm/acfm_record.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "expect_error.h"
+#include "support/block_mesh.h"
 
 namespace hapsim {
 namespace {
@@ -210,6 +213,51 @@ TEST(AcfmFit, DerivesWhatDidNotMoveAndHoldsOut) {
               0.2 / (4 * std::log(1.4)) / (1.6 / 8), 1e-9);
   EXPECT_LT(fit.held_out_positions, 1.2 * fit.rmse);
   EXPECT_LT(fit.held_out_presses, 1.2 * fit.rmse);
+}
+
+// A unit cube pressed on its top; a contact 5 mm off it is one of a slack, 20 mm off one of another
+// frame.
+TEST(AcfmFit, ContactsLieOnTheSurface) {
+  Recording r;
+  r.metadata.set("tool_radius", "0.004");
+  for (const double z : {1.0, 1.005}) {
+    r.press.push_back(static_cast<int>(r.press.size()));
+    r.line.push_back(static_cast<long>(r.line.size()) + 2);
+    r.position.emplace_back(0.5, 0.4 + 0.1 * r.press.back(), z);
+    r.u.emplace_back(0, 0, -0.001);
+    r.f.emplace_back(0, 0, 1);
+  }
+  const SignedDistance cube(boundary_surface(test::block_mesh({1, 1, 1}, 2, 2, 2, 1)));
+  for (const Vec3& n : contact_normals(make_dataset(r), cube))
+    EXPECT_NEAR((n - Vec3::UnitZ()).norm(), 0, 1e-12);
+  r.position[1].z() = 1.02;
+  EXPECT_NE(
+      error_of([&] { contact_normals(make_dataset(r), cube); }).find("0.02 m off the surface"),
+      std::string::npos);
+}
+
+TEST(AcfmRecord, TellsErrorsAgainstForceAndNoise) {
+  AcfmFit fit;
+  fit.model.terms = 2;
+  fit.rmse = 0.02;
+  fit.held_out_presses = 0.03;
+  fit.remarks = {"a", "b", "c", "d", "e"};
+  Dataset dataset;
+  dataset.positions = {Vec3::Zero()};
+  dataset.recording.metadata.set("tool_radius", "0.004");
+  dataset.recording.press = {1, 1};
+  dataset.recording.f = {Vec3(1, 1, 1), Vec3(1, -1, 1)};  // rms 1 N
+  const std::vector<std::string> lines = fit_lines(fit, dataset, {0.01, true});
+  EXPECT_EQ(
+      lines,
+      (std::vector<std::string>{
+          "1 sub-models of 2 Maxwell elements a direction from 2 samples; noise 0.01 N "
+          "(measured from the data)",
+          "a", "b", "c", "d", "... and 1 more", "error 0.02 N = 2 % of the force's rms, 2 x noise",
+          "on presses not seen by the fit 0.03 N = 3 % of the force's rms, 3 x noise"}));
+  record_fit(fit, dataset, {0.01, true});
+  EXPECT_EQ(fit.model.metadata.find("heldout_presses"), "0.03");
+  EXPECT_FALSE(fit.model.metadata.find("heldout_positions"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "effects/catalogue.h"
 #include "expect_error.h"
+#include "model/library_use.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -222,6 +223,41 @@ TEST(NearestEntry, ValuesAreTakenWhereBothHaveThem) {
   for (const char* name : {"E1", "tau1"})
     start.find("viscoelastic", 0, name)->state = ParameterState::kFixed;
   EXPECT_FALSE(with_values_of(start, known, false));
+}
+
+class LibraryInUse : public Library {
+ protected:
+  std::vector<std::string> said_;
+  LibraryUse use(double radius = 0.004) {
+    return {path_.string(), described("liver", "L1", radius),
+            [this](const std::string& text) { said_.push_back(text); }};
+  }
+};
+
+TEST_F(LibraryInUse, IsMadeWithItsFirstEntry) {
+  auto first = use();
+  std::vector<Model> starts{test::elastic(1e4, 0.45)};
+  first.add_start(starts);
+  EXPECT_EQ(starts.size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  int commits = 0;
+  first.store(test::elastic(1.5e4, 0.4), [&] { ++commits; });
+  EXPECT_EQ(commits, 1);
+  auto second = use(0.005);
+  second.add_start(starts);
+  ASSERT_EQ(starts.size(), 2u);  // one more, with the values of the first
+  EXPECT_EQ(starts[1].find("elastic", 0, "E")->value, 1.5e4);
+  EXPECT_EQ(starts[0].find("elastic", 0, "E")->value, 1e4);
+  ASSERT_EQ(said_.size(), 3u);
+  for (const std::string& text : said_) EXPECT_EQ(text.rfind(path_.string() + ": ", 0), 0u) << text;
+}
+
+TEST_F(LibraryInUse, StaysAsItWasWhenTheModelIsNotWritten) {
+  use().store(test::elastic(1e4, 0.45), [] {});
+  EXPECT_THROW(use().store(test::elastic(2e4, 0.45), [] { throw std::runtime_error("full"); }),
+               std::runtime_error);
+  EXPECT_EQ(ModelLibrary(path_, Mode::kRead).entries().size(), 1u);
+  ASSERT_EQ(said_.size(), 1u);
 }
 
 }  // namespace

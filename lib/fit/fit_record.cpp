@@ -1,0 +1,33 @@
+#include "fit/fit_record.h"
+
+#include "io/number.h"
+#include "model/model_edit.h"
+#include "model/search_state.h"
+
+namespace hapsim {
+
+void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
+  Model& model = fitted.model;
+  model.metadata = start;
+  unmark(model);
+  for (const char* key : {"heldout", "until", "heldout_later"}) model.metadata.remove(key);
+  model.metadata.set("rmse", format_number(fitted.error.told()));
+  model.metadata.set("force_noise", format_number(w.noise.value));
+  if (w.dataset.tools() > 1)
+    model.metadata.remove("tool_radius");
+  else
+    model.metadata.set("tool_radius", format_number(w.dataset.setups.front().tool_radius));
+}
+
+HistoryRow history_row(const std::string& model, const Fit& fitted, double held_out, double noise,
+                       double force_rms) {
+  return {model,
+          effects_label(fitted.model),
+          fitted.error.told(),
+          held_out,
+          noise,
+          force_rms,
+          static_cast<int>(fitted.model.free_parameters().size())};
+}
+
+}  // namespace hapsim

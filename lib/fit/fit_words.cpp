@@ -1,0 +1,121 @@
+#include "fit/fit_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/counted.h"
+#include "estimate/identifiability.h"
+#include "experiment/plausible.h"
+#include "model/body_parameters.h"
+
+namespace hapsim {
+namespace {
+
+// " of 2 bodies by 3 tools"; empty for one of each.
+std::string setups_in_words(const Dataset& dataset) {
+  std::string text;
+  if (dataset.bodies() > 1) text += fmt::format(" of {} bodies", dataset.bodies());
+  if (dataset.tools() > 1) text += fmt::format(" by {} tools", dataset.tools());
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> hardly_known(const Model& model) {
+  constexpr double kHalf = 0.5, kHalfRange = 0.25;
+  std::vector<std::string> names;
+  for (const Parameter& p : model.parameters) {
+    if (p.state != ParameterState::kFree) continue;
+    const bool modulus = p.unit == "Pa", nu = is_poissons_ratio(p);
+    if ((modulus && p.std_error > kHalf * p.value) || (nu && p.std_error > kHalfRange))
+      names.push_back(p.effect + " " + p.name);
+  }
+  return names;
+}
+
+std::vector<std::string> fit_lines(const Experiment& w, const Fit& result, double held_out,
+                                   const std::string& by, double force_rms) {
+  std::vector<std::string> lines;
+  const auto line = [&](const std::string& text) { lines.push_back(text); };
+  line(fmt::format("{} at {}{}, {}; noise {:.3g} N ({}), force rms {:.3g} N",
+                   counted(w.dataset.recording.presses().size(), "press", "presses"),
+                   counted(w.dataset.positions.size(), "position", "positions"),
+                   setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
+                   w.noise.value, w.noise.measured ? "measured from the data" : "declared",
+                   force_rms));
+  if (const std::string shape = w.shape.words(); !shape.empty()) line(shape);
+  int shown = 0;
+  for (const Parameter& p : result.model.parameters) {
+    if (p.state != ParameterState::kFree || ++shown > 12) continue;
+    line(fmt::format(
+        "{} {}{} = {:.4g} {} ± {}", p.effect, p.name,
+        p.region > 0 ? fmt::format(" (region {})", p.region) : "", p.value,
+        p.unit == "1" ? "" : p.unit,
+        std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error)));
+  }
+  if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
+  const auto warn = [&](const std::vector<std::string>& names, const char* what) {
+    constexpr std::size_t kMost = 4;
+    for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);
+    if (names.size() > kMost) line(fmt::format("... and {} more", names.size() - kMost));
+  };
+  warn(result.at_bound,
+       " is at its bound: the data ask for more than the model can give, or cannot tell");
+  warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
+  warn(hardly_known(result.model),
+       " is hardly known (standard error of half its value or range): fix it, or press at more "
+       "places and "
+       "sideways");
+  if (w.dataset.positions.size() == 1)
+    line("all presses are at one place: how the body differs from place to place is not seen");
+  if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
+  for (const std::string& sentence : result.blind) line(sentence);
+  for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
+  for (const std::string& interval : result.intervals) line(interval);
+  if (result.discounted > 0)
+    line(fmt::format("{} of {} force components discounted as far off", result.discounted,
+                     result.residuals));
+  if (!enough_data(result.residuals,
+                   static_cast<Eigen::Index>(result.model.free_parameters().size())))
+    line("fewer than ten force components a free parameter: noise may decide their values");
+  const double error = result.error.told();
+  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", error,
+                   100 * error / force_rms, error / w.noise.value));
+  if (!by.empty() && !std::isnan(held_out))
+    line(fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
+                     100 * held_out / force_rms, held_out / w.noise.value));
+  return lines;
+}
+
+std::string choice_words(const TermChoice& choice, const std::string& effect) {
+  std::string trials;
+  for (const TermTrial& t : choice.trials)
+    trials += fmt::format(
+        "{}{}: error {:.4g} N{}", trials.empty() ? "" : "; ", t.terms, t.fit.error.told(),
+        std::isnan(t.held_out.pooled) ? "" : fmt::format(", unseen {:.4g} N", t.held_out.told()));
+  return fmt::format("{} of {} chosen ({})", counted(choice.terms, "term", "terms"), effect,
+                     trials);
+}
+
+std::string boundary_words(const BoundaryFit& refined, const Fit& before) {
+  if (!refined.better) return "the boundaries stay: moving them does not lower the error";
+  double squares = 0;
+  for (const double d : refined.moved) squares += d * d / static_cast<double>(refined.moved.size());
+  return fmt::format(
+      "boundaries moved by {:.2g} mm (rms), at most {:.2g} mm; error {:.4g} N before; "
+      "their points are known to {:.2g} to {:.2g} mm",
+      1e3 * std::sqrt(squares), 1e3 * *std::max_element(refined.moved.begin(), refined.moved.end()),
+      before.error.told(), 1e3 * *std::min_element(refined.error.begin(), refined.error.end()),
+      1e3 * *std::max_element(refined.error.begin(), refined.error.end()));
+}
+
+std::string later_words(const LaterError& error, double seconds) {
+  return fmt::format(
+      "after {:g} s, not seen by the fit: {} samples, error {:.4g} N, median {:.3g} "
+      "% of the peak of the press",
+      seconds, error.rows, error.rmse, 100 * error.median);
+}
+
+}  // namespace hapsim

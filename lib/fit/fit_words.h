@@ -1,0 +1,33 @@
+// A fit in short sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/boundary_fit.h"
+#include "fit/maxwell_terms.h"
+#include "fit/rest_of_press.h"
+
+namespace hapsim {
+
+// What was fitted to what, the first twelve values with their standard errors, what the data do not
+// tell or make doubtful, and the errors. `held_out` [N] on data left out by `by` ("positions"; "":
+// none); `force_rms`: of the measured forces [N].
+std::vector<std::string> fit_lines(const Experiment& experiment, const Fit& fitted, double held_out,
+                                   const std::string& by, double force_rms);
+
+// Moduli whose standard error is more than half their value, and a Poisson's ratio known to no
+// better than half its range.
+std::vector<std::string> hardly_known(const Model& model);
+
+// How many terms were chosen, and the errors of each number that was tried.
+std::string choice_words(const TermChoice& choice, const std::string& effect);
+
+// How far the boundaries have moved, and how well they are known. `before`: the fit that was
+// refined.
+std::string boundary_words(const BoundaryFit& refined, const Fit& before);
+
+// The error on the rest of each press, after `seconds`.
+std::string later_words(const LaterError& error, double seconds);
+
+}  // namespace hapsim
