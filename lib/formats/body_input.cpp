@@ -1,5 +1,9 @@
 #include "formats/body_input.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "base/error.h"
 #include "formats/format_table.h"
 #include "formats/ply.h"
@@ -71,6 +75,33 @@ BodyInput read_body_input(Input& input, double factor) {
   for (Vec3& p : result.surface.vertices) p *= factor;
   result.base = base_of(ply_comments(bytes), factor);
   return result;
+}
+
+void require_metres(const BodyInput& body, const std::string& where) {
+  constexpr double kLargest = 10;
+  double largest = 0;
+  for (const Vec3& p : body.mesh ? body.mesh->mesh.nodes : body.surface.vertices)
+    largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  if (largest > kLargest)
+    fail_input(where, fmt::format("coordinates reach {:.6g} m", largest),
+               "give --unit mm if these are millimetres");
+}
+
+void put_on_base(Support& support, const BodyInput& body) {
+  if (!body.base) return;
+  for (Support& other : support.also) put_on_base(other, body);
+  if (support.kind != SupportKind::kBottom) return;
+  support.kind = body.base->kind;
+  support.normal = body.base->normal;
+  support.z = body.base->z;
+}
+
+std::string mended_words(const MeshRepairs& r) {
+  if (r.unused_nodes + r.turned + r.doubled == 0) return "";
+  return fmt::format(
+      "mended: {} nodes of no tetrahedron and {} doubled tetrahedra dropped, {} "
+      "inverted ones turned",
+      r.unused_nodes, r.doubled, r.turned);
 }
 
 Surface read_outside(Input& input) {

@@ -21,6 +21,17 @@ struct BodyInput {
 // the commands that make a surface of them.
 BodyInput read_body_input(Input& input, double factor = 1);
 
+// Error(kBadInput) beginning with `where`: coordinates beyond 10 m, as of millimetres that were
+// taken for metres.
+void require_metres(const BodyInput& body, const std::string& where);
+
+// Parts of the support that are the lowest plane lie on the body's own bottom instead, where its
+// file tells that.
+void put_on_base(Support& support, const BodyInput& body);
+
+// What was dropped or turned while reading, in a sentence; "" where nothing was.
+std::string mended_words(const MeshRepairs& repairs);
+
 // The surface, or the boundary of the mesh, which need not be held. Errors as above.
 Surface read_outside(Input& input);
 

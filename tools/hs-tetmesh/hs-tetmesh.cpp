@@ -1,7 +1,6 @@
 // hs-tetmesh: a closed surface becomes a body of tetrahedra on its support.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
 #include "base/error.h"
@@ -9,11 +8,11 @@
 #include "cli/tool.h"
 #include "formats/body_input.h"
 #include "formats/format_table.h"
-#include "hs-tetmesh/report.h"
-#include "recording/recording.h"
+#include "recording/contact_points.h"
 #include "tetmesh/body_mesh.h"
+#include "tetmesh/body_words.h"
 #include "tetmesh/contact_mesh.h"
-#include "tetmesh/curve_edges.h"
+#include "tetmesh/given_mesh.h"
 
 namespace hapsim {
 namespace {
@@ -245,12 +244,7 @@ BodyInput read_scaled(const Arguments& arguments, const std::string& path, std::
   Input input(path);
   where = input.name();
   BodyInput body = read_body_input(input, factor);
-  double largest = 0;
-  for (const Vec3& p : body.mesh ? body.mesh->mesh.nodes : body.surface.vertices)
-    largest = std::max(largest, p.cwiseAbs().maxCoeff());
-  if (largest > 10)
-    fail_input(where, fmt::format("coordinates reach {:.6g} m", largest),
-               "give --unit mm if these are millimetres");
+  require_metres(body, where);
   return body;
 }
 
@@ -275,13 +269,7 @@ void read_contacts(const Arguments& arguments, BodyOptions& options) {
   const Recording recording = read_recording(input, false);
   options.tool_radius = arguments.given("--tool-radius") ? arguments.number("--tool-radius")
                                                          : recording.tool_radius();
-  const auto less = [](const Vec3& a, const Vec3& b) {
-    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
-  };
-  options.contacts = recording.position;
-  std::sort(options.contacts.begin(), options.contacts.end(), less);
-  options.contacts.erase(std::unique(options.contacts.begin(), options.contacts.end()),
-                         options.contacts.end());
+  options.contacts = contact_points(recording);
 }
 
 BodyOptions read_options(const Arguments& arguments) {
@@ -312,40 +300,6 @@ BodyOptions read_options(const Arguments& arguments) {
   return options;
 }
 
-// Parts on the surface's own bottom where its file tells that plane.
-void use_base(Support& support, const std::optional<Support>& base) {
-  if (!base) return;
-  for (Support& other : support.also) use_base(other, base);
-  if (support.kind != SupportKind::kBottom) return;
-  support.kind = base->kind;
-  support.normal = base->normal;
-  support.z = base->z;
-}
-
-// A mesh from elsewhere: its support, order and regions as asked.
-TetMesh finish_given(const Arguments& arguments, const BodyOptions& options, MeshFile& file,
-                     const std::string& where, std::vector<std::string>& notes) {
-  const MeshRepairs& r = file.repairs;
-  notes.push_back(fmt::format("{} of order {} taken as it is", file.format, file.mesh.order));
-  if (r.unused_nodes + r.turned + r.doubled > 0)
-    notes.push_back(
-        fmt::format("mended: {} nodes of no tetrahedron and {} doubled tetrahedra dropped, {} "
-                    "inverted ones turned",
-                    r.unused_nodes, r.doubled, r.turned));
-  TetMesh mesh = std::move(file.mesh);
-  if (!file.has_fixed || arguments.given("--fixed")) {
-    const auto bonded = bonded_faces(mesh.nodes, mesh.faces, options.support);
-    if (bonds_faces(options.support) && std::count(bonded.begin(), bonded.end(), 1) == 0)
-      fail_input(where, "no boundary triangle lies where the support is",
-                 "give --fixed below:Z, plane:Z or box:... in metres");
-    fix_faces(mesh, bonded);
-    fix_named_nodes(mesh, options.support, where);
-  }
-  if (options.order == 2) mesh = to_second_order(mesh);
-  if (arguments.given("--curved-to")) curve_edges(mesh, options.curved_to);
-  return mesh;
-}
-
 // All outputs are written before the first is put in its place, and before anything is said: a
 // reader of standard error that goes away costs no result.
 void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality& quality,
@@ -365,8 +319,7 @@ void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality
     std::ostream& node = open(arguments.text("--tetgen") + ".node");
     write_mesh_tetgen(node, open(arguments.text("--tetgen") + ".ele"), mesh);
   }
-  if (arguments.given("--json"))
-    open(arguments.text("--json")) << as_json(mesh, quality, report).dump(2) << '\n';
+  if (arguments.given("--json")) open(arguments.text("--json")) << body_json(mesh, quality, report);
   format_to_write(arguments.output(), Content::kTetrahedra)
       .write_mesh(
           open(arguments.output()), mesh,
@@ -394,11 +347,17 @@ int run(const Arguments& arguments) {
   BodyOptions options = read_options(arguments);
   std::string where;
   BodyInput input = read_scaled(arguments, arguments.input(), where);
-  use_base(options.support, input.base);
+  put_on_base(options.support, input);
   BodyReport report;
   TetMesh mesh;
   if (input.mesh && !arguments.given("--remesh")) {
-    mesh = finish_given(arguments, options, *input.mesh, where, report.notes);
+    MeshFile& file = *input.mesh;
+    report.notes.push_back(
+        fmt::format("{} of order {} taken as it is", file.format, file.mesh.order));
+    if (const std::string mended = mended_words(file.repairs); !mended.empty())
+      report.notes.push_back(mended);
+    mesh = body_of_mesh(std::move(file.mesh), file.has_fixed && !arguments.given("--fixed"),
+                        options, where);
   } else {
     if (input.mesh) input.surface = boundary_surface(input.mesh->mesh);
     Progress progress(arguments, "meshing, fifths of a second", 0);
@@ -411,7 +370,9 @@ int run(const Arguments& arguments) {
                   "mesh with another --edge");
   write_contact_meshes(arguments, mesh, options);
   write_all(arguments, mesh, quality, report);
-  summarise(arguments, kName, mesh, quality, report);
+  for (const std::string& line :
+       body_lines(mesh, quality, report, arguments.text("--unit"), arguments.verbose()))
+    say(arguments, kName, line);
   return 0;
 }
 

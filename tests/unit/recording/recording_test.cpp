@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "expect_error.h"
+#include "recording/contact_points.h"
 
 namespace hapsim {
 namespace {
@@ -101,6 +102,12 @@ TEST(Recording, RoundTrips) {
   std::ostringstream out;
   write_recording(out, recording_of(text));
   EXPECT_EQ(out.str(), text);
+}
+
+TEST(ContactPoints, AreDistinctAndInOrder) {
+  Recording r;
+  r.position = {{1, 0, 0}, {0, 2, 0}, {1, 0, 0}, {0, 1, 5}};
+  EXPECT_EQ(contact_points(r), (std::vector<Vec3>{{0, 1, 5}, {0, 2, 0}, {1, 0, 0}}));
 }
 
 }  // namespace

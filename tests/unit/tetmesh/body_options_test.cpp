@@ -2,7 +2,9 @@
 // inputs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "formats/body_input.h"
@@ -10,7 +12,9 @@
 #include "mesh/quality.h"
 #include "support/shapes.h"
 #include "tetmesh/body_mesh.h"
+#include "tetmesh/body_words.h"
 #include "tetmesh/curve_edges.h"
+#include "tetmesh/given_mesh.h"
 #include "tetmesh/tetgen.h"
 
 namespace hapsim {
@@ -315,6 +319,76 @@ TEST(Tetgen, BeatsWhileItRuns) {
   options.heartbeat = [&] { ++beats; };
   EXPECT_EQ(error_of([&] { run_tetgen({.surface = test::box({1, 1, 1}, 4)}, options); }).first, 3);
   EXPECT_GE(beats, 2);
+}
+
+TEST(GivenMesh, IsFixedWhereItSaysOrWhereItIsAsked) {
+  TetMesh cube = make_body_mesh(test::box(kSize), {.edge = 0.02});
+  std::fill(cube.fixed.begin(), cube.fixed.end(), 0);
+  cube.fixed[3] = 1;
+  const auto fixed = [](const TetMesh& mesh) {
+    return std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
+  };
+  EXPECT_EQ(fixed(body_of_mesh(cube, true, {}, "cube")), 1);
+  const TetMesh bonded = body_of_mesh(cube, false, {}, "cube");
+  for (std::size_t i = 0; i < bonded.nodes.size(); ++i)
+    EXPECT_EQ(bonded.fixed[i] == 1, std::abs(bonded.nodes[i].z()) < 1e-9) << i;
+  const TetMesh second = body_of_mesh(cube, true, {.order = 2}, "cube");
+  EXPECT_EQ(second.order, 2);
+  EXPECT_NEAR(tet_quality(second).volume, kSize.prod(), 1e-12);
+  BodyOptions above;
+  above.support = parse_support("plane:1");
+  EXPECT_NE(
+      error_of([&] { body_of_mesh(cube, false, above, "cube"); }).second.find("cube: no boundary"),
+      std::string::npos);
+}
+
+TEST(BodyInput, BottomsLieOnTheBaseThatTheFileTells) {
+  BodyInput body;
+  Support support = parse_support("bottom+below:0.01");
+  put_on_base(support, body);
+  EXPECT_EQ(support.kind, SupportKind::kBottom);
+  body.base = parse_support("plane:0,1,0,0.02");
+  put_on_base(support, body);
+  EXPECT_EQ(support.kind, SupportKind::kPlane);
+  EXPECT_EQ(support.normal, Vec3::UnitY());
+  EXPECT_EQ(support.z, 0.02);
+  EXPECT_EQ(support.also.at(0).kind, SupportKind::kBelow);
+}
+
+TEST(BodyInput, TenMetresAreMillimetres) {
+  BodyInput body;
+  body.surface.vertices = {Vec3(0, -9.9, 0), Vec3(1, 1, 1)};
+  EXPECT_NO_THROW(require_metres(body, "box"));
+  body.surface.vertices[0].y() = -10.5;
+  EXPECT_NE(
+      error_of([&] { require_metres(body, "box"); }).second.find("box: coordinates reach 10.5 m"),
+      std::string::npos);
+  EXPECT_EQ(mended_words({}), "");
+  EXPECT_EQ(
+      mended_words({.unused_nodes = 2, .turned = 1}),
+      "mended: 2 nodes of no tetrahedron and 0 doubled tetrahedra dropped, 1 inverted ones turned");
+}
+
+TEST(BodyWords, TellTheSizesOfAMesh) {
+  const TetMesh cube = make_body_mesh(test::box(kSize), {.edge = 0.02});
+  const TetQuality quality = tet_quality(cube);
+  BodyReport report;
+  report.notes = {"a note"};
+  const auto json = nlohmann::json::parse(body_json(cube, quality, report));
+  EXPECT_EQ(json["tetrahedra"], cube.tets.size());
+  EXPECT_NEAR(json["volume_m3"], kSize.prod(), 1e-15);
+  EXPECT_EQ(json["regions"]["0"], cube.tets.size());
+  EXPECT_EQ(json["inverted"], 0);
+  std::size_t counted = 0;
+  for (const std::size_t n : json["aspect"]["counts"]) counted += n;
+  EXPECT_EQ(counted, cube.tets.size());
+  const auto few = body_lines(cube, quality, report, "mm", false);
+  EXPECT_EQ(few.front(), "a note");
+  EXPECT_NE(few[1].find("0.00012 m^3, unit mm"), std::string::npos) << few[1];
+  EXPECT_GT(body_lines(cube, quality, report, "mm", true).size(), few.size());
+  TetMesh loose = cube;
+  std::fill(loose.fixed.begin(), loose.fixed.end(), 0);
+  EXPECT_EQ(body_lines(loose, quality, {}, "m", false)[1].rfind("no node fixed", 0), 0u);
 }
 
 }  // namespace

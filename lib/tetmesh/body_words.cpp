@@ -1,20 +1,15 @@
-// What hs-tetmesh tells of a body: lines for people, JSON for programs.
-#pragma once
+#include "tetmesh/body_words.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <string>
-
-#include "cli/tool.h"
-#include "mesh/quality.h"
-#include "tetmesh/body_mesh.h"
 
 namespace hapsim {
+namespace {
 
-inline nlohmann::ordered_json as_json(const Spread& spread, const Histogram* histogram = nullptr) {
+nlohmann::ordered_json as_json(const Spread& spread, const Histogram* histogram = nullptr) {
   nlohmann::ordered_json json{
       {"min", spread.minimum}, {"median", spread.median}, {"max", spread.maximum}};
   if (histogram != nullptr) json["bins_from"] = histogram->edge;
@@ -22,8 +17,17 @@ inline nlohmann::ordered_json as_json(const Spread& spread, const Histogram* his
   return json;
 }
 
-inline nlohmann::ordered_json as_json(const TetMesh& mesh, const TetQuality& q,
-                                      const BodyReport& report) {
+std::string counts(const char* what, const Histogram& histogram) {
+  std::string text = what;
+  for (std::size_t i = 0; i < histogram.count.size(); ++i)
+    text +=
+        fmt::format("{} from {:g}: {}", i == 0 ? "" : ",", histogram.edge[i], histogram.count[i]);
+  return text;
+}
+
+}  // namespace
+
+std::string body_json(const TetMesh& mesh, const TetQuality& q, const BodyReport& report) {
   std::map<int, std::size_t> regions;
   for (const int region : mesh.region) ++regions[region];
   nlohmann::ordered_json json{
@@ -50,25 +54,18 @@ inline nlohmann::ordered_json as_json(const TetMesh& mesh, const TetQuality& q,
                              {"radius_edge", t.radius_edge},
                              {"aspect", t.aspect}});
   json["notes"] = report.notes;
-  return json;
+  return json.dump(2) + "\n";
 }
 
-inline std::string counts(const char* what, const Histogram& histogram) {
-  std::string text = what;
-  for (std::size_t i = 0; i < histogram.count.size(); ++i)
-    text +=
-        fmt::format("{} from {:g}: {}", i == 0 ? "" : ",", histogram.edge[i], histogram.count[i]);
-  return text;
-}
-
-inline void summarise(const Arguments& arguments, const char* tool, const TetMesh& mesh,
-                      const TetQuality& q, const BodyReport& report) {
-  const auto tell = [&](const std::string& text) { say(arguments, tool, text); };
+std::vector<std::string> body_lines(const TetMesh& mesh, const TetQuality& q,
+                                    const BodyReport& report, const std::string& unit,
+                                    bool verbose) {
+  std::vector<std::string> lines;
+  const auto tell = [&](const std::string& text) { lines.push_back(text); };
   const auto fixed = std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
   for (const std::string& note : report.notes) tell(note);
   tell(fmt::format("{} tetrahedra, {} nodes, {} boundary triangles, {:.6g} m^3, unit {}",
-                   mesh.tets.size(), mesh.nodes.size(), mesh.faces.size(), q.volume,
-                   arguments.text("--unit")));
+                   mesh.tets.size(), mesh.nodes.size(), mesh.faces.size(), q.volume, unit));
   tell(fixed > 0 ? fmt::format("{} nodes fixed", fixed)
                  : "no node fixed: fix some before this body is pressed");
   tell(fmt::format(
@@ -78,12 +75,12 @@ inline void summarise(const Arguments& arguments, const char* tool, const TetMes
       q.smallest_dihedral_deg.minimum, q.smallest_dihedral_deg.median,
       q.smallest_dihedral_deg.maximum, q.largest_dihedral_deg, q.aspect.minimum, q.aspect.median,
       q.aspect.maximum));
-  if (!arguments.verbose() && !q.worst_tets.empty()) {
+  if (!verbose && !q.worst_tets.empty()) {
     const Vec3& at = q.worst_place;
     tell(fmt::format("worst tetrahedron {} at ({:.6g}, {:.6g}, {:.6g})", q.worst, at.x(), at.y(),
                      at.z()));
   }
-  if (!arguments.verbose()) return;
+  if (!verbose) return lines;
   tell(counts("radius-edge", q.radius_edge_counts));
   tell(counts("smallest dihedral [deg]", q.dihedral_counts));
   tell(counts("aspect", q.aspect_counts));
@@ -93,6 +90,7 @@ inline void summarise(const Arguments& arguments, const char* tool, const TetMes
                     "radius-edge {:.2f}, aspect {:.2f}",
                     t.tet, t.place.x(), t.place.y(), t.place.z(), t.smallest_dihedral_deg,
                     t.radius_edge, t.aspect));
+  return lines;
 }
 
 }  // namespace hapsim
