@@ -8,12 +8,10 @@
 #include <set>
 
 #include "base/error.h"
-#include "batch/outcome.h"
+#include "batch/batch_report.h"
 #include "batch/rules.h"
 #include "cli/tool.h"
 #include "io/number.h"
-#include "report/junit.h"
-#include "report/overview.h"
 
 namespace hapsim {
 namespace {
@@ -152,68 +150,13 @@ void wait_for_make(const Arguments& arguments, const Batch& batch) {
   }
 }
 
-std::string four_digits(const std::string& text) {
-  double value = 0;
-  return parse_number(text, value) ? fmt::format("{:.4g}", value) : text;
-}
-
-Overview overview_of(const Arguments& arguments, const Batch& batch,
-                     const std::vector<RecordingOutcome>& outcomes, const std::string& verdict) {
+int summarise(const Arguments& arguments, const Batch& batch) {
+  const std::vector<RecordingOutcome> outcomes = read_outcomes(batch);
   namespace fs = std::filesystem;
-  Overview page;
-  page.title = "Recordings of " + batch.manifest.name;
-  page.verdict = verdict;
-  page.provenance = {
-      {"manifest", batch.manifest.name}, {"folder", batch.options.folder}, {"hapsim", version()}};
   const fs::path beside = arguments.given("--html")
                               ? fs::absolute(arguments.text("--html")).parent_path()
                               : fs::current_path();
-  for (std::size_t r = 0; r < outcomes.size(); ++r) {
-    const RecordingOutcome& o = outcomes[r];
-    const std::string& name = batch.manifest.rows[r].name;
-    if (o.state == RecordingState::kNotRun) page.not_run.push_back(name);
-    if (o.state == RecordingState::kFailed) page.failures.push_back({name, o.message, o.command});
-    if (o.state != RecordingState::kDone) continue;
-    OverviewRow row{name, "", o.effects, o.verdict, o.missing, batch.manifest.rows[r].effects};
-    row.rmse = o.rmse;
-    row.held_out = o.held_out;
-    row.noise = o.noise;
-    row.modulus = four_digits(o.modulus);
-    row.nu = four_digits(o.nu);
-    if (const std::string report = output_of(batch, r, "report"); !report.empty())
-      row.link = fs::absolute(report).lexically_relative(beside).string();
-    page.rows.push_back(std::move(row));
-  }
-  return page;
-}
-
-void write_cases(const std::string& path, const Batch& batch,
-                 const std::vector<RecordingOutcome>& outcomes) {
-  std::vector<JunitCase> cases;
-  for (std::size_t r = 0; r < outcomes.size(); ++r) {
-    const RecordingOutcome& o = outcomes[r];
-    cases.push_back({batch.manifest.rows[r].name, o.message,
-                     o.command.empty() ? "" : o.message + "\n" + o.command,
-                     o.state == RecordingState::kNotRun});
-  }
-  Output junit(path);
-  write_junit(junit.stream(), "hs-batch", cases);
-  junit.commit();
-}
-
-int summarise(const Arguments& arguments, const Batch& batch) {
-  const std::vector<RecordingOutcome> outcomes = read_outcomes(batch);
-  const auto count = [&](RecordingState state) {
-    return static_cast<std::size_t>(
-        std::count_if(outcomes.begin(), outcomes.end(), [&](auto& o) { return o.state == state; }));
-  };
-  const std::size_t failed = count(RecordingState::kFailed), open = count(RecordingState::kNotRun);
-  std::string verdict =
-      fmt::format("{} of {} recordings done", count(RecordingState::kDone), outcomes.size());
-  if (failed > 0) verdict += fmt::format(", {} failed", failed);
-  if (open > 0) verdict += fmt::format(", {} not run", open);
-
-  const Overview overview = overview_of(arguments, batch, outcomes, verdict);
+  const Overview overview = batch_overview(batch, outcomes, beside.string(), version());
   Output summary(arguments.output());
   write_summary(summary.stream(), batch, outcomes);
   if (arguments.given("--html")) {
@@ -221,15 +164,19 @@ int summarise(const Arguments& arguments, const Batch& batch) {
     write_overview(html.stream(), overview);
     html.commit();
   }
-  if (arguments.given("--junit")) write_cases(arguments.text("--junit"), batch, outcomes);
+  if (arguments.given("--junit")) {
+    Output junit(arguments.text("--junit"));
+    write_junit(junit.stream(), "hs-batch", batch_cases(batch, outcomes));
+    junit.commit();
+  }
   summary.commit();
   for (std::size_t r = 0; r < outcomes.size(); ++r)
     if (outcomes[r].state == RecordingState::kFailed)
       say(arguments, "hs-batch",
           fmt::format("failed: {}: {}", batch.manifest.rows[r].name, outcomes[r].message));
-  say(arguments, "hs-batch", verdict);
+  say(arguments, "hs-batch", overview.verdict);
   for (const std::string& line : overview_lines(overview)) say(arguments, "hs-batch", line);
-  return static_cast<int>(failed + open > 0 ? ExitCode::kCheckFailed : ExitCode::kDone);
+  return static_cast<int>(all_done(outcomes) ? ExitCode::kDone : ExitCode::kCheckFailed);
 }
 
 int run(const Arguments& arguments) {
