@@ -5,9 +5,7 @@
 
 #include "base/error.h"
 #include "common_options.h"
-#include "io/csv.h"
-#include "model/golden_model.h"
-#include "report/junit.h"
+#include "model/golden_report.h"
 
 namespace hapsim {
 namespace {
@@ -70,41 +68,14 @@ ToolSpec specification() {
   return spec;
 }
 
-// "2%" or "0.01"; false when it is neither, or negative.
-bool parse_share(std::string_view text, Tolerance& tolerance) {
-  text = trim(text);
-  tolerance.relative = !text.empty() && text.back() == '%';
-  if (tolerance.relative) text.remove_suffix(1);
-  if (!parse_number(text, tolerance.value) || tolerance.value < 0) return false;
-  if (tolerance.relative) tolerance.value /= 100;
-  return true;
-}
-
 GoldenOptions golden_options(const Arguments& arguments) {
   GoldenOptions options;
   options.standard_errors = arguments.number("--standard-errors");
-  Tolerance all;
-  parse_share("1%", all);
-  options.tolerances = {all};
-  for (const std::string& text : arguments.list("--tolerance")) {
-    Tolerance tolerance;
-    const std::size_t equals = text.find('=');
-    if (equals != text.npos) tolerance.parameter = text.substr(0, equals);
-    if (!parse_share(equals == text.npos ? text : text.substr(equals + 1), tolerance))
-      fail_usage("--tolerance " + shown(text) + " is no tolerance",
-                 "give 2%, or for one parameter nu=0.01 or elastic.E=2%");
-    options.tolerances.push_back(tolerance);
-  }
-  Tolerance worse;
-  if (!parse_share(arguments.text("--worse"), worse))
-    fail_usage("--worse " + shown(arguments.text("--worse")) + " is no share", "give 10% or 0.1");
-  options.worse = worse.value;
+  options.tolerances = {parse_tolerance("1%", "--tolerance")};
+  for (const std::string& text : arguments.list("--tolerance"))
+    options.tolerances.push_back(parse_tolerance(text, "--tolerance"));
+  options.worse = parse_share(arguments.text("--worse"), "--worse");
   return options;
-}
-
-std::string name_of(const GoldenRow& row) {
-  const std::string name = row.effect.empty() ? row.parameter : row.effect + "." + row.parameter;
-  return row.region == 0 ? name : fmt::format("{}[{}]", name, row.region);
 }
 
 int run(const Arguments& arguments) {
@@ -113,35 +84,21 @@ int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-check", input);
   const Model golden = load_model(arguments, "hs-check", golden_input);
   const std::vector<GoldenRow> rows = compare_with_golden(model, golden, options);
-  for (const Tolerance& t : options.tolerances) {
-    const bool fits = std::any_of(rows.begin(), rows.end(), [&](const GoldenRow& row) {
-      return t.parameter.empty() || t.parameter == row.parameter ||
-             t.parameter == row.effect + "." + row.parameter;
-    });
-    if (!fits)
-      fail_usage("--tolerance: no parameter is named '" + t.parameter + "'", "write elastic.E=2%");
-  }
+  require_named(options.tolerances, rows, "--tolerance");
 
   Output output(arguments.output());
-  CsvWriter table(output.stream(), {},
-                  {"effect", "region", "parameter", "value", "golden", "allowed", "verdict"});
-  const auto number = [](double v) { return std::isfinite(v) ? format_number(v) : std::string(); };
-  std::vector<JunitCase> cases;
-  std::size_t differ = 0;
-  for (const GoldenRow& row : rows) {
-    table.row({row.effect, std::to_string(row.region), row.parameter, number(row.value),
-               number(row.golden), number(row.allowed), golden_verdict_name(row.verdict)});
-    cases.push_back({name_of(row), row.why, ""});
-    if (row.verdict != GoldenVerdict::kSame) ++differ;
-  }
+  write_golden(output.stream(), rows);
   if (arguments.given("--junit")) {
     Output junit(arguments.text("--junit"));
-    write_junit(junit.stream(), "hs-check", cases);
+    write_junit(junit.stream(), "hs-check", golden_cases(rows));
     junit.commit();
   }
   output.commit();
   for (const GoldenRow& row : rows)
     if (!row.why.empty()) tell("hs-check", row.why);
+  const auto differ = std::count_if(rows.begin(), rows.end(), [](const GoldenRow& row) {
+    return row.verdict != GoldenVerdict::kSame;
+  });
   say(arguments, "hs-check",
       differ == 0 ? fmt::format("{} parameters and errors are those of {}", rows.size(),
                                 arguments.text("--golden"))
