@@ -3,13 +3,11 @@
 
 #include <algorithm>
 
-#include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
 #include "formats/format_table.h"
 #include "import/block.h"
-#include "import/import.h"
-#include "io/csv.h"
+#include "import/import_report.h"
 #include "io/number.h"
 #include "io/quantity.h"
 
@@ -211,19 +209,6 @@ Vec3 vector_of(const Arguments& arguments, const std::string& flag) {
   return v;
 }
 
-// --at, or the middle of the block's top; a contact point off the top is a mistake.
-std::optional<Vec3> contact_place(const Arguments& arguments, const std::optional<Vec3>& block) {
-  std::optional<Vec3> place;
-  if (arguments.given("--at")) place = vector_of(arguments, "--at");
-  if (!block) return place;
-  if (!place) return Vec3(0, 0, block->z());
-  if (std::abs(place->x()) > block->x() / 2 || std::abs(place->y()) > block->y() / 2 ||
-      std::abs(place->z() - block->z()) > 1e-6)
-    fail_usage("--at is not on the top of the block",
-               fmt::format("its z is {} and its middle is x = y = 0", block->z()));
-  return place;
-}
-
 ImportOptions import_options(const Arguments& arguments, const std::optional<Vec3>& block) {
   ImportOptions options;
   options.columns = arguments.list("--column");
@@ -232,7 +217,8 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   };
   options.units = {maybe("--unit"), maybe("--force-unit"), maybe("--time-unit")};
   options.split_by = maybe("--split-by");
-  options.at = contact_place(arguments, block);
+  options.at = contact_place(
+      arguments.given("--at") ? std::optional(vector_of(arguments, "--at")) : std::nullopt, block);
   options.direction = vector_of(arguments, "--direction");
   if (options.direction.norm() < 1e-9)
     fail_usage("--direction has no length", "write for example 0,0,-1");
@@ -249,52 +235,6 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   if (arguments.given("--rate")) options.rate = arguments.number("--rate");
   options.drop_air = arguments.given("--drop-air");
   return options;
-}
-
-void write_scan(const std::string& path, const ImportResult& result) {
-  Output output(path);
-  const bool normals = !result.touched.empty() && result.touched.front().normal.norm() > 0.5;
-  Metadata metadata;
-  metadata.set("source", result.recording.name);
-  CsvWriter writer(output.stream(), metadata,
-                   normals ? std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz"}
-                           : std::vector<std::string>{"x", "y", "z"});
-  for (const TouchedPoint& touched : result.touched) {
-    std::vector<std::string> row;
-    for (Eigen::Index i = 0; i < 3; ++i) row.push_back(format_number(touched.point[i]));
-    for (Eigen::Index i = 0; normals && i < 3; ++i) row.push_back(format_number(touched.normal[i]));
-    writer.row(row);
-  }
-  output.commit();
-}
-
-void summarise(const Arguments& arguments, const ImportResult& result) {
-  const std::string tool = "hs-import";
-  const Recording& out = result.recording;
-  for (const std::string& fact : result.notes.facts) say(arguments, tool, fact);
-  for (const std::string& warning : result.notes.warnings)
-    say(arguments, tool, "WARNING: " + warning);
-  double force = 0, depth = 0;
-  std::size_t air = 0;
-  for (std::size_t i = 0; i < out.rows(); ++i) {
-    force = std::max(force, out.f[i].norm());
-    air += out.in_air(i);
-    if (!out.in_air(i)) depth = std::max(depth, out.u[i].norm());
-  }
-  std::vector<Vec3> places;
-  for (const TouchedPoint& touched : result.touched)
-    if (std::none_of(places.begin(), places.end(),
-                     [&](const Vec3& p) { return (p - touched.point).norm() < 1e-6; }))
-      places.push_back(touched.point);
-  if (!out.metadata.find("tool_radius"))
-    say(arguments, tool,
-        "WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius");
-  say(arguments, tool,
-      fmt::format("{} at {}, {} ({} in the air), {}; depth up to {:.3g} mm, force up to {:.3g} N",
-                  counted(result.touched.size(), "press", "presses"),
-                  counted(places.size(), "position", "positions"),
-                  counted(out.rows(), "sample", "samples"), air,
-                  out.t.empty() ? "quasi-static" : "with time", 1e3 * depth, force));
 }
 
 int run(const Arguments& arguments) {
@@ -314,7 +254,11 @@ int run(const Arguments& arguments) {
   }
   const ImportResult result = import_recording(table, options);
   write_recording(output.stream(), result.recording);
-  if (arguments.given("--scan")) write_scan(arguments.text("--scan"), result);
+  if (arguments.given("--scan")) {
+    Output scan(arguments.text("--scan"));
+    write_scan(scan.stream(), result);
+    scan.commit();
+  }
   if (block && arguments.given("--surface")) {
     Output surface(arguments.text("--surface"));
     const std::string size = fmt::format("block {} x {} x {} m", format_number(block->x()),
@@ -324,7 +268,7 @@ int run(const Arguments& arguments) {
     surface.commit();
   }
   output.commit();
-  summarise(arguments, result);
+  for (const std::string& line : import_lines(result)) say(arguments, "hs-import", line);
   return 0;
 }
 
