@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "common_options.h"
-#include "fusion/fuse_recordings.h"
 #include "fusion/fused_loop.h"
+#include "fusion/fusion_words.h"
 #include "io/csv.h"
 #include "model/model_edit.h"
 #include "realtime/live_session.h"
@@ -139,48 +139,10 @@ ToolSpec specification() {
   return spec;
 }
 
-void compare_with(const Arguments& arguments, const Recording& fast, const FusedForces& fused) {
-  Input input(arguments.text("--exact"));
-  const Recording exact = read_recording(input);
-  if (exact.rows() != fast.rows())
-    fail_input(exact.name, fmt::format("it has {} rows, not {}", exact.rows(), fast.rows()),
-               "give the exact forces of the same motion");
-  double squares = 0;
-  for (const Vec3& f : exact.f) squares += f.squaredNorm();
-  const double force = std::sqrt(squares / (3 * static_cast<double>(exact.rows())));
-  const auto line = [&](const char* name, const std::vector<Vec3>& forces) {
-    const ForceQuality q = force_quality(fast, forces, exact.f);
-    say(arguments, "hs-fuse",
-        fmt::format("  {:<18} error {:8.4f} N = {:6.2f} % of the force, largest step {:.4f} N in a "
-                    "millisecond",
-                    name, q.rms, 100 * q.rms / force, q.largest_step));
-  };
-  line("fused", fused.force);
-  line("fast alone", fast.f);
-  line("slow held", fused.held);
-  line("slow extrapolated", fused.extrapolated);
-  line("exact", exact.f);
-}
-
 FusionParameters given_parameters(const Arguments& arguments) {
   if (!arguments.given("--parameters")) return {};
   Input file(arguments.text("--parameters"));
   return read_fusion(file);
-}
-
-void tell(const Arguments& arguments, const FusionReport& report) {
-  const auto band = report.band();
-  const double mean = report.mean_nis();
-  say(arguments, "hs-fuse",
-      fmt::format(
-          "{} slow forces taken, {} refused; NIS {:.3g}, {} its 95 % band {:.3g} to {:.3g}; "
-          "{:.1f} % of them single below their 95 % point; correlation with the one before "
-          "{:.2f}",
-          report.observations, report.refused, mean,
-          mean >= band[0] && mean <= band[1] ? "within" : "outside", band[0], band[1],
-          100.0 * static_cast<double>(report.within) /
-              static_cast<double>(std::max(report.observations, 1L)),
-          report.correlation()));
 }
 
 class FinitePress : public SlowPress {
@@ -238,7 +200,7 @@ int run_live_fusion(const Arguments& arguments) {
         say(arguments, "hs-fuse",
             report.latency.summary() + fmt::format("; {} later than a period", report.misses));
         say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
-        tell(arguments, loop.report());
+        say(arguments, "hs-fuse", fusion_words(loop.report()));
       });
   if (!loop.failure().empty())
     fail_numerics("", "the finite elements stopped: " + loop.failure(),
@@ -274,8 +236,12 @@ int run(const Arguments& arguments) {
     say(arguments, "hs-fuse", fmt::format("parameters learned in {} runs", learned.runs));
   }
   const FusedForces fused = fuse(fast, source, parameters);
-  tell(arguments, fused.report);
-  if (arguments.given("--exact")) compare_with(arguments, fast, fused);
+  say(arguments, "hs-fuse", fusion_words(fused.report));
+  if (arguments.given("--exact")) {
+    Input exact(arguments.text("--exact"));
+    for (const std::string& line : quality_lines(fast, fused, read_recording(exact)))
+      say(arguments, "hs-fuse", line);
+  }
   fast.f = fused.force;
   for (int k = 0; k < 3; ++k) {
     fast.extra_header.push_back(fmt::format("sd{}", "xyz"[k]));
