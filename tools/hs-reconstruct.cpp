@@ -1,7 +1,4 @@
 // hs-reconstruct: points of a surface to the closed surface of a body.
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "base/error.h"
@@ -10,8 +7,7 @@
 #include "formats/format_table.h"
 #include "formats/surface_io.h"
 #include "io/number.h"
-#include "reconstruct/reconstruct.h"
-#include "repair/repair.h"
+#include "reconstruct/surface_record.h"
 
 namespace hapsim {
 namespace {
@@ -220,12 +216,9 @@ ReconstructOptions options_of(const Arguments& arguments) {
   return options;
 }
 
-// What came of it, for the summary, the comments and --json.
 struct Result {
   Surface surface;
-  std::string summary;
-  std::vector<std::string> comments;
-  nlohmann::json json;
+  SurfaceRecord record;
 };
 
 Result from_points(const Arguments& arguments, const PointCloud& cloud, const std::string& name) {
@@ -237,36 +230,7 @@ Result from_points(const Arguments& arguments, const PointCloud& cloud, const st
     options.step = [&] { progress.step(); };
     result.surface = reconstruct(cloud, options, name, report);
   }
-  const std::string& method = method_name(report.method);
-  result.comments = {fmt::format("hs-reconstruct: method {}, seed {}", method, options.seed),
-                     fmt::format("method {}: {}", method, report.why)};
-  std::string base = "no flat bottom";
-  if (report.has_base) {
-    const std::string plane =
-        fmt::format("{} {} {} {}", format_number(report.up.x()), format_number(report.up.y()),
-                    format_number(report.up.z()), format_number(report.base));
-    result.comments.push_back("base_plane " + plane);
-    base = report.tilted ? "base n.x = h with (nx ny nz h) = (" + plane + ")"
-                         : fmt::format("base z = {:.4g} m", report.base);
-    base += " (" + report.base_why + ")";
-  }
-  result.summary = fmt::format(
-      "method {}: {}; {} points ({} after evening out) to {} vertices, {} faces of edge {:.2g} mm, "
-      "{}; volume {:.4g} cm^3; {}; points lie {:.2g} mm rms off the surface, {:.1f} % farther than "
-      "3 times that",
-      method, report.why, cloud.points.size(), report.points, result.surface.vertices.size(),
-      result.surface.faces.size(), 1e3 * report.edge,
-      report.sharp ? "with sharp edges" : "without sharp edges",
-      1e6 * signed_volume(result.surface), base, 1e3 * report.rms, 100 * report.far_share);
-  result.json = {{"method", method},
-                 {"why", report.why},
-                 {"points", cloud.points.size()},
-                 {"points_used", report.points},
-                 {"edge", report.edge},
-                 {"sharp_edges", report.sharp},
-                 {"rms", report.rms},
-                 {"far_share", report.far_share}};
-  if (report.has_base) result.json["base"] = report.base;
+  result.record = record_reconstruction(result.surface, report, cloud.points.size(), options.seed);
   return result;
 }
 
@@ -285,16 +249,7 @@ Result from_triangles(const Arguments& arguments, const Surface& given, const st
     fail_input(name, "the surface is not sound: " + report.text(), "leave --no-repair out");
   }
   if (options.edge > 0) result.surface = even_surface(result.surface, options.edge);
-  const std::string method = wrapped ? "wrap" : "repair";
-  const std::string why = wrapped ? "asked for" : "the input has triangles";
-  result.comments = {fmt::format("hs-reconstruct: method {}", method),
-                     fmt::format("method {}: {}", method, why)};
-  result.summary = fmt::format(
-      "method {}: {}; {} triangles to {} vertices, {} faces; volume {:.6g} cm^3; {}", method, why,
-      given.faces.size(), result.surface.vertices.size(), result.surface.faces.size(),
-      1e6 * signed_volume(result.surface), wrapped ? "wrapped, nothing mended" : report.text());
-  result.json = {{"method", method}, {"why", why}, {"triangles", given.faces.size()}};
-  if (!wrapped) result.json["repairs"] = nlohmann::json::parse(report.json());
+  result.record = record_repair(result.surface, wrapped ? nullptr : &report, given.faces.size());
   return result;
 }
 
@@ -321,17 +276,14 @@ int run(const Arguments& arguments) {
   Output output(arguments.output());
   format_to_write(arguments.output(), Content::kTriangles)
       .write_surface(output.stream(), result.surface,
-                     {.ascii = arguments.given("--ascii"), .comments = result.comments});
+                     {.ascii = arguments.given("--ascii"), .comments = result.record.comments});
   output.commit();
   if (arguments.given("--json")) {
-    result.json["vertices"] = result.surface.vertices.size();
-    result.json["faces"] = result.surface.faces.size();
-    result.json["volume"] = signed_volume(result.surface);
     Output json(arguments.text("--json"));
-    json.stream() << result.json.dump(2) << '\n';
+    json.stream() << result.record.json;
     json.commit();
   }
-  say(arguments, "hs-reconstruct", result.summary);
+  say(arguments, "hs-reconstruct", result.record.summary);
   return 0;
 }
 

@@ -1,0 +1,70 @@
+#include "reconstruct/surface_record.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/number.h"
+
+namespace hapsim {
+namespace {
+
+SurfaceRecord finish(SurfaceRecord record, nlohmann::json json, const Surface& surface) {
+  json["vertices"] = surface.vertices.size();
+  json["faces"] = surface.faces.size();
+  json["volume"] = signed_volume(surface);
+  record.json = json.dump(2) + "\n";
+  return record;
+}
+
+}  // namespace
+
+SurfaceRecord record_reconstruction(const Surface& surface, const ReconstructReport& report,
+                                    std::size_t points, std::uint64_t seed) {
+  SurfaceRecord record;
+  const std::string& method = method_name(report.method);
+  record.comments = {fmt::format("hs-reconstruct: method {}, seed {}", method, seed),
+                     fmt::format("method {}: {}", method, report.why)};
+  std::string base = "no flat bottom";
+  if (report.has_base) {
+    const std::string plane =
+        fmt::format("{} {} {} {}", format_number(report.up.x()), format_number(report.up.y()),
+                    format_number(report.up.z()), format_number(report.base));
+    record.comments.push_back("base_plane " + plane);
+    base = report.tilted ? "base n.x = h with (nx ny nz h) = (" + plane + ")"
+                         : fmt::format("base z = {:.4g} m", report.base);
+    base += " (" + report.base_why + ")";
+  }
+  record.summary = fmt::format(
+      "method {}: {}; {} points ({} after evening out) to {} vertices, {} faces of edge {:.2g} mm, "
+      "{}; volume {:.4g} cm^3; {}; points lie {:.2g} mm rms off the surface, {:.1f} % farther than "
+      "3 times that",
+      method, report.why, points, report.points, surface.vertices.size(), surface.faces.size(),
+      1e3 * report.edge, report.sharp ? "with sharp edges" : "without sharp edges",
+      1e6 * signed_volume(surface), base, 1e3 * report.rms, 100 * report.far_share);
+  nlohmann::json json = {{"method", method},    {"why", report.why},
+                         {"points", points},    {"points_used", report.points},
+                         {"edge", report.edge}, {"sharp_edges", report.sharp},
+                         {"rms", report.rms},   {"far_share", report.far_share}};
+  if (report.has_base) json["base"] = report.base;
+  return finish(std::move(record), std::move(json), surface);
+}
+
+SurfaceRecord record_repair(const Surface& surface, const RepairReport* report,
+                            std::size_t triangles) {
+  SurfaceRecord record;
+  const bool wrapped = report == nullptr;
+  const std::string method = wrapped ? "wrap" : "repair";
+  const std::string why = wrapped ? "asked for" : "the input has triangles";
+  record.comments = {fmt::format("hs-reconstruct: method {}", method),
+                     fmt::format("method {}: {}", method, why)};
+  record.summary = fmt::format(
+      "method {}: {}; {} triangles to {} vertices, {} faces; volume {:.6g} cm^3; {}", method, why,
+      triangles, surface.vertices.size(), surface.faces.size(), 1e6 * signed_volume(surface),
+      wrapped ? "wrapped, nothing mended" : report->text());
+  nlohmann::json json = {{"method", method}, {"why", why}, {"triangles", triangles}};
+  if (!wrapped) json["repairs"] = nlohmann::json::parse(report->json());
+  return finish(std::move(record), std::move(json), surface);
+}
+
+}  // namespace hapsim
