@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
@@ -14,14 +13,9 @@
 #include "hs-scan2ply/specification.h"
 #include "io/extension.h"
 #include "io/number.h"
-#include "reconstruct/clean_points.h"
-#include "reconstruct/normals.h"
-#include "scan/orient.h"
 #include "scan/plan_file.h"
-#include "scan/register.h"
 #include "scan/scan_file.h"
-#include "scan/touch.h"
-#include "volume/isosurface.h"
+#include "scan/scan_record.h"
 #include "volume/volume.h"
 
 namespace hapsim {
@@ -135,7 +129,7 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
 }
 
 // A volume's surface as a scan.
-Scan volume_scan(const Arguments& arguments, nlohmann::json& json) {
+Scan volume_scan(const Arguments& arguments, ScanRecord& record) {
   const std::string path = arguments.input();
   const bool folder = path != "-" && std::filesystem::is_directory(path);
   Volume volume;
@@ -152,23 +146,7 @@ Scan volume_scan(const Arguments& arguments, nlohmann::json& json) {
                            .below = arguments.given("--below"),
                            .all_parts = arguments.given("--all-parts"),
                            .cavities = arguments.given("--cavities")};
-  IsoReport report;
-  Scan scan;
-  scan.cloud = isosurface(volume, options, name, report);
-  scan.notes = volume.notes;
-  scan.notes.push_back(fmt::format(
-      "{}, {} x {} x {} voxels: the body has {} ({:.1f} % of all beyond the threshold, {} parts); "
-      "{:.0f} MB taken",
-      volume.format, volume.size[0], volume.size[1], volume.size[2], report.voxels,
-      100 * report.share, report.parts, report.memory / 1e6));
-  if (report.cut > 0) {
-    scan.notes.push_back(
-        fmt::format("WARNING the volume's border cuts the body at {} voxels", report.cut));
-  }
-  json["volume"] = {{"format", volume.format},      {"size", volume.size},
-                    {"body_voxels", report.voxels}, {"parts", report.parts},
-                    {"cut_voxels", report.cut},     {"memory_bytes", report.memory}};
-  return scan;
+  return scan_of_volume(volume, options, name, record);
 }
 
 bool is_volume(const Arguments& arguments) {
@@ -176,11 +154,11 @@ bool is_volume(const Arguments& arguments) {
          (arguments.input() != "-" && std::filesystem::is_directory(arguments.input()));
 }
 
-Scan gather(const Arguments& arguments, const ScanFileOptions& file, nlohmann::json& json,
+Scan gather(const Arguments& arguments, const ScanFileOptions& file, ScanRecord& record,
             std::string& name) {
   if (is_volume(arguments)) {
     name = arguments.input();
-    return volume_scan(arguments, json);
+    return volume_scan(arguments, record);
   }
   Input input(arguments.input());
   name = input.name();
@@ -193,46 +171,14 @@ Scan gather(const Arguments& arguments, const ScanFileOptions& file, nlohmann::j
   return scan;
 }
 
-void run_register(const Arguments& arguments, Scan& scan, nlohmann::json& json,
+void run_register(const Arguments& arguments, Scan& scan, ScanRecord& record,
                   const std::string& name) {
-  const RegisterReport report =
-      register_zones(scan,
-                     {.fixed = arguments.text("--fix-zone"),
-                      .most_drift = arguments.number("--most-drift"),
-                      .most_error = arguments.number("--most-shift-error")},
-                     name);
-  for (const ZoneMotion& z : report.zones) {
-    say(arguments, kTool,
-        z.name == report.fixed
-            ? fmt::format("zone {} stays; rms {:.3f} to {:.3f} mm in {} matches", z.name,
-                          1e3 * z.rms_before, 1e3 * z.rms_after, z.overlap)
-            : fmt::format(
-                  "zone {} shifted by {:.3f} {:.3f} {:.3f} mm (+- {:.3f}), turned by {:.3f} "
-                  "deg; rms {:.3f} to {:.3f} mm in {} matches",
-                  z.name, 1e3 * z.shift.x(), 1e3 * z.shift.y(), 1e3 * z.shift.z(), 1e3 * z.error,
-                  z.turn * 180 / M_PI, 1e3 * z.rms_before, 1e3 * z.rms_after, z.overlap));
-    json["zones"].push_back({{"zone", z.name},
-                             {"fixed", z.name == report.fixed},
-                             {"points", z.points},
-                             {"matches", z.overlap},
-                             {"shift", {z.shift.x(), z.shift.y(), z.shift.z()}},
-                             {"turn", z.turn},
-                             {"shift_std_error", z.error},
-                             {"rms_before", z.rms_before},
-                             {"rms_after", z.rms_after}});
-  }
-}
-
-// Normals of the cleaned points, turned to the sensor where the scan knows it.
-std::string complete_normals(PointCloud& clean, const Scan& scan, const std::vector<int>& index) {
-  if (!clean.normals.empty()) return "given";
-  NormalsReport report;
-  estimate_normals(clean, Vec3::UnitZ(), report);
-  std::string text = fmt::format("from {} neighbours, noise about {:.2g} mm", report.neighbours,
-                                 1e3 * report.noise);
-  if (scan.to_sensor.empty()) return text;
-  face_sensor(clean, pick(scan, index).to_sensor);
-  return text + ", towards the sensor";
+  record.registered = register_zones(scan,
+                                     {.fixed = arguments.text("--fix-zone"),
+                                      .most_drift = arguments.number("--most-drift"),
+                                      .most_error = arguments.number("--most-shift-error")},
+                                     name);
+  for (const std::string& line : zone_lines(*record.registered)) say(arguments, kTool, line);
 }
 
 std::optional<TouchModel> touch_model(const Arguments& arguments) {
@@ -264,7 +210,7 @@ std::optional<TouchModel> touch_model(const Arguments& arguments) {
 
 // The cleaned points moved out by what the touch pushed them in.
 void correct_touch(const Arguments& arguments, const TouchModel& model, const Scan& scan,
-                   const std::vector<int>& index, PointCloud& clean, nlohmann::json& json,
+                   const std::vector<int>& index, PointCloud& clean, ScanRecord& record,
                    const std::string& name) {
   Scan touched = pick(scan, index);
   if (touched.touch_force.empty()) {
@@ -274,13 +220,9 @@ void correct_touch(const Arguments& arguments, const TouchModel& model, const Sc
     touched.touch_force.assign(index.size(), arguments.number("--touch-force"));
   }
   touched.cloud = clean;
-  const TouchReport report = undo_touch(touched, model, 0.05, name);
+  record.touch = undo_touch(touched, model, 0.05, name);
   clean = touched.cloud;
-  say(arguments, kTool,
-      fmt::format("indentation of the touch undone: {:.3f} mm ({:.3f} to {:.3f})",
-                  1e3 * report.mean, 1e3 * report.least, 1e3 * report.largest));
-  json["indentation"] = {
-      {"mean", report.mean}, {"least", report.least}, {"largest", report.largest}};
+  say(arguments, kTool, touch_words(*record.touch));
 }
 
 int run(const Arguments& arguments) {
@@ -300,33 +242,23 @@ int run(const Arguments& arguments) {
   if (arguments.given("--plan")) return run_plan(arguments, file);
   const std::optional<TouchModel> touch = touch_model(arguments);
 
-  nlohmann::json json;
+  ScanRecord record;
   std::string name;
-  Scan scan = gather(arguments, file, json, name);
+  Scan scan = gather(arguments, file, record, name);
   for (const std::string& note : scan.notes) say(arguments, kTool, note);
-  if (arguments.given("--register")) run_register(arguments, scan, json, name);
+  if (arguments.given("--register")) run_register(arguments, scan, record, name);
 
   CleanOptions options;
   options.remove_outliers = !arguments.given("--keep-outliers");
   if (arguments.given("--spacing")) options.spacing = arguments.number("--spacing");
-  CleanReport removed;
-  PointCloud clean = clean_points(scan.cloud, options, name, removed);
-  const std::string normals = complete_normals(clean, scan, removed.index);
-  if (touch) correct_touch(arguments, *touch, scan, removed.index, clean, json, name);
+  PointCloud clean = clean_points(scan.cloud, options, name, record.cleaned);
+  record.normals = complete_normals(clean, scan, record.cleaned.index);
+  if (touch) correct_touch(arguments, *touch, scan, record.cleaned.index, clean, record, name);
 
-  const double spacing = point_spacing(clean.points);
-  json["points"] = {{"read", removed.read},
-                    {"duplicates", removed.duplicates},
-                    {"near_duplicates", removed.near_duplicates},
-                    {"isolated", removed.isolated},
-                    {"off_surface", removed.off_surface},
-                    {"thinned", removed.thinned},
-                    {"kept", removed.kept},
-                    {"spacing", spacing},
-                    {"normals", normals}};
+  record.spacing = point_spacing(clean.points);
   if (arguments.given("--json")) {
     Output report(arguments.text("--json"));
-    report.write(json.dump(2) + "\n");
+    report.write(scan_json(record));
     report.commit();
   }
   Output output(arguments.output());
@@ -335,12 +267,7 @@ int run(const Arguments& arguments) {
                     {.ascii = arguments.given("--ascii"),
                      .comments = {"hs-scan2ply: points in m, read in " + unit}});
   output.commit();
-  say(arguments, kTool,
-      fmt::format("{} points read in {}; removed {} given twice, {} nearly so, {} isolated, {} off "
-                  "the surface, {} by thinning; kept {}, {:.3g} mm apart; normals {}",
-                  removed.read, is_volume(arguments) ? "the volume's frame" : unit,
-                  removed.duplicates, removed.near_duplicates, removed.isolated,
-                  removed.off_surface, removed.thinned, removed.kept, 1e3 * spacing, normals));
+  say(arguments, kTool, points_words(record, record.volume ? "the volume's frame" : unit));
   return 0;
 }
 
