@@ -15,11 +15,11 @@ lib/import/ tare
 lib/import/ temperature
 lib/compare/ temperature
 lib/scan/ tip
-tools/hs-reconstruct.cpp base
-tools/hs-scan2ply/hs-scan2ply.cpp shift
+lib/reconstruct/ base
+lib/scan/ shift
 tools/hs-cluster.cpp regions
-tools/hs-compare/body.h regions
-tools/hs-tetmesh/report.h regions
+lib/compare/report_body.cpp regions
+lib/tetmesh/body_words.cpp regions
 tools/hs-simulate/ tip
 "
 export literal="\"($(IFS='|'; echo "${names[*]}"))\""
