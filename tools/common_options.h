@@ -13,35 +13,32 @@
 #include "mesh/tetmesh.h"
 #include "model/search_state.h"
 #include "recording/recording.h"
+#include "shared_flags.h"
 
 namespace hapsim {
 
 inline std::vector<Option> experiment_flags() {
   return {
-      {.flag = "--body",
-       .kind = OptionKind::kFile,
+      {.flag = flag::body,
        .value = "FILE",
        .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
                names_to_read(Content::kTetrahedra) + ".",
        .group = "Input",
        .required = true},
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kLength,
+      {.flag = flag::tool_radius,
        .value = "M",
        .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
        .group = "Input",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--noise",
-       .kind = OptionKind::kForce,
+      {.flag = flag::noise,
        .value = "N",
        .help = "Standard deviation of the force noise per component [N]; otherwise the metadata "
                "force_noise, otherwise measured from differences of neighbours in time and the "
                "samples in the air.",
        .group = "Fit",
        .minimum = 1e-12},
-      {.flag = "--floor",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::floor,
        .value = "SHARE",
        .help = "Gain error by position that mesh and scanned shape may cause and no effect is "
                "blamed for; otherwise the mesh's own uncertainty and that of a surface off the "
@@ -49,24 +46,21 @@ inline std::vector<Option> experiment_flags() {
        .group = "Fit",
        .minimum = 0,
        .maximum = 1},
-      {.flag = "--rim-edge",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::rim_edge,
        .value = "SHARE",
        .help = "Edge length of the finer contact mesh at the tool's rim, as a share of the radius; "
                "otherwise a sixth.",
        .group = "Fit",
        .minimum = 0.02,
        .maximum = 0.5},
-      {.flag = "--threads",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::threads,
        .value = "N",
        .help = "Contact positions solved side by side; 0: as many as the machine has cores.",
        .group = "General",
        .default_text = "0",
        .minimum = 0,
        .maximum = 1024},
-      {.flag = "--cache",
-       .kind = OptionKind::kText,
+      {.flag = flag::cache,
        .value = "DIR",
        .help = "Where prepared stiffnesses are kept by content ('none': nowhere); otherwise the "
                "user's cache folder.",
@@ -77,14 +71,14 @@ inline std::vector<Option> experiment_flags() {
 inline Recording load_recording(const Arguments& arguments, const std::string& path, bool forces) {
   Input input(path);
   Recording recording = read_recording(input, forces);
-  if (arguments.given("--tool-radius"))
-    recording.metadata.set("tool_radius", arguments.text("--tool-radius"));
+  if (arguments.given(flag::tool_radius))
+    recording.metadata.set("tool_radius", arguments.text(flag::tool_radius));
   recording.tool_radius();  // fails now when it is missing
   return recording;
 }
 
 inline TetMesh load_body(const Arguments& arguments) {
-  Input input(arguments.text("--body"));
+  Input input(arguments[flag::body]);
   return read_body(input);
 }
 
@@ -103,7 +97,7 @@ inline Model load_model(const Arguments& arguments, const std::string& tool, Inp
   return model;
 }
 inline Model load_model(const Arguments& arguments, const std::string& tool) {
-  Input input(arguments.text("--model"));
+  Input input(arguments[flag::model]);
   return load_model(arguments, tool, input);
 }
 
@@ -111,12 +105,11 @@ inline Model load_model(const Arguments& arguments, const std::string& tool) {
 inline ExperimentOptions experiment_options(const Arguments& arguments,
                                             std::shared_ptr<Progress>& progress) {
   ExperimentOptions options;
-  options.threads = static_cast<int>(arguments.integer("--threads"));
-  if (arguments.given("--rim-edge")) options.rim_edge = arguments.number("--rim-edge");
-  if (arguments.given("--noise")) options.noise = arguments.number("--noise");
-  if (arguments.given("--floor")) options.floor = arguments.number("--floor");
-  options.cache =
-      arguments.given("--cache") ? arguments.text("--cache") : default_cache_directory();
+  options.threads = static_cast<int>(arguments[flag::threads]);
+  if (arguments.given(flag::rim_edge)) options.rim_edge = arguments[flag::rim_edge];
+  if (arguments.given(flag::noise)) options.noise = arguments[flag::noise];
+  if (arguments.given(flag::floor)) options.floor = arguments[flag::floor];
+  options.cache = arguments.given(flag::cache) ? arguments[flag::cache] : default_cache_directory();
   if (options.cache == "none") options.cache.clear();
   options.progress = [&arguments, &progress](std::size_t positions) -> std::function<void()> {
     progress = std::make_shared<Progress>(arguments, "contact positions", positions);

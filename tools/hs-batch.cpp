@@ -14,6 +14,13 @@
 #include "io/number.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr TextFlag out{"--out"}, bin{"--bin"};
+inline constexpr SwitchFlag prepare{"--prepare"}, wait{"--wait"};
+inline constexpr ChoiceFlag stages{"--stages"};
+inline constexpr FileFlag html{"--html"}, junit{"--junit"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -44,38 +51,29 @@ ToolSpec specification() {
       "Exit code 1 when a recording failed or was not run. Each failed recording is told in a line "
       "of its own."};
   spec.options = {
-      {.flag = "--out",
-       .kind = OptionKind::kText,
+      {.flag = flag::out,
        .value = "DIR",
        .help = "Where everything is made: bodies/..., recordings/NAME/model.csv, effects.csv, "
                "forces.csv, report.html, and what each step said in STEP.log.",
        .default_text = "batch"},
-      {.flag = "--prepare",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::prepare,
        .help = "Write DIR/batch.mk for `make -k -C DIR -f batch.mk`, and no summary."},
-      {.flag = "--stages",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::stages,
        .value = "LAST",
        .help = "How far each recording goes: its model, also its diagnosis, also its report.",
        .default_text = "report",
        .choices = {"model", "diagnosis", "report"}},
-      {.flag = "--bin",
-       .kind = OptionKind::kText,
-       .value = "DIR",
-       .help = "Where the other tools are, before the PATH."},
-      {.flag = "--wait",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::bin, .value = "DIR", .help = "Where the other tools are, before the PATH."},
+      {.flag = flag::wait,
        .help =
            "Read make's output from standard input until it ends, show progress, then write the "
            "summary."},
-      {.flag = "--html",
-       .kind = OptionKind::kFile,
+      {.flag = flag::html,
        .value = "FILE",
        .help = "Also writes an overview: recordings by error, verdicts, failures with the command "
                "that repeats them.",
        .writes = {"html", "htm"}},
-      {.flag = "--junit",
-       .kind = OptionKind::kFile,
+      {.flag = flag::junit,
        .value = "FILE",
        .help = "Also writes JUnit's XML, a test a recording, for CI servers.",
        .writes = {"xml"}}};
@@ -121,7 +119,7 @@ ToolSpec specification() {
 }
 
 int prepare(const Arguments& arguments, const Batch& batch) {
-  const PrepareReport report = write_rules(batch, arguments.text("--bin"), version());
+  const PrepareReport report = write_rules(batch, arguments[flag::bin], version());
   const auto also = [](std::size_t count, const char* what) {
     return count == 0 ? std::string() : fmt::format("; {} {}", count, what);
   };
@@ -153,19 +151,19 @@ void wait_for_make(const Arguments& arguments, const Batch& batch) {
 int summarise(const Arguments& arguments, const Batch& batch) {
   const std::vector<RecordingOutcome> outcomes = read_outcomes(batch);
   namespace fs = std::filesystem;
-  const fs::path beside = arguments.given("--html")
-                              ? fs::absolute(arguments.text("--html")).parent_path()
+  const fs::path beside = arguments.given(flag::html)
+                              ? fs::absolute(arguments[flag::html]).parent_path()
                               : fs::current_path();
   const Overview overview = batch_overview(batch, outcomes, beside.string(), version());
   Output summary(arguments.output());
   write_summary(summary.stream(), batch, outcomes);
-  if (arguments.given("--html")) {
-    Output html(arguments.text("--html"));
+  if (arguments.given(flag::html)) {
+    Output html(arguments[flag::html]);
     write_overview(html.stream(), overview);
     html.commit();
   }
-  if (arguments.given("--junit")) {
-    Output junit(arguments.text("--junit"));
+  if (arguments.given(flag::junit)) {
+    Output junit(arguments[flag::junit]);
     write_junit(junit.stream(), "hs-batch", batch_cases(batch, outcomes));
     junit.commit();
   }
@@ -180,21 +178,21 @@ int summarise(const Arguments& arguments, const Batch& batch) {
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--prepare"))
-    for (const char* flag : {"--wait", "--html", "--junit", "--output"})
+  if (arguments[flag::prepare])
+    for (const AnyFlag& flag : AnyFlags{flag::wait, flag::html, flag::junit, flag::output})
       if (arguments.given(flag))
-        fail_usage(std::string("--prepare and ") + flag + " exclude each other", "prepare first");
-  if (arguments.given("--wait") && arguments.input() == "-")
+        fail_usage("--prepare and " + flag + " exclude each other", "prepare first");
+  if (arguments[flag::wait] && arguments.input() == "-")
     fail_usage("--wait reads standard input, and so would the manifest", "name the manifest");
   BatchOptions options;
-  options.folder = arguments.text("--out");
+  options.folder = arguments[flag::out];
   while (options.folder.size() > 1 && options.folder.back() == '/') options.folder.pop_back();
-  options.report = arguments.text("--stages") == "report";
-  options.diagnosis = arguments.text("--stages") != "model";
+  options.report = arguments[flag::stages] == "report";
+  options.diagnosis = arguments[flag::stages] != "model";
   Input input(arguments.input());
   const Batch batch = plan_batch(read_manifest(input), options);
-  if (arguments.given("--prepare")) return prepare(arguments, batch);
-  if (arguments.given("--wait")) wait_for_make(arguments, batch);
+  if (arguments[flag::prepare]) return prepare(arguments, batch);
+  if (arguments[flag::wait]) wait_for_make(arguments, batch);
   return summarise(arguments, batch);
 }
 

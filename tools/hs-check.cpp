@@ -8,6 +8,12 @@
 #include "model/golden_report.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr FileFlag golden{"--golden"}, junit{"--junit"};
+inline constexpr TextFlag tolerance{"--tolerance"}, worse{"--worse"};
+inline constexpr NumberFlag standard_errors{"--standard-errors"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -26,30 +32,27 @@ ToolSpec specification() {
       "ended before it converged differs from one that was not.",
       "Exit code 1 when anything differs, and a line for each that says what."};
   spec.options = {
-      {.flag = "--golden",
-       .kind = OptionKind::kFile,
+      {.flag = flag::golden,
        .value = "FILE",
        .help = "The model as it should be.",
        .required = true},
-      {.flag = "--tolerance",
+      {.flag = flag::tolerance,
        .value = "LIST",
        .help = "By how much parameters may differ: 2% of the golden value, or in the parameter's "
                "unit; for one alone NAME=, as in 2%,elastic.nu=0.01,tau1=10%.",
        .default_text = "1%",
        .repeatable = true},
-      {.flag = "--standard-errors",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::standard_errors,
        .value = "K",
        .help = "Differences of up to K standard errors are chance.",
        .default_text = "3",
        .minimum = 0,
        .maximum = 100},
-      {.flag = "--worse",
+      {.flag = flag::worse,
        .value = "SHARE",
        .help = "By how much rmse and heldout may exceed the golden ones.",
        .default_text = "10%"},
-      {.flag = "--junit",
-       .kind = OptionKind::kFile,
+      {.flag = flag::junit,
        .value = "FILE",
        .help = "Also writes JUnit's XML, a test a parameter, for CI servers.",
        .writes = {"xml"}}};
@@ -70,26 +73,26 @@ ToolSpec specification() {
 
 GoldenOptions golden_options(const Arguments& arguments) {
   GoldenOptions options;
-  options.standard_errors = arguments.number("--standard-errors");
-  options.tolerances = {parse_tolerance("1%", "--tolerance")};
-  for (const std::string& text : arguments.list("--tolerance"))
-    options.tolerances.push_back(parse_tolerance(text, "--tolerance"));
-  options.worse = parse_share(arguments.text("--worse"), "--worse");
+  options.standard_errors = arguments[flag::standard_errors];
+  options.tolerances = {parse_tolerance("1%", flag::tolerance.name)};
+  for (const std::string& text : arguments.list(flag::tolerance))
+    options.tolerances.push_back(parse_tolerance(text, flag::tolerance.name));
+  options.worse = parse_share(arguments[flag::worse], flag::worse.name);
   return options;
 }
 
 int run(const Arguments& arguments) {
   const GoldenOptions options = golden_options(arguments);
-  Input input(arguments.input()), golden_input(arguments.text("--golden"));
+  Input input(arguments.input()), golden_input(arguments[flag::golden]);
   const Model model = load_model(arguments, "hs-check", input);
   const Model golden = load_model(arguments, "hs-check", golden_input);
   const std::vector<GoldenRow> rows = compare_with_golden(model, golden, options);
-  require_named(options.tolerances, rows, "--tolerance");
+  require_named(options.tolerances, rows, flag::tolerance.name);
 
   Output output(arguments.output());
   write_golden(output.stream(), rows);
-  if (arguments.given("--junit")) {
-    Output junit(arguments.text("--junit"));
+  if (arguments.given(flag::junit)) {
+    Output junit(arguments[flag::junit]);
     write_junit(junit.stream(), "hs-check", golden_cases(rows));
     junit.commit();
   }
@@ -101,9 +104,9 @@ int run(const Arguments& arguments) {
   });
   say(arguments, "hs-check",
       differ == 0 ? fmt::format("{} parameters and errors are those of {}", rows.size(),
-                                arguments.text("--golden"))
+                                arguments[flag::golden])
                   : fmt::format("{} of {} parameters and errors differ from {}", differ,
-                                rows.size(), arguments.text("--golden")));
+                                rows.size(), arguments[flag::golden]));
   return static_cast<int>(differ == 0 ? ExitCode::kDone : ExitCode::kCheckFailed);
 }
 

@@ -10,8 +10,18 @@
 #include "io/number.h"
 #include "regions/region_map.h"
 #include "regions/region_report.h"
+#include "shared_flags.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr IntegerFlag regions{"--regions"}, components{"--components"},
+    key_points{"--key-points"}, scan_points{"--scan-points"}, seed{"--seed"};
+inline constexpr ChoiceFlag linkage{"--linkage"}, features{"--features"}, rule{"--rule"};
+inline constexpr NumberFlag significance{"--significance"};
+inline constexpr FileFlag boundary{"--boundary"}, labels{"--labels"}, dendrogram{"--dendrogram"},
+    svg{"--svg"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -28,105 +38,90 @@ ToolSpec specification() {
       "every branch of the tree). A smooth slope of the stiffness is not divided; nor are samples "
       "within about the tool's radius of a boundary told apart from either side."};
   spec.options = {
-      {.flag = "--regions",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::regions,
        .value = "N",
        .help = "Number of regions; otherwise as many as the samples prove.",
        .group = "Clusters",
        .minimum = 1,
        .maximum = 1000},
-      {.flag = "--linkage",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::linkage,
        .value = "NAME",
        .help = "Distance between clusters; auto: the first whose tree keeps the distances "
                "(cophenetic correlation of 0.75), else the best.",
        .group = "Clusters",
        .default_text = "auto",
        .choices = {"auto", "average", "ward", "complete", "single"}},
-      {.flag = "--features",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::features,
        .value = "NAMES",
        .help = "What is clustered: E alone, or nu as well where it was estimated.",
        .group = "Clusters",
        .default_text = "E+nu",
        .choices = {"E+nu", "E"}},
-      {.flag = "--components",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::components,
        .value = "N",
        .help = "Principal components that are clustered instead; 0: the parameters themselves.",
        .group = "Clusters",
        .default_text = "0",
        .minimum = 0,
        .maximum = 2},
-      {.flag = "--significance",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::significance,
        .value = "P",
        .help = "Chance of dividing what is one region.",
        .group = "Clusters",
        .default_text = "0.05",
        .minimum = 1e-3,
        .maximum = 0.5},
-      {.flag = "--rule",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::rule,
        .value = "NAME",
        .help = "Region of a place: by discriminant analysis, or that of the nearest sample.",
        .group = "Regions in space",
        .default_text = "qda",
        .choices = {"qda", "nearest"}},
-      {.flag = "--boundary",
-       .kind = OptionKind::kFile,
+      {.flag = flag::boundary,
        .value = "FILE",
        .help = "Writes the boundaries as key points (CSV).",
        .group = "Regions in space",
        .writes = kTableExtensions},
-      {.flag = "--key-points",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::key_points,
        .value = "N",
        .help = "Key points along each boundary.",
        .group = "Regions in space",
        .default_text = "8",
        .minimum = 2,
        .maximum = 1000},
-      {.flag = "--scan-points",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::scan_points,
        .value = "N",
        .help = "Places that are classified to find the boundary.",
        .group = "Regions in space",
        .default_text = "20000",
        .minimum = 100,
        .maximum = 4000000},
-      {.flag = "--model",
-       .kind = OptionKind::kFile,
+      {.flag = flag::model,
        .value = "FILE",
        .help = "Writes a model with these regions, a start for hs-identify --model.",
        .group = "Output",
        .writes = kTableExtensions},
-      {.flag = "--body",
-       .kind = OptionKind::kFile,
+      {.flag = flag::body,
        .value = "FILE",
        .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes (" +
                names_to_read(Content::kTetrahedra) + "): its plan view bounds the boundary.",
        .group = "Output"},
-      {.flag = "--labels",
-       .kind = OptionKind::kFile,
+      {.flag = flag::labels,
        .value = "FILE",
        .help = "Writes the body with the region of each tetrahedron; needs --body.",
        .group = "Output",
        .writes = extensions_to_write(Content::kTetrahedra)},
-      {.flag = "--dendrogram",
-       .kind = OptionKind::kFile,
+      {.flag = flag::dendrogram,
        .value = "FILE",
        .help = "Writes the tree of merges (CSV).",
        .group = "Output",
        .writes = kTableExtensions},
-      {.flag = "--svg",
-       .kind = OptionKind::kFile,
+      {.flag = flag::svg,
        .value = "FILE",
        .help = "Draws the tree, branches coloured by region (SVG).",
        .group = "Output",
        .writes = {"svg"}},
-      {.flag = "--seed",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::seed,
        .value = "N",
        .help = "Seed of the test of one region against more.",
        .group = "Clusters",
@@ -169,58 +164,56 @@ RegionOptions region_options(const Arguments& arguments) {
   RegionOptions options;
   for (const Linkage linkage :
        {Linkage::kAverage, Linkage::kWard, Linkage::kComplete, Linkage::kSingle})
-    if (arguments.text("--linkage") == linkage_name(linkage)) options.linkage = linkage;
-  options.components = static_cast<int>(arguments.integer("--components"));
-  options.use_nu = arguments.text("--features") == "E+nu";
-  if (arguments.given("--regions"))
-    options.regions = static_cast<int>(arguments.integer("--regions"));
-  options.significance = arguments.number("--significance");
-  options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+    if (arguments[flag::linkage] == linkage_name(linkage)) options.linkage = linkage;
+  options.components = static_cast<int>(arguments[flag::components]);
+  options.use_nu = arguments[flag::features] == "E+nu";
+  if (arguments.given(flag::regions)) options.regions = static_cast<int>(arguments[flag::regions]);
+  options.significance = arguments[flag::significance];
+  options.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
   return options;
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--labels") && !arguments.given("--body"))
+  if (arguments.given(flag::labels) && !arguments.given(flag::body))
     fail_usage("--labels needs a body", "add --body FILE");
   const RegionOptions options = region_options(arguments);
   Input input(arguments.input());
   LocationTable table = read_locations(input);
   std::optional<TetMesh> body;
-  if (arguments.given("--body")) {
-    Input body_input(arguments.text("--body"));
+  if (arguments.given(flag::body)) {
+    Input body_input(arguments[flag::body]);
     body = read_body(body_input);
   }
   const RegionEstimate regions = estimate_regions(table, options);
   const int count = static_cast<int>(regions.value.size());
-  const RegionRule rule =
-      arguments.text("--rule") == "qda" ? RegionRule::kQda : RegionRule::kNearest;
+  const RegionRule rule = arguments[flag::rule] == "qda" ? RegionRule::kQda : RegionRule::kNearest;
   const PlaneClassifier classify = region_classifier(table, regions.label, count, rule);
-  const auto lines = region_boundaries(classify, table, body,
-                                       static_cast<int>(arguments.integer("--scan-points")));
-  const int keys = static_cast<int>(arguments.integer("--key-points"));
+  const auto lines =
+      region_boundaries(classify, table, body, static_cast<int>(arguments[flag::scan_points]));
+  const int keys = static_cast<int>(arguments[flag::key_points]);
 
   table.region = regions.label;
   table.metadata.set("regions", std::to_string(count));
   table.metadata.set("linkage", linkage_name(regions.linkage));
   table.metadata.set("cophenetic", format_number(regions.correlation));
-  table.metadata.set("seed", arguments.text("--seed"));
+  table.metadata.set("seed", arguments.text(flag::seed));
   std::vector<std::unique_ptr<Output>> outputs;  // all complete, or none
   const auto write = [&](const std::string& path, const auto& writer) {
     outputs.push_back(std::make_unique<Output>(path));
     writer(outputs.back()->stream());
   };
-  const auto write_asked = [&](const char* flag, const auto& writer) {
+  const auto write_asked = [&](const AnyFlag& flag, const auto& writer) {
     if (arguments.given(flag)) write(arguments.text(flag), writer);
   };
-  write_asked("--boundary", [&](std::ostream& out) { write_boundary(out, lines, keys); });
-  write_asked("--dendrogram", [&](std::ostream& out) { write_dendrogram(out, regions.tree); });
-  write_asked("--svg", [&](std::ostream& out) { out << dendrogram_svg(regions) << "\n"; });
-  write_asked("--model", [&](std::ostream& out) {
+  write_asked(flag::boundary, [&](std::ostream& out) { write_boundary(out, lines, keys); });
+  write_asked(flag::dendrogram, [&](std::ostream& out) { write_dendrogram(out, regions.tree); });
+  write_asked(flag::svg, [&](std::ostream& out) { out << dendrogram_svg(regions) << "\n"; });
+  write_asked(flag::model, [&](std::ostream& out) {
     write_model(out, region_model(table, regions, classify, lines, keys));
   });
-  write_asked("--labels", [&](std::ostream& out) {
+  write_asked(flag::labels, [&](std::ostream& out) {
     label_body(*body, classify);
-    format_to_write(arguments.text("--labels"), Content::kTetrahedra).write_mesh(out, *body, {});
+    format_to_write(arguments[flag::labels], Content::kTetrahedra).write_mesh(out, *body, {});
   });
   write(arguments.output(), [&](std::ostream& out) { write_locations(out, table); });
   for (const auto& output : outputs) output->commit();

@@ -4,8 +4,16 @@
 #include "diagnose/diagnosis_table.h"
 #include "experiment/plausible.h"
 #include "plan/press_plan.h"
+#include "shared_flags.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr SwitchFlag check{"--check"};
+inline constexpr FileFlag json{"--json"}, junit{"--junit"}, plan{"--plan"};
+inline constexpr IntegerFlag plan_presses{"--plan-presses"}, folds{"--folds"}, flips{"--flips"},
+    seed{"--seed"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -34,62 +42,53 @@ ToolSpec specification() {
   spec.description.insert(spec.description.begin(), gates.begin(), gates.end());
   spec.options = experiment_flags();
   const std::vector<Option> own{
-      {.flag = "--model",
-       .kind = OptionKind::kFile,
+      {.flag = flag::model,
        .value = "FILE",
        .help = "Model from hs-identify.",
        .group = "Input",
        .required = true},
-      {.flag = "--check",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::check,
        .help = "Exit code 1 when the model is not complete.",
        .group = "Output"},
-      {.flag = "--json",
-       .kind = OptionKind::kFile,
+      {.flag = flag::json,
        .value = "FILE",
        .help = "Also writes the diagnosis as JSON.",
        .group = "Output",
        .writes = {"json"}},
-      {.flag = "--junit",
-       .kind = OptionKind::kFile,
+      {.flag = flag::junit,
        .value = "FILE",
        .help = "Also writes the verdict as JUnit's XML, a test each effect that could be tested.",
        .group = "Output",
        .writes = {"xml"}},
-      {.flag = "--plan",
-       .kind = OptionKind::kFile,
+      {.flag = flag::plan,
        .value = "FILE",
        .help = "Writes the motion (CSV, without forces) of the next presses to record: those that "
                "best tell indistinguishable effects apart, or determine the least certain "
                "parameter; at pressed positions, and between them where the effects differ there.",
        .group = "Output",
        .writes = kTableExtensions},
-      {.flag = "--plan-presses",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::plan_presses,
        .value = "N",
        .help = "Number of presses of the plan.",
        .group = "Output",
        .default_text = "3",
        .minimum = 1,
        .maximum = 100},
-      {.flag = "--folds",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::folds,
        .value = "N",
        .help = "Parts in which positions are held out.",
        .group = "Diagnosis",
        .default_text = "6",
        .minimum = 2,
        .maximum = 1000},
-      {.flag = "--flips",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::flips,
        .value = "N",
        .help = "Random sign flips of presses behind the false-alarm chance.",
        .group = "Diagnosis",
        .default_text = "999",
        .minimum = 99,
        .maximum = 1000000},
-      {.flag = "--seed",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::seed,
        .value = "N",
        .help = "Seed of the flips.",
        .group = "Diagnosis",
@@ -124,11 +123,11 @@ ToolSpec specification() {
 
 void write_plan(const Arguments& arguments, const Diagnosis& d, const Experiment& w) {
   const MeasurementPlan plan =
-      plan_presses(d.rivals, w, static_cast<std::size_t>(arguments.integer("--plan-presses")));
-  Output output(arguments.text("--plan"));
+      plan_presses(d.rivals, w, static_cast<std::size_t>(arguments[flag::plan_presses]));
+  Output output(arguments[flag::plan]);
   write_recording(output.stream(), plan.motion);
   output.commit();
-  for (const std::string& line : plan_lines(plan, arguments.text("--plan")))
+  for (const std::string& line : plan_lines(plan, arguments[flag::plan]))
     say(arguments, "hs-diagnose", line);
 }
 
@@ -144,29 +143,28 @@ int run(const Arguments& arguments) {
   const Experiment w = make_experiment({body}, std::move(dataset), options);
   progress.reset();
   DiagnoseOptions diagnose_options;
-  diagnose_options.folds = static_cast<int>(arguments.integer("--folds"));
-  diagnose_options.flips = static_cast<int>(arguments.integer("--flips"));
-  diagnose_options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  diagnose_options.folds = static_cast<int>(arguments[flag::folds]);
+  diagnose_options.flips = static_cast<int>(arguments[flag::flips]);
+  diagnose_options.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
   const Diagnosis d = diagnose(model, w, w.allowance(), diagnose_options);
 
-  const DiagnosedFiles files{arguments.input(), arguments.text("--body"),
-                             arguments.text("--model")};
+  const DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
   Output output(arguments.output());
-  write_diagnosis(output.stream(), d, files, arguments.text("--seed"));
+  write_diagnosis(output.stream(), d, files, arguments.text(flag::seed));
   output.commit();
-  if (arguments.given("--json")) {
-    Output json(arguments.text("--json"));
+  if (arguments.given(flag::json)) {
+    Output json(arguments[flag::json]);
     json.stream() << diagnosis_json(d, files);
     json.commit();
   }
-  if (arguments.given("--junit")) {
-    Output junit(arguments.text("--junit"));
+  if (arguments.given(flag::junit)) {
+    Output junit(arguments[flag::junit]);
     write_junit(junit.stream(), "hs-diagnose", diagnosis_cases(d));
     junit.commit();
   }
   for (const std::string& line : diagnosis_lines(d, files)) say(arguments, "hs-diagnose", line);
-  if (arguments.given("--plan")) write_plan(arguments, d, w);
-  const bool failed = arguments.given("--check") && d.verdict != ModelVerdict::kComplete;
+  if (arguments.given(flag::plan)) write_plan(arguments, d, w);
+  const bool failed = arguments[flag::check] && d.verdict != ModelVerdict::kComplete;
   return static_cast<int>(failed ? ExitCode::kCheckFailed : ExitCode::kDone);
 }
 

@@ -10,8 +10,16 @@
 #include "formats/field_vtu.h"
 #include "formats/mesh_file.h"
 #include "io/extension.h"
+#include "shared_flags.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr ChoiceFlag format{"--format"};
+inline constexpr FileFlag data{"--data"};
+inline constexpr IntegerFlag press{"--press"}, steps{"--steps"};
+inline constexpr SwitchFlag bare{"--bare"};
+}  // namespace flag
+
 namespace {
 
 // Of --format.
@@ -41,44 +49,35 @@ ToolSpec specification() {
       "Every tool that takes --body, and hs-tetmesh, reads any of the five back: nodes, "
       "tetrahedra, regions and what is fixed."};
   spec.options = {
-      {.flag = "--format",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::format,
        .value = "PROGRAM",
        .help =
            "calculix (.inp, also Abaqus), febio (.feb, febio_spec 4.0), sofa (.scn, from 23.12), "
            "vtu (ParaView), gmsh (2.2).",
        .choices = {"calculix", "febio", "sofa", "vtu", "gmsh"},
        .required = true},
-      {.flag = "--body",
-       .kind = OptionKind::kFile,
+      {.flag = flag::body,
        .value = "FILE",
        .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
                names_to_read(Content::kTetrahedra) + ".",
        .required = true},
-      {.flag = "--data",
-       .kind = OptionKind::kFile,
+      {.flag = flag::data,
        .value = "FILE",
        .help =
            "Recording or motion whose press is exported; without it, body and materials alone."},
-      {.flag = "--press",
-       .kind = OptionKind::kInteger,
-       .value = "ID",
-       .help = "Which press of it; otherwise the first."},
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kLength,
+      {.flag = flag::press, .value = "ID", .help = "Which press of it; otherwise the first."},
+      {.flag = flag::tool_radius,
        .value = "M",
        .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--steps",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::steps,
        .value = "N",
        .help = "Rows of the press that are kept, evenly, the deepest among them.",
        .default_text = "20",
        .minimum = 1,
        .maximum = 100000},
-      {.flag = "--bare",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::bare,
        .help = "Leaves out effects on the motion and of the sensor instead of refusing them."}};
   spec.writes.clear();
   for (const auto& [format, extension] : kExtension) spec.writes.push_back(extension);
@@ -96,10 +95,10 @@ ToolSpec specification() {
 
 std::vector<int> asked_press(const Arguments& arguments, const Recording& recording) {
   const std::vector<Press> presses = recording.presses();
-  if (!arguments.given("--press")) return presses.front().rows;
+  if (!arguments.given(flag::press)) return presses.front().rows;
   for (const Press& press : presses)
-    if (press.id == arguments.integer("--press")) return press.rows;
-  fail_usage("--press: the recording has no press " + arguments.text("--press"),
+    if (press.id == arguments[flag::press]) return press.rows;
+  fail_usage("--press: the recording has no press " + arguments.text(flag::press),
              fmt::format("its presses are {} to {}", presses.front().id, presses.back().id));
 }
 
@@ -113,27 +112,27 @@ void write_vtu(std::ostream& out, const Scene& scene) {
 }
 
 int run(const Arguments& arguments) {
-  const std::string format = arguments.text("--format"), end = extension_of(arguments.output());
+  const std::string format = arguments[flag::format], end = extension_of(arguments.output());
   const bool promised = std::any_of(kExtension.begin(), kExtension.end(),
                                     [&](const auto& known) { return known.second == end; });
   if (promised && end != kExtension.at(format))
     fail_usage(fmt::format("--output ends in .{}, and --format is {}", end, format),
                "end it in ." + kExtension.at(format));
-  for (const char* flag : {"--press", "--tool-radius"})
-    if (arguments.given(flag) && !arguments.given("--data"))
-      fail_usage(std::string(flag) + " is of a press, and there is none", "add --data FILE");
+  for (const AnyFlag& flag : AnyFlags{flag::press, flag::tool_radius})
+    if (arguments.given(flag) && !arguments.given(flag::data))
+      fail_usage(flag + " is of a press, and there is none", "add --data FILE");
   Input model_input(arguments.input());
   const Model model = load_model(arguments, "hs-export", model_input);
   const TetMesh body = load_body(arguments);
   Recording recording;
   std::vector<int> press;
-  if (arguments.given("--data")) {
-    recording = load_recording(arguments, arguments.text("--data"), false);
+  if (arguments.given(flag::data)) {
+    recording = load_recording(arguments, arguments[flag::data], false);
     press = asked_press(arguments, recording);
   }
-  const Scene scene = make_scene(body, model, recording, press,
-                                 {.steps = static_cast<std::size_t>(arguments.integer("--steps")),
-                                  .bare = arguments.given("--bare")});
+  const Scene scene = make_scene(
+      body, model, recording, press,
+      {.steps = static_cast<std::size_t>(arguments[flag::steps]), .bare = arguments[flag::bare]});
   Output output(arguments.output());
   if (format == "calculix") write_calculix(output.stream(), scene);
   if (format == "febio") write_febio(output.stream(), scene);

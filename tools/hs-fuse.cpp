@@ -12,10 +12,19 @@
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
 #include "realtime/real_time.h"
+#include "shared_flags.h"
 #include "simulate/full_simulation.h"
 #include "stream_options.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr FileFlag slow{"--slow"}, acfm{"--acfm"}, parameters{"--parameters"},
+    learn{"--learn"}, exact{"--exact"};
+inline constexpr TimeFlag delay{"--delay"};
+inline constexpr SwitchFlag live{"--live"};
+inline constexpr NumberFlag rate{"--rate"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -45,69 +54,58 @@ ToolSpec specification() {
       "With --live SIGINT or SIGTERM ends the motion; what was answered until then, or before a "
       "bad row, is written."};
   spec.options = {
-      {.flag = "--slow",
-       .kind = OptionKind::kFile,
+      {.flag = flag::slow,
        .value = "FILE",
        .help = "Slow forces: a recording of the same presses at times of its own; a column arrives "
                "[s] tells when each row is there.",
        .group = "Input"},
-      {.flag = "--delay",
-       .kind = OptionKind::kTime,
+      {.flag = flag::delay,
        .value = "S",
        .help = "How late the rows of --slow are where they have no column arrives [s].",
        .group = "Input",
        .default_text = "0",
        .minimum = 0,
        .maximum = 100},
-      {.flag = "--live",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::live,
        .help =
            "Answers a motion line by line: --acfm is the fast source, finite elements of --model "
            "on --body run beside it at their own pace.",
        .group = "Live"},
-      {.flag = "--body",
-       .kind = OptionKind::kFile,
+      {.flag = flag::body,
        .value = "FILE",
        .help = "Live: body from hs-tetmesh; its own mesh is pressed (hs-tetmesh --contacts).",
        .group = "Live"},
-      {.flag = "--model",
-       .kind = OptionKind::kFile,
+      {.flag = flag::model,
        .value = "FILE",
        .help = "Live: model of the finite elements, as for hs-simulate --full.",
        .group = "Live"},
-      {.flag = "--acfm",
-       .kind = OptionKind::kFile,
+      {.flag = flag::acfm,
        .value = "FILE",
        .help = "Live: analytical model from hs-identify --acfm.",
        .group = "Live"},
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kLength,
+      {.flag = flag::tool_radius,
        .value = "M",
        .help = "Live: radius of the flat tool [m]; otherwise the motion's metadata.",
        .group = "Live",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--rate",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::rate,
        .value = "HZ",
        .help = "Live: takes the lines at this rate by the clock.",
        .group = "Live",
        .default_text = "1000",
        .minimum = 1,
        .maximum = 100000},
-      {.flag = "--parameters",
-       .kind = OptionKind::kFile,
+      {.flag = flag::parameters,
        .value = "FILE",
        .help = "The filter's parameters (CSV), as --learn writes them.",
        .group = "Learning"},
-      {.flag = "--learn",
-       .kind = OptionKind::kFile,
+      {.flag = flag::learn,
        .value = "FILE",
        .help = "Learns the parameters from these recordings, writes them to FILE and uses them.",
        .group = "Learning",
        .writes = kTableExtensions},
-      {.flag = "--exact",
-       .kind = OptionKind::kFile,
+      {.flag = flag::exact,
        .value = "FILE",
        .help = "Recording of the same rows with exact forces to compare with.",
        .group = "Input"}};
@@ -140,8 +138,8 @@ ToolSpec specification() {
 }
 
 FusionParameters given_parameters(const Arguments& arguments) {
-  if (!arguments.given("--parameters")) return {};
-  Input file(arguments.text("--parameters"));
+  if (!arguments.given(flag::parameters)) return {};
+  Input file(arguments[flag::parameters]);
   return read_fusion(file);
 }
 
@@ -161,12 +159,12 @@ class FinitePress : public SlowPress {
 };
 
 int run_live_fusion(const Arguments& arguments) {
-  for (const char* flag : {"--body", "--model", "--acfm"})
-    if (!arguments.given(flag)) fail_usage(std::string("--live needs ") + flag, "give it");
-  for (const char* flag : {"--slow", "--learn", "--exact", "--delay"})
+  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::acfm})
+    if (!arguments.given(flag)) fail_usage("--live needs " + flag, "give it");
+  for (const AnyFlag& flag : AnyFlags{flag::slow, flag::learn, flag::exact, flag::delay})
     if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of whole recordings", "leave it out, or --live");
-  Input model_input(arguments.text("--model")), acfm_input(arguments.text("--acfm"));
+      fail_usage(flag + " is of whole recordings", "leave it out, or --live");
+  Input model_input(arguments[flag::model]), acfm_input(arguments[flag::acfm]);
   const Model model = read_model(model_input);
   const Acfm acfm = read_acfm(acfm_input);
   const TetMesh body = load_body(arguments);
@@ -183,7 +181,7 @@ int run_live_fusion(const Arguments& arguments) {
       },
       given_parameters(arguments), &surface, {}, &coarse);
   LiveOptions live;
-  live.rate = arguments.number("--rate");
+  live.rate = arguments[flag::rate];
   Metadata metadata = motion.metadata();
   metadata.set("simulated", "acfm, fused with " + effects_label(model));
   Output output(arguments.output());
@@ -209,36 +207,37 @@ int run_live_fusion(const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--live")) return run_live_fusion(arguments);
-  for (const char* flag : {"--body", "--model", "--acfm", "--tool-radius", "--rate"})
+  if (arguments[flag::live]) return run_live_fusion(arguments);
+  for (const AnyFlag& flag :
+       AnyFlags{flag::body, flag::model, flag::acfm, flag::tool_radius, flag::rate})
     if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
-  if (!arguments.given("--slow"))
+      fail_usage(flag + " is of the live mode", "add --live, or leave it out");
+  if (!arguments.given(flag::slow))
     fail_usage("--slow is required", "give the slow forces, or --live");
-  if (arguments.given("--learn") && arguments.given("--parameters"))
+  if (arguments.given(flag::learn) && arguments.given(flag::parameters))
     fail_usage("--learn finds what --parameters gives", "leave one of them out");
   Input input(arguments.input());
   Recording fast = read_recording(input);
-  Input slow_input(arguments.text("--slow"));
+  Input slow_input(arguments[flag::slow]);
   const Recording slow = read_recording(slow_input);
-  const SlowSource source{&slow, arguments.number("--delay")};
+  const SlowSource source{&slow, arguments[flag::delay]};
   FusionParameters parameters = given_parameters(arguments);
-  if (arguments.given("--learn")) {
+  if (arguments.given(flag::learn)) {
     const LearnedFusion learned = learn_fusion(fast, source, parameters);
     parameters = learned.parameters;
     if (!learned.converged)
       fail_numerics(slow.name,
                     fmt::format("the parameters did not settle in {} runs", learned.runs),
                     "give more of the motion that is to be fused");
-    Output file(arguments.text("--learn"));
+    Output file(arguments[flag::learn]);
     write_fusion(file.stream(), parameters);
     file.commit();
     say(arguments, "hs-fuse", fmt::format("parameters learned in {} runs", learned.runs));
   }
   const FusedForces fused = fuse(fast, source, parameters);
   say(arguments, "hs-fuse", fusion_words(fused.report));
-  if (arguments.given("--exact")) {
-    Input exact(arguments.text("--exact"));
+  if (arguments.given(flag::exact)) {
+    Input exact(arguments[flag::exact]);
     for (const std::string& line : quality_lines(fast, fused, read_recording(exact)))
       say(arguments, "hs-fuse", line);
   }

@@ -10,14 +10,25 @@
 #include "import/import_report.h"
 #include "io/number.h"
 #include "io/quantity.h"
+#include "shared_flags.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr TextFlag unit{"--unit"}, force_unit{"--force-unit"}, time_unit{"--time-unit"},
+    split_by{"--split-by"}, direction{"--direction"}, column{"--column"}, names{"--names"};
+inline constexpr ChoiceFlag contact{"--contact"}, tip{"--tip"}, force{"--force"},
+    estimate_noise{"--estimate-noise"}, tool{"--tool"};
+inline constexpr SwitchFlag list{"--list"}, drop_air{"--drop-air"};
+inline constexpr LengthsFlag at{"--at"}, block{"--block"};
+inline constexpr FileFlag surface{"--surface"}, scan{"--scan"};
+inline constexpr NumberFlag rate{"--rate"};
+}  // namespace flag
+
 namespace {
 
-Option choice(const std::string& group, const std::string& flag, const std::string& help,
+Option choice(const std::string& group, const AnyFlag& flag, const std::string& help,
               const std::string& usual, const std::vector<std::string>& choices) {
   return {.flag = flag,
-          .kind = OptionKind::kChoice,
           .value = "HOW",
           .help = help,
           .group = group,
@@ -25,116 +36,98 @@ Option choice(const std::string& group, const std::string& flag, const std::stri
           .choices = choices};
 }
 
-Option text(const std::string& group, const std::string& flag, const std::string& value,
+Option text(const std::string& group, const AnyFlag& flag, const std::string& value,
             const std::string& help, const std::string& usual = "") {
-  return {.flag = flag,
-          .kind = OptionKind::kText,
-          .value = value,
-          .help = help,
-          .group = group,
-          .default_text = usual};
+  return {.flag = flag, .value = value, .help = help, .group = group, .default_text = usual};
 }
 
 std::vector<Option> options() {
   return {
-      {.flag = "--list",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::list,
        .help = "Prints what each column is taken for and what is missing, and converts nothing.",
        .group = "Columns"},
-      {.flag = "--column",
-       .kind = OptionKind::kText,
+      {.flag = flag::column,
        .value = "ROLE=NAME",
        .help = "What a column is, where its name does not say. Roles: press, t, depth, force, "
                "temp, contact, fail, "
                "sample; x, tipx, contactx, ballx, ux, nx, fx and the same with y and z; skip.",
        .group = "Columns",
        .repeatable = true},
-      {.flag = "--names",
-       .kind = OptionKind::kText,
+      {.flag = flag::names,
        .value = "NAME",
        .help = "Names of the columns of a table without a header, or instead of its header.",
        .group = "Columns",
        .repeatable = true},
-      text("Columns", "--unit", "UNIT",
+      text("Columns", flag::unit, "UNIT",
            "Unit of lengths whose name has none: m, mm, cm, um, in. Without it m, or mm where the "
            "size allows nothing else (a warning)."),
-      text("Columns", "--force-unit", "UNIT",
+      text("Columns", flag::force_unit, "UNIT",
            "Unit of forces whose name has none: N, mN, kN, gf, kgf, lbf. Without it N."),
-      text("Columns", "--time-unit", "UNIT",
+      text("Columns", flag::time_unit, "UNIT",
            "Unit of a time whose name has none: s, ms, us, ns, min. Without it s."),
       text(
-          "Presses", "--split-by", "HOW",
+          "Presses", flag::split_by, "HOW",
           "How presses are told apart: names of columns (with commas), or force (where it returns "
           "to zero), jump (where the tip moves sideways), none (one press a recording). Without it "
           "all that the table offers."),
-      choice("Presses", "--contact",
+      choice("Presses", flag::contact,
              "Where a press begins: given (the table's contact point, zero of its depth), find "
              "(from the force), auto (find "
              "where the table gives none, or shows the tool in the air at depth zero).",
              "auto", {"auto", "given", "find"}),
-      choice("Presses", "--tip",
+      choice("Presses", flag::tip,
              "What a tip position is: surface (the touching point), centre (of the ball), auto "
              "(centre where it stays "
              "outside the contact points while it presses).",
              "auto", {"auto", "surface", "centre"}),
-      choice("Presses", "--force",
+      choice("Presses", flag::force,
              "Which force is taken: the vector, its part along the normal, or its magnitude put "
              "along the normal (for "
              "vectors in the frame of a sensor that turns with the tool).",
              "vector", {"vector", "normal", "magnitude"}),
-      {.flag = "--at",
-       .kind = OptionKind::kLengths,
+      {.flag = flag::at,
        .value = "X,Y,Z",
        .help = "Contact point of a machine that presses on one place [m]; with --block its top "
                "centre.",
        .group = "Presses"},
-      text("Presses", "--direction", "X,Y,Z", "Along which a machine's travel counts.", "0,0,-1"),
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kLength,
+      text("Presses", flag::direction, "X,Y,Z", "Along which a machine's travel counts.", "0,0,-1"),
+      {.flag = flag::tool_radius,
        .value = "M",
        .help = "Radius of the tool [m], written as tool_radius.",
        .group = "Tool and body"},
-      {.flag = "--tool",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::tool,
        .value = "SHAPE",
        .help = "Shape of the tool, written as tool.",
        .group = "Tool and body",
        .choices = {"flat", "sphere"}},
-      {.flag = "--block",
-       .kind = OptionKind::kLengths,
+      {.flag = flag::block,
        .value = "LxWxH",
        .help = "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0.",
        .group = "Tool and body"},
-      {.flag = "--surface",
-       .kind = OptionKind::kFile,
+      {.flag = flag::surface,
        .value = "FILE",
        .help = "Writes the block as a closed surface for hs-tetmesh. Needs --block.",
        .group = "Output",
        .writes = extensions_to_write(Content::kTriangles)},
-      {.flag = "--scan",
-       .kind = OptionKind::kFile,
+      {.flag = flag::scan,
        .value = "FILE",
        .help = "Writes the contact points (with normals where the table has them) as a scan for "
                "hs-scan2ply.",
        .group = "Output",
        .writes = kTableExtensions},
-      choice("Output", "--estimate-noise",
+      choice("Output", flag::estimate_noise,
              "Whether the noise of the force is estimated and written as force_noise: from "
              "differences of neighbours "
              "and the samples in the air; auto does it where there are enough and the table says "
              "nothing.",
              "auto", {"auto", "on", "off"}),
-      {.flag = "--rate",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::rate,
        .value = "HZ",
        .help = "Keeps at most so many samples a second (the noise is estimated from all).",
        .group = "Output",
        .minimum = 1e-3,
        .maximum = 1e6},
-      {.flag = "--drop-air",
-       .kind = OptionKind::kSwitch,
-       .help = "Leaves out the samples in the air.",
-       .group = "Output"},
+      {.flag = flag::drop_air, .help = "Leaves out the samples in the air.", .group = "Output"},
   };
 }
 
@@ -194,7 +187,7 @@ ToolSpec specification() {
   return spec;
 }
 
-Vec3 vector_of(const Arguments& arguments, const std::string& flag) {
+Vec3 vector_of(const Arguments& arguments, const AnyFlag& flag) {
   const std::string given = arguments.text(flag);
   Vec3 v;
   std::size_t from = 0;
@@ -211,59 +204,60 @@ Vec3 vector_of(const Arguments& arguments, const std::string& flag) {
 
 ImportOptions import_options(const Arguments& arguments, const std::optional<Vec3>& block) {
   ImportOptions options;
-  options.columns = arguments.list("--column");
-  const auto maybe = [&arguments](const std::string& flag) {
+  options.columns = arguments.list(flag::column);
+  const auto maybe = [&arguments](const AnyFlag& flag) {
     return arguments.given(flag) ? arguments.text(flag) : "";
   };
-  options.units = {maybe("--unit"), maybe("--force-unit"), maybe("--time-unit")};
-  options.split_by = maybe("--split-by");
+  options.units = {maybe(flag::unit), maybe(flag::force_unit), maybe(flag::time_unit)};
+  options.split_by = maybe(flag::split_by);
   options.at = contact_place(
-      arguments.given("--at") ? std::optional(vector_of(arguments, "--at")) : std::nullopt, block);
-  options.direction = vector_of(arguments, "--direction");
+      arguments.given(flag::at) ? std::optional(vector_of(arguments, flag::at)) : std::nullopt,
+      block);
+  options.direction = vector_of(arguments, flag::direction);
   if (options.direction.norm() < 1e-9)
     fail_usage("--direction has no length", "write for example 0,0,-1");
-  if (arguments.given("--tool-radius")) {
-    options.tool_radius = arguments.number("--tool-radius");
+  if (arguments.given(flag::tool_radius)) {
+    options.tool_radius = arguments[flag::tool_radius];
     if (!(*options.tool_radius > 0 && *options.tool_radius < 1))
       fail_usage("--tool-radius is not between 0 and 1 m", "write it with its unit: 4mm");
   }
-  options.tool = maybe("--tool");
-  options.contact = arguments.text("--contact");
-  options.tip = arguments.text("--tip");
-  options.force = arguments.text("--force");
-  options.noise = arguments.text("--estimate-noise");
-  if (arguments.given("--rate")) options.rate = arguments.number("--rate");
-  options.drop_air = arguments.given("--drop-air");
+  options.tool = maybe(flag::tool);
+  options.contact = arguments[flag::contact];
+  options.tip = arguments[flag::tip];
+  options.force = arguments[flag::force];
+  options.noise = arguments[flag::estimate_noise];
+  if (arguments.given(flag::rate)) options.rate = arguments[flag::rate];
+  options.drop_air = arguments[flag::drop_air];
   return options;
 }
 
 int run(const Arguments& arguments) {
   std::optional<Vec3> block;
-  if (arguments.given("--block")) block = parse_block(arguments.text("--block"));
-  if (arguments.given("--surface") && !block)
+  if (arguments.given(flag::block)) block = parse_block(arguments[flag::block]);
+  if (arguments.given(flag::surface) && !block)
     fail_usage("--surface needs the size of the block", "add --block LxWxH");
   const ImportOptions options = import_options(arguments, block);
 
   Input input(arguments.input());
-  const RawTable table = read_raw_table(input, arguments.list("--names"));
+  const RawTable table = read_raw_table(input, arguments.list(flag::names));
   Output output(arguments.output());
-  if (arguments.given("--list")) {
+  if (arguments[flag::list]) {
     output.write(describe_columns(table, options));
     output.commit();
     return 0;
   }
   const ImportResult result = import_recording(table, options);
   write_recording(output.stream(), result.recording);
-  if (arguments.given("--scan")) {
-    Output scan(arguments.text("--scan"));
+  if (arguments.given(flag::scan)) {
+    Output scan(arguments[flag::scan]);
     write_scan(scan.stream(), result);
     scan.commit();
   }
-  if (block && arguments.given("--surface")) {
-    Output surface(arguments.text("--surface"));
+  if (block && arguments.given(flag::surface)) {
+    Output surface(arguments[flag::surface]);
     const std::string size = fmt::format("block {} x {} x {} m", format_number(block->x()),
                                          format_number(block->y()), format_number(block->z()));
-    format_to_write(arguments.text("--surface"), Content::kTriangles)
+    format_to_write(arguments[flag::surface], Content::kTriangles)
         .write_surface(surface.stream(), block_surface(*block), {.comments = {size}});
     surface.commit();
   }

@@ -10,6 +10,11 @@
 #include "model/model_library.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr IntegerFlag show{"--show"};
+inline constexpr TextFlag remove{"--remove"}, material{"--material"}, object{"--object"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -24,17 +29,18 @@ ToolSpec specification() {
       "The library is an SQLite file with one table, entry; it can be copied and kept like any "
       "file."};
   spec.options = {
-      {.flag = "--show",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::show,
        .value = "N",
        .help = "Writes the model of entry N, for hs-simulate --model and hs-identify --model.",
        .minimum = 1},
-      {.flag = "--remove",
+      {.flag = flag::remove,
        .value = "LIST",
        .help = "Removes the entries of these numbers, all or none.",
        .repeatable = true},
-      {.flag = "--material", .value = "NAME", .help = "Lists the entries of this material alone."},
-      {.flag = "--object", .value = "NAME", .help = "Lists the entries of this object alone."}};
+      {.flag = flag::material,
+       .value = "NAME",
+       .help = "Lists the entries of this material alone."},
+      {.flag = flag::object, .value = "NAME", .help = "Lists the entries of this object alone."}};
   spec.tables = {{"List (output)",
                   {{"entry", "its number, which is never given again"},
                    {"stored", "when, UTC"},
@@ -93,12 +99,12 @@ void list(const std::vector<LibraryEntry>& entries, std::ostream& out) {
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--show") && arguments.given("--remove"))
+  if (arguments.given(flag::show) && arguments.given(flag::remove))
     fail_usage("--show and --remove exclude each other", "show the entry first");
   if (arguments.input() == "-")
     fail_usage("a library is no stream", "name the file: hs-library lab.db");
-  if (arguments.given("--remove")) {
-    const std::vector<int> ids = numbers(arguments.list("--remove"));
+  if (arguments.given(flag::remove)) {
+    const std::vector<int> ids = numbers(arguments.list(flag::remove));
     // Not made when it is absent.
     ModelLibrary(arguments.input(), Database::Mode::kRead);
     ModelLibrary(arguments.input(), Database::Mode::kWrite).remove(ids);
@@ -109,15 +115,15 @@ int run(const Arguments& arguments) {
   }
   ModelLibrary library(arguments.input(), Database::Mode::kRead);
   Output output(arguments.output());
-  if (arguments.given("--show")) {
-    show(library.entry(static_cast<int>(arguments.integer("--show"))), output.stream());
+  if (arguments.given(flag::show)) {
+    show(library.entry(static_cast<int>(arguments[flag::show])), output.stream());
   } else {
     std::vector<LibraryEntry> entries = library.entries();
-    const auto lacks = [&](const char* flag, const std::string& name) {
+    const auto lacks = [&](const AnyFlag& flag, const std::string& name) {
       return arguments.given(flag) && name != arguments.text(flag);
     };
     std::erase_if(entries, [&](const LibraryEntry& e) {
-      return lacks("--material", e.described.material) || lacks("--object", e.described.object);
+      return lacks(flag::material, e.described.material) || lacks(flag::object, e.described.object);
     });
     list(entries, output.stream());
   }

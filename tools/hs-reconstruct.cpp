@@ -10,6 +10,16 @@
 #include "reconstruct/surface_record.h"
 
 namespace hapsim {
+namespace flag {
+inline constexpr ChoiceFlag method{"--method"}, unit{"--unit"};
+inline constexpr SwitchFlag repair{"--repair"}, no_repair{"--no-repair"}, no_base{"--no-base"},
+    ascii{"--ascii"};
+inline constexpr LengthFlag base{"--base"}, base_depth{"--base-depth"}, edge{"--edge"};
+inline constexpr TextFlag up{"--up"};
+inline constexpr IntegerFlag seed{"--seed"};
+inline constexpr FileFlag json{"--json"};
+}  // namespace flag
+
 namespace {
 
 ToolSpec specification() {
@@ -64,78 +74,66 @@ ToolSpec specification() {
       "place; --method wrap then makes a surface about the triangles. --method poisson and the "
       "others take the vertices as points."};
   spec.options = {
-      {.flag = "--method",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::method,
        .value = "METHOD",
        .help = "How to reconstruct.",
        .group = "Method",
        .default_text = "auto",
        .choices = reconstruct_methods()},
-      {.flag = "--unit",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::unit,
        .value = "UNIT",
        .help = "Unit of the coordinates; the output is in metres.",
        .group = "Input",
        .default_text = "m",
        .choices = {"m", "mm", "cm", "um", "in"}},
-      {.flag = "--repair",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::repair,
        .help = "Repairs triangles; on without being asked for. With points: refused.",
        .group = "Method"},
-      {.flag = "--no-repair",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::no_repair,
        .help = "Triangles must be sound already: what would be mended is refused.",
        .group = "Method"},
-      {.flag = "--base",
-       .kind = OptionKind::kLength,
+      {.flag = flag::base,
        .value = "Z",
        .help = "Height of the bottom plane along --up [m].",
        .group = "Bottom",
        .minimum = -10,
        .maximum = 10},
-      {.flag = "--base-depth",
-       .kind = OptionKind::kLength,
+      {.flag = flag::base_depth,
        .value = "D",
        .help = "Puts the bottom plane this deep below the lowest point [m].",
        .group = "Bottom",
        .minimum = 0,
        .maximum = 10},
-      {.flag = "--no-base",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::no_base,
        .help = "Leaves the underside of a body that was scanned from all round as it is; "
                "hs-tetmesh then needs --fixed.",
        .group = "Bottom"},
-      {.flag = "--up",
-       .kind = OptionKind::kText,
+      {.flag = flag::up,
        .value = "X,Y,Z",
        .help = "Direction away from the bottom; the bottom plane is square to it. auto: z, or the "
                "mean normal of the points when that is more than 60 degrees off z.",
        .group = "Bottom",
        .default_text = "auto"},
-      {.flag = "--edge",
-       .kind = OptionKind::kLength,
+      {.flag = flag::edge,
        .value = "M",
        .help = "Edge length of the triangles [m]; else about 2000 triangles, but none much finer "
                "than the points are apart.",
        .group = "Method",
        .minimum = 1e-5,
        .maximum = 1},
-      {.flag = "--seed",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::seed,
        .value = "N",
        .help = "Seed of the triangulation's insertion order.",
        .group = "Method",
        .default_text = "1",
        .minimum = 0,
        .maximum = 4e9},
-      {.flag = "--json",
-       .kind = OptionKind::kFile,
+      {.flag = flag::json,
        .value = "FILE",
        .help = "Also writes what was done as JSON.",
        .group = "Output",
        .writes = {"json"}},
-      {.flag = "--ascii",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::ascii,
        .help = "Writes text instead of binary PLY or STL.",
        .group = "Output"}};
   spec.writes = extensions_to_write(Content::kTriangles);
@@ -200,19 +198,19 @@ std::optional<Vec3> parse_up(const std::string& text) {
 
 ReconstructOptions options_of(const Arguments& arguments) {
   ReconstructOptions options;
-  options.method = method_named(arguments.text("--method"));
-  if (arguments.given("--base") && arguments.given("--base-depth")) {
+  options.method = method_named(arguments[flag::method]);
+  if (arguments.given(flag::base) && arguments.given(flag::base_depth)) {
     fail_usage("--base and --base-depth contradict each other", "give one of them");
   }
-  if (arguments.given("--repair") && arguments.given("--no-repair")) {
+  if (arguments[flag::repair] && arguments[flag::no_repair]) {
     fail_usage("--repair and --no-repair contradict each other", "give one of them");
   }
-  if (arguments.given("--base")) options.base = arguments.number("--base");
-  if (arguments.given("--base-depth")) options.base_depth = arguments.number("--base-depth");
-  if (arguments.given("--edge")) options.edge = arguments.number("--edge");
-  options.no_base = arguments.given("--no-base");
-  options.up = parse_up(arguments.text("--up"));
-  options.seed = static_cast<std::uint64_t>(arguments.integer("--seed"));
+  if (arguments.given(flag::base)) options.base = arguments[flag::base];
+  if (arguments.given(flag::base_depth)) options.base_depth = arguments[flag::base_depth];
+  if (arguments.given(flag::edge)) options.edge = arguments[flag::edge];
+  options.no_base = arguments[flag::no_base];
+  options.up = parse_up(arguments[flag::up]);
+  options.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
   return options;
 }
 
@@ -245,7 +243,7 @@ Result from_triangles(const Arguments& arguments, const Surface& given, const st
         wrapped ? wrap_surface(given, options.edge, name) : repair_surface(given, name, report);
     progress.step();
   }
-  if (arguments.given("--no-repair") && report.total() > 0) {
+  if (arguments[flag::no_repair] && report.total() > 0) {
     fail_input(name, "the surface is not sound: " + report.text(), "leave --no-repair out");
   }
   if (options.edge > 0) result.surface = even_surface(result.surface, options.edge);
@@ -256,16 +254,16 @@ Result from_triangles(const Arguments& arguments, const Surface& given, const st
 int run(const Arguments& arguments) {
   Input input(arguments.input());
   Shape shape = read_shape(input);
-  const std::string unit = arguments.text("--unit");
+  const std::string unit = arguments[flag::unit];
   const double factor = unit_factor(Quantity::kLength, unit);
   for (Vec3& p : shape.cloud.points) p *= factor;
   for (Vec3& p : shape.surface.vertices) p *= factor;
   check_size(shape.has_triangles ? shape.surface.vertices : shape.cloud.points, unit, input.name());
-  const ReconstructMethod method = method_named(arguments.text("--method"));
+  const ReconstructMethod method = method_named(arguments[flag::method]);
   const bool mend = shape.has_triangles &&
                     (method == ReconstructMethod::kAuto || method == ReconstructMethod::kWrap);
   if (shape.has_triangles && !mend) shape.cloud = points_of_triangles(shape.surface);
-  if (!mend && (arguments.given("--repair") || arguments.given("--no-repair"))) {
+  if (!mend && (arguments[flag::repair] || arguments[flag::no_repair])) {
     if (!shape.has_triangles)
       fail_input(input.name(), "it holds no triangles that could be kept", "leave --repair out");
     fail_usage("--repair is for triangles that are kept", "leave it or --method out");
@@ -276,10 +274,10 @@ int run(const Arguments& arguments) {
   Output output(arguments.output());
   format_to_write(arguments.output(), Content::kTriangles)
       .write_surface(output.stream(), result.surface,
-                     {.ascii = arguments.given("--ascii"), .comments = result.record.comments});
+                     {.ascii = arguments[flag::ascii], .comments = result.record.comments});
   output.commit();
-  if (arguments.given("--json")) {
-    Output json(arguments.text("--json"));
+  if (arguments.given(flag::json)) {
+    Output json(arguments[flag::json]);
     json.stream() << result.record.json;
     json.commit();
   }

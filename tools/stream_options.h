@@ -7,21 +7,20 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "io/stream.h"
+#include "shared_flags.h"
 
 namespace hapsim {
 
 // --nu and --times of an on-line identification; `who` begins their help: "Operator".
 inline std::vector<Option> online_flags(const std::string& who) {
-  return {{.flag = "--nu",
-           .kind = OptionKind::kNumber,
+  return {{.flag = flag::nu,
            .value = "NU",
            .help = who + ": Poisson's ratio of the body that is identified.",
            .group = who,
            .default_text = "0.45",
            .minimum = 0,
            .maximum = 0.499},
-          {.flag = "--times",
-           .kind = OptionKind::kTimes,
+          {.flag = flag::times,
            .value = "LIST",
            .help = who + ": relaxation times whose moduli are identified too [s], at most five.",
            .group = who,
@@ -31,7 +30,7 @@ inline std::vector<Option> online_flags(const std::string& who) {
 // --tool-radius, or the stream's own [m].
 inline double stream_radius(const Arguments& arguments, const Metadata& metadata,
                             const std::string& name) {
-  if (arguments.given("--tool-radius")) return arguments.number("--tool-radius");
+  if (arguments.given(flag::tool_radius)) return arguments[flag::tool_radius];
   const double radius = metadata.number("tool_radius", name).value_or(0);
   if (!(radius > 0))
     fail_input(name, "the motion does not say its tool's radius", "give --tool-radius M [m]");

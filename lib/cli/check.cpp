@@ -17,15 +17,15 @@ namespace {
 constexpr double kLargestInteger = 9007199254740992;  // 2^53: every integer up to it is a double
 
 void check_number(const Option& option, const std::string& text) {
-  const bool whole = option.kind == OptionKind::kInteger;
+  const bool whole = option.kind() == OptionKind::kInteger;
   double value;
   if (!parse_number(text, value))
-    fail_usage(option.flag + " is " + shown(text) + ", not a number",
+    fail_usage(option.name() + " is " + shown(text) + ", not a number",
                whole ? "give a whole number" : "give a number such as 0.5 or 1e-3");
   if (whole && (value != std::floor(value) || std::abs(value) > kLargestInteger))
-    fail_usage(option.flag + " is " + shown(text), "give a whole number");
+    fail_usage(option.name() + " is " + shown(text), "give a whole number");
   if (value < option.minimum || value > option.maximum)
-    fail_usage(option.flag + " is " + text, "give a number " + bounds_text(option));
+    fail_usage(option.name() + " is " + text, "give a number " + bounds_text(option));
 }
 
 void check_choice(const Option& option, const std::string& text) {
@@ -33,7 +33,7 @@ void check_choice(const Option& option, const std::string& text) {
   std::string known;
   for (const std::string& choice : option.choices) known += (known.empty() ? "" : " ") + choice;
   const std::string near = nearest(text, option.choices);
-  fail_usage(option.flag + " is " + shown(text),
+  fail_usage(option.name() + " is " + shown(text),
              (near.empty() ? "" : "did you mean '" + near + "'? ") + "known are: " + known);
 }
 
@@ -55,7 +55,7 @@ void check_extension(const Option& option, const std::string& text) {
   std::string list;
   for (std::size_t i = 0; i < known.size(); ++i)
     list += (i == 0 ? "." : i + 1 == known.size() ? " or ." : ", .") + known[i];
-  fail_usage(option.flag + " is " + shown(text) + ", and this is not written as ." + extension,
+  fail_usage(option.name() + " is " + shown(text) + ", and this is not written as ." + extension,
              "end the name in " + list);
 }
 
@@ -63,18 +63,18 @@ void check_extension(const Option& option, const std::string& text) {
 
 void check_value(const Option& option, const std::string& text) {
   if (text.empty())
-    fail_usage("a value of " + option.flag + " is empty", "give a value " + option.value);
+    fail_usage("a value of " + option.name() + " is empty", "give a value " + option.value);
   if (is_number(option)) check_number(option, text);
-  if (option.kind == OptionKind::kChoice) check_choice(option, text);
-  if (option.kind == OptionKind::kFile && !option.writes.empty()) check_extension(option, text);
+  if (option.kind() == OptionKind::kChoice) check_choice(option, text);
+  if (option.kind() == OptionKind::kFile && !option.writes.empty()) check_extension(option, text);
 }
 
 std::string in_si(const Option& option, const std::string& text) {
   const std::vector<Quantity> quantities = quantities_of(option);
   double value;
   if (quantities.empty() || text.empty() || parse_number(text, value)) return text;
-  if (is_number(option)) return format_number(parse_quantity(text, quantities[0], option.flag));
-  return list_in_si(text, quantities, option.flag);
+  if (is_number(option)) return format_number(parse_quantity(text, quantities[0], option.name()));
+  return list_in_si(text, quantities, option.name());
 }
 
 }  // namespace hapsim

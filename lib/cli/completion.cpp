@@ -31,22 +31,22 @@ std::string quoted(const std::string& text) {
 
 // "-o" of "--output", "" without a short form.
 std::string letter(const Option& option) {
-  return short_flag(option.flag).substr(0, 2);
+  return short_flag(option.name()).substr(0, 2);
 }
 
 std::string bash(const ToolSpec& spec) {
   std::string flags, cases;
   for (const Option& option : all_options(spec)) {
     const std::string brief_flag = letter(option);
-    flags += (flags.empty() ? "" : " ") + option.flag;
+    flags += (flags.empty() ? "" : " ") + option.name();
     if (!brief_flag.empty()) flags += " " + brief_flag;
-    if (option.kind == OptionKind::kSwitch) continue;
+    if (option.kind() == OptionKind::kSwitch) continue;
     const std::string pattern =
-        "    " + option.flag + (brief_flag.empty() ? "" : " | " + brief_flag) + ") ";
-    if (option.kind == OptionKind::kChoice)
+        "    " + option.name() + (brief_flag.empty() ? "" : " | " + brief_flag) + ") ";
+    if (option.kind() == OptionKind::kChoice)
       cases += pattern + "COMPREPLY=($(compgen -W " + quoted(joined(option.choices)) +
                " -- \"$word\")); return ;;\n";
-    else if (option.kind == OptionKind::kFile)
+    else if (option.kind() == OptionKind::kFile)
       cases += pattern + "return ;;\n";  // readline completes files
     else
       cases += pattern + "compopt +o default; return ;;\n";
@@ -74,18 +74,18 @@ std::string zsh(const ToolSpec& spec) {
   std::string text = "#compdef " + spec.name + "\n" + begin(spec) + "_arguments -s -S";
   for (const Option& option : all_options(spec)) {
     std::string rest = "[" + zsh_text(brief(option.help)) + "]";
-    if (option.kind != OptionKind::kSwitch) rest += ":" + zsh_text(option.value) + ":";
-    if (option.kind == OptionKind::kChoice) rest += "(" + joined(option.choices) + ")";
-    if (option.kind == OptionKind::kFile) rest += "_files";
+    if (option.kind() != OptionKind::kSwitch) rest += ":" + zsh_text(option.value) + ":";
+    if (option.kind() == OptionKind::kChoice) rest += "(" + joined(option.choices) + ")";
+    if (option.kind() == OptionKind::kFile) rest += "_files";
     const std::string brief_flag = letter(option);
     text += " \\\n  ";
     if (option.repeatable)
-      text += quoted("*" + option.flag + rest);
+      text += quoted("*" + option.name() + rest);
     else if (brief_flag.empty())
-      text += quoted(option.flag + rest);
+      text += quoted(option.name() + rest);
     else
-      text += quoted("(" + brief_flag + " " + option.flag + ")") + "{" + brief_flag + "," +
-              option.flag + "}" + quoted(rest);
+      text += quoted("(" + brief_flag + " " + option.name() + ")") + "{" + brief_flag + "," +
+              option.name() + "}" + quoted(rest);
   }
   if (!spec.input.empty())
     text += " \\\n  " + quoted("::" + zsh_text(brief(spec.input)) + ":_files");
@@ -105,13 +105,13 @@ std::string fish(const ToolSpec& spec) {
   std::string text = begin(spec);
   if (spec.input.empty()) text += "complete -c " + spec.name + " -f\n";
   for (const Option& option : all_options(spec)) {
-    text += "complete -c " + spec.name + " -l " + option.flag.substr(2);
+    text += "complete -c " + spec.name + " -l " + option.name().substr(2);
     if (!letter(option).empty()) text += " -s " + letter(option).substr(1);
-    if (option.kind == OptionKind::kChoice)
+    if (option.kind() == OptionKind::kChoice)
       text += " -x -a " + fish_quoted(joined(option.choices));
-    else if (option.kind == OptionKind::kFile)
+    else if (option.kind() == OptionKind::kFile)
       text += " -r -F";
-    else if (option.kind != OptionKind::kSwitch)
+    else if (option.kind() != OptionKind::kSwitch)
       text += is_number(option) ? " -x" : " -r";
     text += " -d " + fish_quoted(brief(option.help)) + "\n";
   }

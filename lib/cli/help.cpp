@@ -63,8 +63,8 @@ std::string help_text(const ToolSpec& spec) {
       group = option.group;
       text += group.empty() ? "\nOptions:\n" : "\nOptions, " + group + ":\n";
     }
-    std::string term = short_flag(option.flag);
-    term += (term.empty() ? "" : " ") + option.flag;
+    std::string term = short_flag(option.name());
+    term += (term.empty() ? "" : " ") + option.name();
     if (!option.value.empty()) term += " " + option.value;
     text += entry(term, full_help(option));
   }

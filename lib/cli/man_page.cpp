@@ -72,9 +72,9 @@ std::string upper(std::string text) {
 }
 
 std::string option_term(const Option& option) {
-  const std::string brief = short_flag(option.flag);
+  const std::string brief = short_flag(option.name());
   std::string term = brief.empty() ? "" : bold(brief.substr(0, 2)) + ", ";
-  term += bold(option.flag);
+  term += bold(option.name());
   return option.value.empty() ? term : term + " " + italic(option.value);
 }
 

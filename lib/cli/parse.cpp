@@ -19,7 +19,7 @@ struct Found {
 };
 
 [[noreturn]] void fail_value(const Option& option) {
-  fail_usage(option.flag + " needs a value " + option.value, option.help);
+  fail_usage(option.name() + " needs a value " + option.value, option.help);
 }
 
 Found find_all(const std::vector<Option>& options, const std::vector<std::string>& words) {
@@ -29,13 +29,13 @@ Found find_all(const std::vector<Option>& options, const std::vector<std::string
   app.set_help_flag();
   app.allow_extras();
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const std::string name = short_flag(options[i].flag) + options[i].flag;
+    const std::string name = short_flag(options[i].name()) + options[i].name();
     auto& values = found.values[i];
     const auto gather = [&values](const CLI::results_t& results) {
       values = results;
       return true;
     };
-    if (options[i].kind == OptionKind::kSwitch)
+    if (options[i].kind() == OptionKind::kSwitch)
       app.add_flag_callback(name, [&values] { values = {"1"}; });
     else
       app.add_option(name, gather)->expected(1)->take_all()->allow_extra_args(false);
@@ -59,7 +59,7 @@ Found find_all(const std::vector<Option>& options, const std::vector<std::string
 [[noreturn]] void fail_unknown(const ToolSpec& spec, const std::string& word) {
   const std::string flag = word.substr(0, word.find('='));
   std::vector<std::string> names;
-  for (const Option& option : all_options(spec)) names.push_back(option.flag);
+  for (const Option& option : all_options(spec)) names.push_back(option.name());
   const std::string near = nearest(flag, names);
   fail_usage("unknown flag '" + flag + "'",
              near.empty() ? spec.name + " --help lists the flags" : "did you mean '" + near + "'?");
@@ -77,13 +77,13 @@ std::vector<std::string> split_at_commas(const std::vector<std::string>& texts) 
 }
 
 Arguments::Value make_value(const Option& option, std::vector<std::string> texts) {
-  Arguments::Value value{option.flag, std::move(texts), false};
+  Arguments::Value value{option.name(), std::move(texts), false};
   value.given = !value.texts.empty();
-  if (option.kind == OptionKind::kSwitch) return value;
+  if (option.kind() == OptionKind::kSwitch) return value;
   if (!value.given && !option.default_text.empty()) value.texts = {option.default_text};
   if (!option.repeatable && value.texts.size() > 1)
-    fail_usage(option.flag + " is given twice", "give it once");
-  if (option.repeatable && option.kind != OptionKind::kFile)
+    fail_usage(option.name() + " is given twice", "give it once");
+  if (option.repeatable && option.kind() != OptionKind::kFile)
     value.texts = split_at_commas(value.texts);
   for (std::string& text : value.texts) {
     text = in_si(option, text);
@@ -100,13 +100,13 @@ void check_words(const std::vector<Option>& options, const std::vector<std::stri
   };
   for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)
     for (const Option& option : options) {
-      if (option.kind == OptionKind::kSwitch) {
-        if (words[i].starts_with(option.flag + "="))
-          fail_usage(option.flag + " takes no value", "leave out what follows it");
+      if (option.kind() == OptionKind::kSwitch) {
+        if (words[i].starts_with(option.name() + "="))
+          fail_usage(option.name() + " takes no value", "leave out what follows it");
         continue;
       }
       const bool flag_follows = i + 1 < words.size() && is_any_flag(words[i + 1]);
-      if (words[i] == option.flag + "=" || (is_flag(words[i], option) && flag_follows))
+      if (words[i] == option.name() + "=" || (is_flag(words[i], option) && flag_follows))
         fail_value(option);
     }
 }
@@ -147,12 +147,12 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
   for (std::size_t i = 0; i < options.size(); ++i) {
     Arguments::Value value = make_value(options[i], std::move(found.values[i]));
     if (options[i].required && !value.given)
-      fail_usage(options[i].flag + " is required", options[i].help);
+      fail_usage(options[i].name() + " is required", options[i].help);
     arguments.values_.push_back(std::move(value));
   }
-  arguments.quiet_ = arguments.given("--quiet");
-  arguments.verbose_ = arguments.given("--verbose");
-  arguments.output_ = arguments.text("--output");
+  arguments.quiet_ = arguments[flag::quiet];
+  arguments.verbose_ = arguments[flag::verbose];
+  arguments.output_ = arguments[flag::output];
   if (arguments.quiet_ && arguments.verbose_)
     fail_usage("--quiet and --verbose contradict each other", "give one of them");
   return line;

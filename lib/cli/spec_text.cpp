@@ -19,7 +19,7 @@ std::string joined(const std::vector<std::string>& words, const char* between) {
 // "A length from 0 to 1 m, as 0.004 or 4mm".
 std::string quantity_text(const Option& option) {
   const QuantityWords& words = words_of(quantities_of(option).front());
-  if (option.kind == OptionKind::kPose) return "In m and rad, or with units, as 4mm and 30deg";
+  if (option.kind() == OptionKind::kPose) return "In m and rad, or with units, as 4mm and 30deg";
   if (!is_number(option))
     return std::string("In ") + words.unit + ", or with a unit, as " + words.example;
   const std::string bounds = bounds_text(option);
@@ -48,13 +48,13 @@ const std::array<std::pair<const char*, const char*>, 6> kExitCodes{{
 }};
 
 bool is_number(const Option& option) {
-  return option.kind == OptionKind::kNumber || option.kind == OptionKind::kInteger ||
-         (quantities_of(option).size() == 1 && option.kind != OptionKind::kLengths &&
-          option.kind != OptionKind::kTimes);
+  return option.kind() == OptionKind::kNumber || option.kind() == OptionKind::kInteger ||
+         (quantities_of(option).size() == 1 && option.kind() != OptionKind::kLengths &&
+          option.kind() != OptionKind::kTimes);
 }
 
 std::vector<Quantity> quantities_of(const Option& option) {
-  switch (option.kind) {
+  switch (option.kind()) {
     case OptionKind::kLength:
     case OptionKind::kLengths:
       return {Quantity::kLength};
@@ -86,19 +86,18 @@ std::vector<Option> all_options(const ToolSpec& spec) {
 
   std::vector<Option> options = spec.options;
   options.push_back(
-      {.flag = "--output",
-       .kind = OptionKind::kFile,
+      {.flag = flag::output,
        .value = "FILE",
        .help = "Write the result to FILE, complete or not at all; - is standard output.",
        .group = has_output ? kOutput : general,
        .writes = spec.writes,
        .default_text = "-"});
-  for (const auto& [flag, help] :
-       {std::pair{"--quiet", "Print errors only."},
-        std::pair{"--verbose", "Print more about what is done."},
-        std::pair{"--help", "Print this help."}, std::pair{"--man", "Print the manual page."},
-        std::pair{"--version", "Print the version."}})
-    options.push_back({.flag = flag, .kind = OptionKind::kSwitch, .help = help, .group = general});
+  for (const auto& [one, help] :
+       {std::pair{flag::quiet, "Print errors only."},
+        std::pair{flag::verbose, "Print more about what is done."},
+        std::pair{flag::help, "Print this help."}, std::pair{flag::man, "Print the manual page."},
+        std::pair{flag::version, "Print the version."}})
+    options.push_back({.flag = one, .help = help, .group = general});
   const auto place = [&groups](const Option& option) {
     return std::find(groups.begin(), groups.end(), option.group);
   };
@@ -117,7 +116,7 @@ std::string short_flag(const std::string& flag) {
 }
 
 bool is_flag(const std::string& word, const Option& option) {
-  return word == option.flag || (word.size() == 2 && word + "," == short_flag(option.flag));
+  return word == option.name() || (word.size() == 2 && word + "," == short_flag(option.name()));
 }
 
 std::string bounds_text(const Option& option) {
@@ -134,15 +133,15 @@ std::string bounds_text(const Option& option) {
 
 std::string full_help(const Option& option) {
   std::string text = option.help;
-  if (option.kind == OptionKind::kChoice)
+  if (option.kind() == OptionKind::kChoice)
     add_sentence(text, "One of: " + joined(option.choices, ", ") + ".");
   if (!quantities_of(option).empty())
     add_sentence(text, quantity_text(option) + ".");
   else if (is_number(option) && !bounds_text(option).empty())
-    add_sentence(text, (option.kind == OptionKind::kInteger ? "A whole number " : "A number ") +
+    add_sentence(text, (option.kind() == OptionKind::kInteger ? "A whole number " : "A number ") +
                            bounds_text(option) + ".");
   if (option.repeatable)
-    add_sentence(text, option.kind == OptionKind::kFile
+    add_sentence(text, option.kind() == OptionKind::kFile
                            ? "May be repeated."
                            : "May be repeated, or given a list separated by commas.");
   if (!option.writes.empty())
@@ -155,7 +154,7 @@ std::string full_help(const Option& option) {
 std::string synopsis(const ToolSpec& spec) {
   std::string text = "[OPTIONS]";
   for (const Option& option : spec.options)
-    if (option.required) text += " " + option.flag + " " + option.value;
+    if (option.required) text += " " + option.name() + " " + option.value;
   return text + (spec.input.empty() ? "" : " [INPUT]");
 }
 

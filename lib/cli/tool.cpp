@@ -96,36 +96,32 @@ std::string version() {
   return HAPSIM_VERSION;
 }
 
-const Arguments::Value& Arguments::value(const std::string& flag) const {
+const Arguments::Value& Arguments::value(const AnyFlag& flag) const {
   for (const Value& v : values_)
-    if (v.flag == flag) return v;
+    if (v.flag == flag.name) return v;
   throw std::logic_error("the specification has no flag " + flag);
 }
 
-bool Arguments::given(const std::string& flag) const {
+bool Arguments::given(const AnyFlag& flag) const {
   return value(flag).given;
 }
-bool Arguments::has(const std::string& flag) const {
+bool Arguments::has(const AnyFlag& flag) const {
   return !value(flag).texts.empty();
 }
 
-std::string Arguments::text(const std::string& flag) const {
+std::string Arguments::text(const AnyFlag& flag) const {
   const Value& v = value(flag);
   return v.texts.empty() ? "" : v.texts.front();
 }
 
-double Arguments::number(const std::string& flag) const {
+double Arguments::number(const AnyFlag& flag) const {
   double result;
   if (!parse_number(text(flag), result))
     throw std::logic_error(flag + " is read as a number and has no value");
   return result;
 }
 
-long Arguments::integer(const std::string& flag) const {
-  return static_cast<long>(number(flag));
-}
-
-std::vector<std::string> Arguments::list(const std::string& flag) const {
+std::vector<std::string> Arguments::list(const AnyFlag& flag) const {
   return value(flag).texts;
 }
 

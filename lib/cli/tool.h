@@ -8,26 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace hapsim {
+#include "cli/flag.h"
 
-// Those from kLength on are quantities: in SI, or with a unit ("0.004", "4mm"). What Arguments
-// tells of them is in SI. kLengths and kTimes are several numbers in one value ("0,0,0.05",
-// "1ms:2ms"), kPose is X,Y,Z[,R,P,Y]: lengths, then angles.
-enum class OptionKind {
-  kSwitch,
-  kText,
-  kNumber,
-  kInteger,
-  kChoice,
-  kFile,
-  kLength,
-  kTime,
-  kForce,
-  kPressure,
-  kLengths,
-  kTimes,
-  kPose
-};
+namespace hapsim {
 
 // Extensions of tables: CSV, also under the names of plain text.
 inline const std::vector<std::string> kTableExtensions{"csv", "txt", "dat"};
@@ -35,8 +18,7 @@ inline const std::vector<std::string> kTableExtensions{"csv", "txt", "dat"};
 // One long flag. Every tool also has -o/--output, -q/--quiet, -v/--verbose, -h/--help,
 // -V/--version, which run_tool adds.
 struct Option {
-  std::string flag = {};  // "--unit"
-  OptionKind kind = OptionKind::kText;
+  AnyFlag flag = {};
   std::string value = {};  // name of the value in the help: "UNIT"
   std::string help = {};   // one or two sentences
   std::string group = {};  // heading of --help and man page that it stands under; "" for none
@@ -50,6 +32,9 @@ struct Option {
   bool required = false;
   // Values gathered in order; also split at commas (kFile is not: names may hold commas).
   bool repeatable = false;
+
+  std::string name() const { return flag.name; }
+  OptionKind kind() const { return flag.kind; }
 };
 
 struct Example {
@@ -81,14 +66,22 @@ class Arguments {
   const std::string& output() const { return output_; }  // "-" when absent
   bool quiet() const { return quiet_; }
   bool verbose() const { return verbose_; }
-  bool given(const std::string& flag) const;  // on the command line
-  bool has(const std::string& flag) const;    // given, or has a default
-  // The value, or the default; "" when there is neither.
-  std::string text(const std::string& flag) const;
-  // Checked finite and within bounds; a default is needed unless has().
-  double number(const std::string& flag) const;
-  long integer(const std::string& flag) const;
-  std::vector<std::string> list(const std::string& flag) const;
+  bool given(const AnyFlag& flag) const;  // on the command line
+  bool has(const AnyFlag& flag) const;    // given, or has a default
+  // The value, or the default. Of text: "" when there is neither; of a number, checked finite and
+  // within bounds: it must have one, unless has() was asked.
+  template <OptionKind kKind>
+  typename Flag<kKind>::Value operator[](const Flag<kKind>& flag) const {
+    if constexpr (kKind == OptionKind::kSwitch)
+      return given(flag);
+    else if constexpr (std::is_same_v<typename Flag<kKind>::Value, std::string>)
+      return text(flag);
+    else
+      return static_cast<typename Flag<kKind>::Value>(number(flag));
+  }
+  // Of any kind, as it was written (a quantity in SI).
+  std::string text(const AnyFlag& flag) const;
+  std::vector<std::string> list(const AnyFlag& flag) const;
 
   struct Value {
     std::string flag;
@@ -103,7 +96,8 @@ class Arguments {
   std::vector<Value> values_;
 
  private:
-  const Value& value(const std::string& flag) const;
+  const Value& value(const AnyFlag& flag) const;
+  double number(const AnyFlag& flag) const;
 };
 
 // A line of summary for people on standard error, unless --quiet: "hs-identify: text".

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "formats/tetmesh_io.h"
+#include "hs-compare/flags.h"
 #include "io/csv.h"
 #include "mesh/tetmesh.h"
 #include "model/model_edit.h"
@@ -19,62 +20,56 @@ namespace hapsim {
 
 inline std::vector<Option> follow_flags() {
   return {
-      {.flag = "--follow",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::follow,
        .help = "Watches a stream: each row is compared with --model on --body as it comes.",
        .group = "Follow"},
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kLength,
+      {.flag = flag::tool_radius,
        .value = "M",
        .help = "Follow: radius of the flat tool [m]; otherwise the stream's metadata.",
        .group = "Follow",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--rate",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::rate,
        .value = "HZ",
        .help = "Follow: rows a second.",
        .group = "Follow",
        .default_text = "1000",
        .minimum = 1,
        .maximum = 100000},
-      {.flag = "--learning",
-       .kind = OptionKind::kTime,
+      {.flag = flag::learning,
        .value = "S",
        .help = "Follow: time in contact, at the beginning, in which the usual error is learned.",
        .group = "Follow",
        .default_text = "5",
        .minimum = 0.5,
        .maximum = 36000},
-      {.flag = "--false-alarms",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::false_alarms,
        .value = "N",
        .help = "Follow: false alarms an hour that are put up with.",
        .group = "Follow",
        .default_text = "0.1",
        .minimum = 1e-6,
        .maximum = 100},
-      {.flag = "--events",
-       .kind = OptionKind::kFile,
+      {.flag = flag::events,
        .value = "FILE",
        .help = "Follow: writes what has changed, and how the model went on (CSV).",
        .group = "Follow",
        .writes = kTableExtensions},
-      {.flag = "--hold",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::hold,
        .help = "Follow: alarms are told and the model stays as it is.",
        .group = "Follow"}};
 }
 
 inline int run_follow(const Arguments& arguments) {
-  for (const char* flag : {"--body", "--model"})
-    if (!arguments.given(flag)) fail_usage(std::string("--follow needs ") + flag, "give it");
-  for (const char* flag : {"--simulated", "--html", "--json", "--ply", "--fail-above"})
+  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model})
+    if (!arguments.given(flag)) fail_usage("--follow needs " + flag, "give it");
+  for (const AnyFlag& flag :
+       AnyFlags{flag::simulated, flag::html, flag::json, flag::ply, flag::fail_above})
     if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of whole recordings", "leave it out, or --follow");
-  Input model_input(arguments.text("--model"));
+      fail_usage(flag + " is of whole recordings", "leave it out, or --follow");
+  Input model_input(arguments[flag::model]);
   const Model model = read_model(model_input);
-  Input body_input(arguments.text("--body"));
+  Input body_input(arguments[flag::body]);
   const TetMesh mesh = read_body(body_input);
   Input input(arguments.input());
   MotionLines lines(input, true);
@@ -84,10 +79,10 @@ inline int run_follow(const Arguments& arguments) {
   lines.within(mesh.nodes);
   const PreparedBody body(mesh, model, options);
   WatchOptions watch_options;
-  watch_options.test.rate = arguments.number("--rate");
-  watch_options.test.learning = arguments.number("--learning");
-  watch_options.test.false_alarms = arguments.number("--false-alarms");
-  watch_options.adapts = !arguments.given("--hold");
+  watch_options.test.rate = arguments[flag::rate];
+  watch_options.test.learning = arguments[flag::learning];
+  watch_options.test.false_alarms = arguments[flag::false_alarms];
+  watch_options.adapts = !arguments[flag::hold];
   ModelWatch watch(body, watch_options);
   Metadata metadata = lines.metadata();
   metadata.set("simulated", effects_label(model) + ", followed");
@@ -121,8 +116,8 @@ inline int run_follow(const Arguments& arguments) {
       },
       [&] {
         output.commit();
-        if (arguments.given("--events")) {
-          Output events(arguments.text("--events"));
+        if (arguments.given(flag::events)) {
+          Output events(arguments[flag::events]);
           write_events(events.stream(), watch.events());
           events.commit();
         }

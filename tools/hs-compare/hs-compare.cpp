@@ -12,6 +12,7 @@
 #include "compare/report_body.h"
 #include "compare/wording.h"
 #include "formats/body_input.h"
+#include "hs-compare/flags.h"
 #include "hs-compare/follow.h"
 #include "hs-compare/specification.h"
 #include "report/figures.h"
@@ -21,7 +22,7 @@ namespace {
 
 std::vector<SimulatedVersion> read_versions(const Arguments& arguments, const Recording& measured) {
   std::vector<SimulatedVersion> versions;
-  for (const std::string& text : arguments.list("--simulated")) {
+  for (const std::string& text : arguments.list(flag::simulated)) {
     const auto equals = text.find('=');
     const bool named = equals != text.npos && equals > 0 && !std::filesystem::exists(text);
     const std::string path = named ? text.substr(equals + 1) : text;
@@ -40,41 +41,41 @@ std::vector<SimulatedVersion> read_versions(const Arguments& arguments, const Re
 ReportExtras read_extras(const Arguments& arguments) {
   ReportExtras extras;
   extras.program = version();
-  if (arguments.given("--title")) extras.title = arguments.text("--title");
-  if (arguments.given("--history")) {
-    Input input(arguments.text("--history"));
+  if (arguments.given(flag::title)) extras.title = arguments[flag::title];
+  if (arguments.given(flag::history)) {
+    Input input(arguments[flag::history]);
     extras.history = read_csv(input);
   }
-  for (const std::string& diagnosis : arguments.list("--diagnosis")) {
+  for (const std::string& diagnosis : arguments.list(flag::diagnosis)) {
     const std::size_t equals = diagnosis.find('=');
     Input input(equals == std::string::npos ? diagnosis : diagnosis.substr(equals + 1));
     extras.diagnoses.emplace_back(equals == std::string::npos ? "" : diagnosis.substr(0, equals),
                                   read_csv(input));
   }
-  if (arguments.given("--model")) {
-    Input input(arguments.text("--model"));
+  if (arguments.given(flag::model)) {
+    Input input(arguments[flag::model]);
     extras.model = read_model(input);
   }
-  for (const char* flag : {"--body", "--model", "--history"})
-    if (arguments.given(flag)) extras.files.emplace_back(flag + 2, arguments.text(flag));
-  for (const std::string& diagnosis : arguments.list("--diagnosis"))
+  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::history})
+    if (arguments.given(flag)) extras.files.emplace_back(flag.name + 2, arguments.text(flag));
+  for (const std::string& diagnosis : arguments.list(flag::diagnosis))
     extras.files.emplace_back("diagnosis", diagnosis);
   return extras;
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--follow")) return run_follow(arguments);
+  if (arguments[flag::follow]) return run_follow(arguments);
   for (const Option& option : follow_flags())
     if (arguments.given(option.flag))
       fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
-  if (!arguments.given("--simulated"))
+  if (!arguments.given(flag::simulated))
     fail_usage("--simulated is required", "give forces from hs-simulate, or --follow");
   ErrorLimit limit;
-  if (arguments.given("--fail-above"))
-    limit = parse_error_limit(arguments.text("--fail-above"), "--fail-above");
-  if (arguments.given("--junit") && !arguments.given("--fail-above"))
+  if (arguments.given(flag::fail_above))
+    limit = parse_error_limit(arguments[flag::fail_above], flag::fail_above.name);
+  if (arguments.given(flag::junit) && !arguments.given(flag::fail_above))
     fail_usage("--junit tells a verdict, and none is asked for", "add --fail-above 1.5noise");
-  if (arguments.given("--ply") && !arguments.given("--body"))
+  if (arguments.given(flag::ply) && !arguments.given(flag::body))
     fail_usage("--ply colours a surface, and none is given", "add --body body.ply");
   Input input(arguments.input());
   const Recording measured = read_recording(input);
@@ -83,12 +84,12 @@ int run(const Arguments& arguments) {
   const Comparison c = compare(measured, simulated);
 
   ErrorMap map;
-  if (arguments.given("--body")) {
+  if (arguments.given(flag::body)) {
     std::vector<double> error;
     for (const BinError& e : c.by_position().errors) error.push_back(e.rmse);
-    Input body(arguments.text("--body"));
+    Input body(arguments[flag::body]);
     map = map_error(read_outside(body), c.facts.positions, error,
-                    arguments.given("--reach") ? arguments.number("--reach") : 0);
+                    arguments.given(flag::reach) ? arguments[flag::reach] : 0);
   }
 
   // All outputs are written before the first is put in its place.
@@ -97,28 +98,28 @@ int run(const Arguments& arguments) {
     outputs.push_back(std::make_unique<Output>(path));
     return outputs.back()->stream();
   };
-  if (arguments.given("--html") || arguments.given("--figures")) {
+  if (arguments.given(flag::html) || arguments.given(flag::figures)) {
     const Report report = comparison_report(measured, versions, c, map, read_extras(arguments));
-    if (arguments.given("--html")) write_report(open(arguments.text("--html")), report);
-    if (arguments.given("--figures"))
+    if (arguments.given(flag::html)) write_report(open(arguments[flag::html]), report);
+    if (arguments.given(flag::figures))
       for (const auto& [name, text] : report_figures(report))
-        open(arguments.text("--figures") + name) << text;
+        open(arguments[flag::figures] + name) << text;
   }
-  if (arguments.given("--json"))
-    open(arguments.text("--json")) << comparison_json(c, measured.name, simulated.name);
-  if (arguments.given("--ply"))
-    write_ply(open(arguments.text("--ply")), coloured_ply(map, top_error(c)));
-  if (arguments.given("--output") || isatty(STDOUT_FILENO) != 1)
+  if (arguments.given(flag::json))
+    open(arguments[flag::json]) << comparison_json(c, measured.name, simulated.name);
+  if (arguments.given(flag::ply))
+    write_ply(open(arguments[flag::ply]), coloured_ply(map, top_error(c)));
+  if (arguments.given(flag::output) || isatty(STDOUT_FILENO) != 1)
     write_recording(open(arguments.output()), with_residuals(measured, simulated.f));
   for (const auto& output : outputs) output->stream().flush();
   std::for_each(outputs.rbegin(), outputs.rend(), [](auto& output) { output->commit(); });
 
   for (const std::string& line : summary_lines(c, measured, versions))
     say(arguments, "hs-compare", line);
-  if (!arguments.given("--fail-above")) return 0;
+  if (!arguments.given(flag::fail_above)) return 0;
   const std::string excess = excess_over(limit, c, measured.name);
-  if (arguments.given("--junit")) {
-    Output junit(arguments.text("--junit"));
+  if (arguments.given(flag::junit)) {
+    Output junit(arguments[flag::junit]);
     write_junit(junit.stream(), "hs-compare", {error_case(limit, c, measured.name)});
     junit.commit();
   }

@@ -3,6 +3,7 @@
 
 #include "cli/tool.h"
 #include "formats/format_table.h"
+#include "hs-compare/flags.h"
 #include "hs-compare/follow.h"
 
 namespace hapsim {
@@ -53,87 +54,71 @@ inline ToolSpec compare_specification() {
       "row is in contact, and a displacement out of the body pulls. SIGINT or SIGTERM ends the "
       "stream; what was answered until then, or before a bad row, is written."};
   spec.options = {
-      {.flag = "--simulated",
-       .kind = OptionKind::kFile,
+      {.flag = flag::simulated,
        .value = "[NAME=]FILE",
        .help = "Simulated forces of the same rows, from hs-simulate ('-': standard input). Given "
                "several times, the last is compared and the others are drawn beside it.",
        .group = "Input",
        .repeatable = true},
-      {.flag = "--html",
-       .kind = OptionKind::kFile,
+      {.flag = flag::html,
        .value = "FILE",
        .help = "Writes the report: one file that needs no network.",
        .group = "Output",
        .writes = {"html", "htm"}},
-      {.flag = "--figures",
-       .kind = OptionKind::kFile,
+      {.flag = flag::figures,
        .value = "PREFIX",
        .help = "Writes the plots as SVG files for papers: PREFIXversions.svg, PREFIXresidual-1.svg "
                "..., PREFIXpress-ID.svg of the six presses with the largest error.",
        .group = "Output"},
-      {.flag = "--json",
-       .kind = OptionKind::kFile,
+      {.flag = flag::json,
        .value = "FILE",
        .help = "Writes numbers, observations and breakdowns as JSON.",
        .group = "Output",
        .writes = {"json"}},
-      {.flag = "--body",
-       .kind = OptionKind::kFile,
+      {.flag = flag::body,
        .value = "FILE",
        .help = "Body from hs-tetmesh, another mesh of tetrahedra (" +
                names_to_read(Content::kTetrahedra) + "), or a surface (" +
                names_to_read(Content::kTriangles) + "), for --ply and the report's picture.",
        .group = "Input"},
-      {.flag = "--ply",
-       .kind = OptionKind::kFile,
+      {.flag = flag::ply,
        .value = "FILE",
        .help =
            "Writes the body's surface coloured by the local error (vertex properties red, green, "
            "blue, and float error [N], NaN where nothing was pressed near). Needs --body.",
        .group = "Output",
        .writes = {"ply"}},
-      {.flag = "--reach",
-       .kind = OptionKind::kLength,
+      {.flag = flag::reach,
        .value = "M",
        .help = "How far from a pressed position the surface is coloured [m]; otherwise one and a "
                "half times the usual distance between positions.",
        .group = "Output",
        .minimum = 1e-6,
        .maximum = 10},
-      {.flag = "--history",
-       .kind = OptionKind::kFile,
+      {.flag = flag::history,
        .value = "FILE",
        .help = "CSV of model versions and their errors (any columns; step, model, effects, rmse, "
                "heldout, noise are known), shown in the report.",
        .group = "Input"},
-      {.flag = "--diagnosis",
-       .kind = OptionKind::kFile,
+      {.flag = flag::diagnosis,
        .value = "FILE",
        .help = "effects.csv from hs-diagnose, shown in the report; NAME=FILE names the model "
                "version it belongs to, and may be repeated. The last one gives the verdict.",
        .group = "Input",
        .repeatable = true},
-      {.flag = "--model",
-       .kind = OptionKind::kFile,
+      {.flag = flag::model,
        .value = "FILE",
        .help = "model.csv of the compared version: the report shows its parameters with their "
                "intervals, and its regions on the body. With --follow the model that the stream is "
                "compared with.",
        .group = "Input"},
-      {.flag = "--junit",
-       .kind = OptionKind::kFile,
+      {.flag = flag::junit,
        .value = "FILE",
        .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers.",
        .group = "Output",
        .writes = {"xml"}},
-      {.flag = "--title",
-       .kind = OptionKind::kText,
-       .value = "TEXT",
-       .help = "Title of the report.",
-       .group = "Output"},
-      {.flag = "--fail-above",
-       .kind = OptionKind::kText,
+      {.flag = flag::title, .value = "TEXT", .help = "Title of the report.", .group = "Output"},
+      {.flag = flag::fail_above,
        .value = "X",
        .help = "Exit code 1 when the typical error exceeds X: 0.05N, 5% (of the force's rms), or "
                "1.5noise.",

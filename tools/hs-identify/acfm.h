@@ -7,6 +7,7 @@
 #include "acfm/acfm_record.h"
 #include "base/error.h"
 #include "common_options.h"
+#include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
 #include "hs-identify/recordings.h"
 #include "io/stream.h"
@@ -16,30 +17,30 @@
 namespace hapsim {
 
 inline int run_acfm(const Arguments& arguments) {
-  for (const char* flag :
-       {"--effects", "--model",   "--add",       "--remove",  "--diagnosis", "--fix",
-        "--free",    "--regions", "--locations", "--image",   "--profile",   "--robust",
-        "--history", "--terms",   "--boundary",  "--library", "--material",  "--object",
-        "--starts",  "--resume",  "--until"})
+  for (const AnyFlag& flag :
+       AnyFlags{flag::effects, flag::model,    flag::add,     flag::remove,    flag::diagnosis,
+                flag::fix,     flag::free,     flag::regions, flag::locations, flag::image,
+                flag::profile, flag::robust,   flag::history, flag::terms,     flag::boundary,
+                flag::library, flag::material, flag::object,  flag::starts,    flag::resume,
+                flag::until})
     if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of models with effects, and --acfm has none",
-                 "leave one of them out");
+      fail_usage(flag + " is of models with effects, and --acfm has none", "leave one of them out");
   const GivenRecordings given = load_recordings(arguments);
   const Dataset& dataset = given.dataset;
   const SignedDistance surface(boundary_surface(given.bodies.front()), "body");
-  require_one_setup(dataset, "--acfm");
+  require_one_setup(dataset, flag::acfm.name);
   const std::vector<Vec3> normals = contact_normals(dataset, surface);
   AcfmFitOptions options;
-  options.terms = static_cast<int>(arguments.integer("--acfm"));
-  options.stiffening = arguments.given("--stiffening");
-  options.folds = static_cast<int>(arguments.integer("--folds"));
-  options.threads = static_cast<int>(arguments.integer("--threads"));
+  options.terms = static_cast<int>(arguments[flag::acfm]);
+  options.stiffening = arguments[flag::stiffening];
+  options.folds = static_cast<int>(arguments[flag::folds]);
+  options.threads = static_cast<int>(arguments[flag::threads]);
   options.windows = asked_terms(arguments).windows;
   if (!options.windows.empty() && static_cast<int>(options.windows.size()) != options.terms)
     fail_usage(fmt::format("{} windows for {} elements", options.windows.size(), options.terms),
                "give each element one window");
-  const Noise noise = arguments.given("--noise") ? Noise{arguments.number("--noise"), false}
-                                                 : force_noise(dataset.recording);
+  const Noise noise = arguments.given(flag::noise) ? Noise{arguments[flag::noise], false}
+                                                   : force_noise(dataset.recording);
   options.noise = noise.value;
   AcfmFit fit = fit_acfm(dataset, normals, options);
   record_fit(fit, dataset, noise);

@@ -5,12 +5,12 @@
 #include "experiment/experiment.h"
 #include "fit/boundary_fit.h"
 #include "fit/fit_words.h"
+#include "hs-identify/flags.h"
 
 namespace hapsim {
 
 inline Option boundary_flag() {
-  return {.flag = "--boundary",
-          .kind = OptionKind::kInteger,
+  return {.flag = flag::boundary,
           .value = "N",
           .help =
               "Refines the boundaries between the regions in turn with their moduli: N key "
@@ -26,8 +26,8 @@ inline Fit with_refined_boundaries(const Arguments& arguments, const Fit& fitted
                                    const Experiment& experiment, const TetMesh& body,
                                    const FitOptions& fit_options) {
   BoundaryOptions options;
-  options.key_points = static_cast<int>(arguments.integer("--boundary"));
-  options.threads = static_cast<int>(arguments.integer("--threads"));
+  options.key_points = static_cast<int>(arguments[flag::boundary]);
+  options.threads = static_cast<int>(arguments[flag::threads]);
   options.fit = fit_options;
   Progress progress(arguments, "boundaries, positions solved", 0);
   options.progress = [&progress] { progress.step(); };

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "common_options.h"
+#include "hs-identify/flags.h"
 #include "io/csv.h"
 #include "realtime/motion_lines.h"
 #include "stream_options.h"
@@ -17,21 +18,18 @@ namespace hapsim {
 inline std::vector<Option> follow_flags() {
   std::vector<Option> flags = online_flags("Follow");
   const std::vector<Option> own{
-      {.flag = "--follow",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::follow,
        .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
                "stream of rows, and writes a line of estimates every --every rows at once.",
        .group = "Follow"},
-      {.flag = "--every",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::every,
        .value = "N",
        .help = "Follow: rows from one line of estimates to the next.",
        .group = "Follow",
        .default_text = "100",
        .minimum = 1,
        .maximum = 1e9},
-      {.flag = "--memory",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::memory,
        .value = "N",
        .help = "Follow: rows in which older ones fade; otherwise all count.",
        .group = "Follow",
@@ -42,7 +40,7 @@ inline std::vector<Option> follow_flags() {
 }
 
 inline int run_follow(const Arguments& arguments) {
-  const std::vector<double> times = parse_relaxation_times(arguments.list("--times"), "--times");
+  const std::vector<double> times = parse_relaxation_times(arguments.list(flag::times), flag::times.name);
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
   MotionLines lines(input, true);
@@ -50,18 +48,18 @@ inline int run_follow(const Arguments& arguments) {
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
   lines.within(mesh.nodes);
-  const PreparedBody body(mesh, unit_model(arguments.number("--nu")), options);
+  const PreparedBody body(mesh, unit_model(arguments[flag::nu]), options);
   UnitResponse response(body, times);
   OnlineIdentification identification(static_cast<int>(times.size()) + 1,
-                                      arguments.given("--memory")
-                                          ? static_cast<double>(arguments.integer("--memory"))
+                                      arguments.given(flag::memory)
+                                          ? static_cast<double>(arguments[flag::memory])
                                           : std::numeric_limits<double>::infinity());
   Output output(arguments.output());
   CsvWriter csv(output.stream(), lines.metadata(), estimate_columns(times.size()));
   output.stream().flush();
   MotionLine line;
   long rows = 0;
-  const long every = arguments.integer("--every");
+  const long every = arguments[flag::every];
   int press = 0;
   const auto tell = [&] {
     csv.row(estimate_row(line.t, rows, identification.estimate()));

@@ -15,6 +15,7 @@
 #include "fit/location_fit.h"
 #include "hs-identify/acfm.h"
 #include "hs-identify/boundary.h"
+#include "hs-identify/flags.h"
 #include "hs-identify/follow.h"
 #include "hs-identify/image.h"
 #include "hs-identify/library.h"
@@ -40,7 +41,7 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
   const Experiment draft = make_experiment({body}, w.dataset, options);
   ImproveOptions improve_options;
   improve_options.fit = fit_options;
-  improve_options.diagnose.folds = static_cast<int>(arguments.integer("--folds"));
+  improve_options.diagnose.folds = static_cast<int>(arguments[flag::folds]);
   improve_options.diagnose.seed = fit_options.seed;
   improve_options.progress = [&](const std::string& what) {
     if (arguments.verbose()) say(arguments, "hs-identify", what);
@@ -55,8 +56,8 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
     const ImprovementStep& step = improvement.steps[k];
     say(arguments, "hs-identify", step_words(step, w.noise.value));
     // The last step is the model itself, which run() writes down.
-    if (arguments.given("--history") && k + 1 < improvement.steps.size())
-      add_history(arguments.text("--history"),
+    if (arguments.given(flag::history) && k + 1 < improvement.steps.size())
+      add_history(arguments[flag::history],
                   history_row(arguments.output() + ": " + effects_label(step.fitted.model),
                               step.fitted, step.held_out.told(), w.noise.value, force_rms));
   }
@@ -86,30 +87,30 @@ int write_unfinished(const Arguments& arguments, const FitRequest& plan, const E
 // A stream knows its own flags and the body's alone.
 void refuse_other_flags(const Arguments& arguments) {
   std::vector<std::string> known{"--body", "--tool-radius", "--threads", "--cache"};
-  for (const Option& option : follow_flags()) known.push_back(option.flag);
+  for (const Option& option : follow_flags()) known.push_back(option.name());
   for (const Option& option : identify_specification().options)
     if (arguments.given(option.flag) &&
-        std::find(known.begin(), known.end(), option.flag) == known.end())
+        std::find(known.begin(), known.end(), option.name()) == known.end())
       fail_usage(option.flag + " is of recordings, and --follow reads a stream",
                  "leave one of them out");
-  if (arguments.list("--body").size() > 1)
+  if (arguments.list(flag::body).size() > 1)
     fail_usage("--follow is for one body", "give --body once");
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--follow")) {
+  if (arguments[flag::follow]) {
     refuse_other_flags(arguments);
     return run_follow(arguments);
   }
   for (const Option& option : follow_flags())
     if (arguments.given(option.flag))
       fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
-  if (arguments.given("--acfm")) return run_acfm(arguments);
-  if (arguments.given("--stiffening"))
+  if (arguments.given(flag::acfm)) return run_acfm(arguments);
+  if (arguments[flag::stiffening])
     fail_usage("--stiffening is of analytical models", "add --acfm N, or --add hyperelastic");
   const FitRequest plan = asked_fit(arguments);
   ExtendOptions extend;
-  extend.regions = parse_regions(arguments.text("--regions"), "--regions");
+  extend.regions = parse_regions(arguments[flag::regions], flag::regions.name);
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
   GivenRecordings given = load_recordings(arguments);
@@ -126,8 +127,8 @@ int run(const Arguments& arguments) {
   FitOptions fit_options{w.noise.value, w.floor, true};
   fit_options.starts = search.starts;
   fit_options.seed = search.seed;
-  if (arguments.text("--robust") == "huber") fit_options.robust = RobustLoss::kHuber;
-  if (arguments.text("--robust") == "tukey") fit_options.robust = RobustLoss::kTukey;
+  if (arguments[flag::robust] == "huber") fit_options.robust = RobustLoss::kHuber;
+  if (arguments[flag::robust] == "tukey") fit_options.robust = RobustLoss::kTukey;
   extend.noise = w.noise.value;
   extend.floor = w.floor;
 
@@ -136,10 +137,10 @@ int run(const Arguments& arguments) {
   fit_options.watch = watch.watch();
   FitOptions final_options = fit_options;
   final_options.skip = search.done;
-  if (arguments.given("--profile") && fit_options.robust != RobustLoss::kNone)
+  if (arguments[flag::profile] && fit_options.robust != RobustLoss::kNone)
     fail_usage("--profile and --robust exclude each other",
                "a robust loss is no likelihood: use one of them");
-  final_options.profile = arguments.given("--profile");
+  final_options.profile = arguments[flag::profile];
   const double force_rms = force_error(w.dataset, measured_forces(w.dataset, all)).told();
   ForceError unseen;
   std::string cut_short;  // what a signal ended
@@ -151,20 +152,20 @@ int run(const Arguments& arguments) {
     result = improvement.steps.back().fitted;
     unseen = improvement.steps.back().held_out;
     cut_short = improvement.stopped ? "the model was improved" : "";
-    folds = make_folds(w.dataset, static_cast<int>(arguments.integer("--folds")));
+    folds = make_folds(w.dataset, static_cast<int>(arguments[flag::folds]));
   } else {
     Starts starts = build_starts(plan, w, all, fit_options, extend);
     require_enough_data(starts.models.front(), w.dataset, all);
     if (library && plan.start.parameters.empty()) library->add_start(starts.models);
     result = fit_best(starts.models, w, all, final_options, starts.known);
-    if (arguments.given("--boundary") && result.converged)
+    if (arguments.given(flag::boundary) && result.converged)
       result = with_refined_boundaries(arguments, result, w, body, fit_options);
   }
   if (result.stopped) return write_unfinished(arguments, plan, w, std::move(result), search);
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
                   "start from a simpler model, or fix a parameter");
-  if (const long count = arguments.integer("--folds");
+  if (const long count = arguments[flag::folds];
       count > 1 && !plan.automatic && !watch.interrupted()) {
     folds = make_folds(w.dataset, static_cast<int>(count));
     unseen = held_out_error(plan, result.model, w, folds, fit_options, extend);
@@ -184,19 +185,19 @@ int run(const Arguments& arguments) {
   rest.tell(result, w);
   Output output(arguments.output());
   write_model(output.stream(), model);
-  if (arguments.given("--locations") && cut_short.empty()) {
-    Output locations(arguments.text("--locations"));
+  if (arguments.given(flag::locations) && cut_short.empty()) {
+    Output locations(arguments[flag::locations]);
     write_locations(locations.stream(), fit_locations(model, w, fit_options));
     locations.commit();
   }
-  if (arguments.given("--image") && cut_short.empty())
+  if (arguments.given(flag::image) && cut_short.empty())
     write_asked_image(arguments, result, w, body);
   if (library)
     library->store(model, [&] { output.commit(); });
   else
     output.commit();
-  if (arguments.given("--history"))
-    add_history(arguments.text("--history"),
+  if (arguments.given(flag::history))
+    add_history(arguments[flag::history],
                 history_row(arguments.output(), result, held_out, w.noise.value, force_rms));
   if (!cut_short.empty())
     fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,

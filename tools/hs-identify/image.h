@@ -4,14 +4,14 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "experiment/experiment.h"
+#include "hs-identify/flags.h"
 #include "imaging/image_file.h"
 #include "imaging/stiffness_image.h"
 
 namespace hapsim {
 
 inline Option image_flag() {
-  return {.flag = "--image",
-          .kind = OptionKind::kFile,
+  return {.flag = flag::image,
           .value = "FILE",
           .help =
               "Stiffness imaging: writes the modulus of each tetrahedron that all presses "
@@ -31,13 +31,13 @@ inline void write_asked_image(const Arguments& arguments, const Fit& fitted,
     fail_input("", "--image starts from a body of one modulus",
                "remove regions, layers, inclusions and anisotropy from the model (--remove)");
   ImageOptions options;
-  options.threads = static_cast<int>(arguments.integer("--threads"));
+  options.threads = static_cast<int>(arguments[flag::threads]);
   Progress progress(arguments, "sensitivities", experiment.dataset.positions.size());
   options.progress = [&progress] { progress.step(); };
   const StiffnessImage image = stiffness_image(model, experiment, fitted.about, body, options);
-  Output output(arguments.text("--image"));
+  Output output(arguments[flag::image]);
   write_image(output.stream(), body, image_moduli(image, body, material.modulus[0]),
-              image_format(arguments.text("--image")));
+              image_format(arguments[flag::image]));
   output.commit();
   for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
 }

@@ -13,6 +13,7 @@
 #include "experiment/plausible.h"
 #include "fit/extend.h"
 #include "formats/tetmesh_io.h"
+#include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
 #include "recording/recording_join.h"
 
@@ -25,15 +26,13 @@ struct GivenRecordings {
 };
 
 inline std::vector<Option> recording_flags() {
-  return {{.flag = "--data",
-           .kind = OptionKind::kFile,
+  return {{.flag = flag::data,
            .value = "FILE",
            .help = "One more recording, fitted together with the first; may be given several "
                    "times. Another tool_radius is another tool on the same material.",
            .group = "Input",
            .repeatable = true},
-          {.flag = "--body",
-           .kind = OptionKind::kFile,
+          {.flag = flag::body,
            .value = "FILE",
            .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
                    names_to_read(Content::kTetrahedra) +
@@ -48,9 +47,9 @@ inline std::vector<Option> recording_flags() {
 // Error(kUsage) when there is neither one body nor one for each recording; Error(kBadInput) for a
 // recording whose presses cannot be what they claim (require_presses()).
 inline GivenRecordings load_recordings(const Arguments& arguments) {
-  std::vector<std::string> paths = arguments.list("--data");
+  std::vector<std::string> paths = arguments.list(flag::data);
   paths.insert(paths.begin(), arguments.input());
-  const std::vector<std::string> bodies = arguments.list("--body");
+  const std::vector<std::string> bodies = arguments.list(flag::body);
   if (bodies.size() != 1 && bodies.size() != paths.size())
     fail_usage(
         fmt::format("{} for {}", counted(bodies.size(), "body", "bodies"),
@@ -92,14 +91,13 @@ inline GivenRecordings load_recordings(const Arguments& arguments) {
 inline void require_fit_for(const Arguments& arguments, const FitRequest& plan,
                             const Dataset& dataset) {
   if (plan.automatic) require_one_setup(dataset, "--effects auto");
-  for (const char* flag : {"--boundary", "--image", "--library"})
-    if (arguments.given(flag)) require_one_setup(dataset, flag);
-  for (const char* flag : {"--boundary", "--image"})
+  for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image, flag::library})
+    if (arguments.given(flag)) require_one_setup(dataset, flag.name);
+  for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image})
     if (arguments.given(flag) && dataset.positions.size() < 4)
-      fail_input(dataset.recording.name,
-                 std::string(flag) + " needs presses at four places or more",
+      fail_input(dataset.recording.name, flag + " needs presses at four places or more",
                  "press at more places");
-  if (arguments.given("--locations") && dataset.bodies() > 1)
+  if (arguments.given(flag::locations) && dataset.bodies() > 1)
     fail_usage("--locations is for one body, and there are several", "fit each body by itself");
   std::vector<std::string> effects = plan.start.effects();
   effects.insert(effects.end(), plan.add.begin(), plan.add.end());

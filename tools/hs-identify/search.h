@@ -9,14 +9,14 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "fit/fit.h"
+#include "hs-identify/flags.h"
 #include "io/interrupt.h"
 #include "model/search_state.h"
 
 namespace hapsim {
 
 inline std::vector<Option> search_flags() {
-  return {{.flag = "--starts",
-           .kind = OptionKind::kInteger,
+  return {{.flag = flag::starts,
            .value = "N",
            .help = "Starts of the fit: the usual ones and N - 1 spread evenly over the bounds; the "
                    "least error wins.",
@@ -24,12 +24,10 @@ inline std::vector<Option> search_flags() {
            .default_text = "1",
            .minimum = 1,
            .maximum = 100000},
-          {.flag = "--resume",
-           .kind = OptionKind::kSwitch,
+          {.flag = flag::resume,
            .help = "Goes on with the search of --starts in which --model was interrupted.",
            .group = "Fit"},
-          {.flag = "--seed",
-           .kind = OptionKind::kInteger,
+          {.flag = flag::seed,
            .value = "N",
            .help = "Seed of --starts.",
            .group = "Fit",
@@ -38,16 +36,17 @@ inline std::vector<Option> search_flags() {
 }
 
 inline SearchState search_asked(const Arguments& arguments, const Model& start) {
-  if (!arguments.given("--resume"))
-    return {0, static_cast<int>(arguments.integer("--starts")),
-            static_cast<std::uint64_t>(arguments.integer("--seed"))};
-  if (!arguments.given("--model"))
+  if (!arguments[flag::resume])
+    return {0, static_cast<int>(arguments[flag::starts]),
+            static_cast<std::uint64_t>(arguments[flag::seed])};
+  if (!arguments.given(flag::model))
     fail_usage("--resume needs the model that an interrupted run wrote", "add --model FILE");
-  for (const char* flag : {"--starts", "--seed", "--add", "--remove", "--diagnosis"})
+  for (const AnyFlag& flag :
+       AnyFlags{flag::starts, flag::seed, flag::add, flag::remove, flag::diagnosis})
     if (arguments.given(flag))
-      fail_usage(std::string("--resume and ") + flag + " exclude each other",
+      fail_usage("--resume and " + flag + " exclude each other",
                  "the search goes on as it was begun");
-  const std::string& file = arguments.text("--model");
+  const std::string& file = arguments[flag::model];
   const auto state = unfinished_search(start, file);
   if (!state) fail_usage(file + " is no model of an interrupted search", "leave --resume out");
   return *state;

@@ -4,6 +4,7 @@
 #include "common_options.h"
 #include "effects/catalogue.h"
 #include "hs-identify/boundary.h"
+#include "hs-identify/flags.h"
 #include "hs-identify/follow.h"
 #include "hs-identify/image.h"
 #include "hs-identify/library.h"
@@ -57,9 +58,9 @@ inline ToolSpec identify_specification() {
           ") is refused where there are several.",
       "Effects: " + effect_names() + "."};
   spec.options = experiment_flags();
-  std::erase_if(spec.options, [](const Option& o) { return o.flag == "--body"; });
+  std::erase_if(spec.options, [](const Option& o) { return o.name() == flag::body.name; });
   const std::vector<Option> own{
-      {.flag = "--effects",
+      {.flag = flag::effects,
        .value = "LIST",
        .help =
            "Effects of a new model, separated by commas. auto: elastic, or --model, is diagnosed "
@@ -67,51 +68,48 @@ inline ToolSpec identify_specification() {
        .group = "Model",
        .default_text = body_effect().card().name,
        .repeatable = true},
-      {.flag = "--model",
-       .kind = OptionKind::kFile,
+      {.flag = flag::model,
        .value = "FILE",
        .help = "Model to start from, instead of --effects.",
        .group = "Model"},
-      {.flag = "--add",
+      {.flag = flag::add,
        .value = "LIST",
        .help = "Effects to add; viscoelastic already there gets one more term.",
        .group = "Model",
        .repeatable = true},
-      {.flag = "--diagnosis",
-       .kind = OptionKind::kFile,
+      {.flag = flag::diagnosis,
        .value = "FILE",
        .help = "Diagnosis from hs-diagnose: adds the effects that it calls missing, in its order.",
        .group = "Model"},
-      {.flag = "--remove",
+      {.flag = flag::remove,
        .value = "LIST",
        .help = "Effects to remove.",
        .group = "Model",
        .repeatable = true},
-      {.flag = "--fix",
+      {.flag = flag::fix,
        .value = "LIST",
        .help = "Parameters to hold, with a value or without: nu=0.45, elastic.E, viscoelastic.",
        .group = "Model",
        .repeatable = true},
-      {.flag = "--free",
+      {.flag = flag::free,
        .value = "LIST",
        .help = "Parameters to free again.",
        .group = "Model",
        .repeatable = true},
-      {.flag = "--terms",
+      {.flag = flag::terms,
        .value = "N",
        .help = "Maxwell terms of viscoelastic when it is added, 1 to 5; or auto: one more as long "
                "as both the information criterion and the error on data that the fit has not seen "
                "fall; auto:3 offers at most three.",
        .group = "Model",
        .default_text = "1"},
-      {.flag = "--windows",
-       .kind = OptionKind::kTimes,
+      {.flag = flag::windows,
        .value = "LIST",
        .help = "Windows of the relaxation times [s], disjoint, from short to long, one a term: "
                "0.05:1,2:30.",
        .group = "Model",
        .repeatable = true},
-      {.flag = "--regions",
+      {.flag = flag::regions,
        .value = "N",
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
                "moduli ask for) or sites (each position its own stiffness).",
@@ -119,8 +117,7 @@ inline ToolSpec identify_specification() {
        .default_text = "auto"},
       until_flag(),
       boundary_flag(),
-      {.flag = "--acfm",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::acfm,
        .value = "N",
        .help = "An analytical contact force model instead of one of effects: at every position and "
                "in every direction a spring and N Maxwell elements; --windows bounds their "
@@ -128,26 +125,22 @@ inline ToolSpec identify_specification() {
        .group = "Model",
        .minimum = 0,
        .maximum = 8},
-      {.flag = "--stiffening",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::stiffening,
        .help = "With --acfm: the springs stiffen with the displacement, exponentially.",
        .group = "Model"},
-      {.flag = "--folds",
-       .kind = OptionKind::kInteger,
+      {.flag = flag::folds,
        .value = "N",
        .help = "Parts in which positions are held out; 0: no held-out error.",
        .group = "Fit",
        .default_text = "6",
        .minimum = 0,
        .maximum = 1000},
-      {.flag = "--history",
-       .kind = OptionKind::kFile,
+      {.flag = flag::history,
        .value = "FILE",
        .help = "CSV of model versions and their errors to which this one is added.",
        .group = "Output",
        .writes = kTableExtensions},
-      {.flag = "--locations",
-       .kind = OptionKind::kFile,
+      {.flag = flag::locations,
        .value = "FILE",
        .help =
            "Writes location samples (CSV): E, and nu where the presses tell it, of each contact "
@@ -155,16 +148,14 @@ inline ToolSpec identify_specification() {
        .group = "Output",
        .writes = kTableExtensions},
       image_flag(),
-      {.flag = "--robust",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::robust,
        .value = "LOSS",
        .help = "Discounts readings that lie far off: huber little by little, tukey in the end "
                "altogether.",
        .group = "Fit",
        .default_text = "none",
        .choices = {"none", "huber", "tukey"}},
-      {.flag = "--profile",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::profile,
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
            "need not be symmetric.",

@@ -7,13 +7,13 @@
 #include "experiment/experiment.h"
 #include "fit/fit_words.h"
 #include "fit/rest_of_press.h"
+#include "hs-identify/flags.h"
 #include "hs-identify/recordings.h"
 
 namespace hapsim {
 
 inline Option until_flag() {
-  return {.flag = "--until",
-          .kind = OptionKind::kTime,
+  return {.flag = flag::until,
           .value = "S",
           .help =
               "Fits to the first S seconds of each press alone (counted from its first row) "
@@ -27,8 +27,8 @@ inline Option until_flag() {
 class RestOfPress {
  public:
   RestOfPress(const Arguments& arguments, GivenRecordings& given) : arguments_(arguments) {
-    if (!arguments.given("--until")) return;
-    seconds_ = arguments.number("--until");
+    if (!arguments.given(flag::until)) return;
+    seconds_ = arguments[flag::until];
     Recording beginning =
         beginning_of_presses(given.dataset.recording, seconds_, given.setup_of_row);
     whole_ = std::move(given.dataset);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "common_options.h"
+#include "hs-link/flags.h"
 #include "hs-link/specification.h"
 #include "io/csv.h"
 #include "io/interrupt.h"
@@ -23,8 +24,7 @@ namespace hapsim {
 namespace {
 
 Impairment impairment(const Arguments& a) {
-  return {a.number("--delay"), a.number("--jitter"), a.number("--loss"), a.number("--duplicate"),
-          a.number("--reorder")};
+  return {a[flag::delay], a[flag::jitter], a[flag::loss], a[flag::duplicate], a[flag::reorder]};
 }
 
 // Of this process: another after a restart.
@@ -34,24 +34,24 @@ std::uint64_t draw_sender() {
 }
 
 int run_teleoperator(const Arguments& arguments) {
-  for (const char* flag : {"--model", "--tool-radius"})
+  for (const AnyFlag& flag : AnyFlags{flag::model, flag::tool_radius})
     if (!arguments.given(flag))
-      fail_usage(std::string("a teleoperator needs ") + flag, "give it: it has a body to press");
-  Input model_input(arguments.text("--model"));
+      fail_usage("a teleoperator needs " + flag, "give it: it has a body to press");
+  Input model_input(arguments[flag::model]);
   const Model model = read_model(model_input);
   PreparedBodyOptions options;
-  options.tool_radius = arguments.number("--tool-radius");
+  options.tool_radius = arguments[flag::tool_radius];
   const PreparedBody body(load_body(arguments), model, options);
   ForceLoop loop(body);
-  UdpSocket socket(parse_address(arguments.text("--listen")));
+  UdpSocket socket(parse_address(arguments[flag::listen]));
   say(arguments, "hs-link", "listening at " + to_text(socket.address()));
   Teleoperator far(loop, draw_sender());
   ImpairedChannel channel(impairment(arguments),
-                          static_cast<std::uint64_t>(arguments.integer("--seed")) + 1000);
+                          static_cast<std::uint64_t>(arguments[flag::seed]) + 1000);
   const Interrupt interrupt;
-  Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
-  const double noise = arguments.number("--add-noise");
-  const double idle = arguments.number("--idle");
+  Random random(static_cast<std::uint64_t>(arguments[flag::seed]));
+  const double noise = arguments[flag::add_noise];
+  const double idle = arguments[flag::idle];
   std::array<unsigned char, 2048> buffer{};
   UdpAddress from, peer;
   Packet answer;
@@ -80,21 +80,20 @@ int run_operator(const Arguments& arguments) {
   motion.require_contact_points("press,t,x,y,z,ux,uy,uz");
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, motion.metadata(), input.name());
-  const std::vector<double> times = parse_relaxation_times(arguments.list("--times"), "--times");
-  const double nu = arguments.number("--nu"), rate = arguments.number("--rate");
+  const std::vector<double> times = parse_relaxation_times(arguments.list(flag::times), flag::times.name);
+  const double nu = arguments[flag::nu], rate = arguments[flag::rate];
   const PreparedBody body(load_body(arguments), unit_model(nu), options);
   UnitResponse response(body, times);
   OperatorOptions operator_options;
   operator_options.rate = rate;
-  operator_options.samples = arguments.integer("--samples") > 0 ? arguments.integer("--samples")
-                                                                : std::numeric_limits<long>::max();
+  operator_options.samples =
+      arguments[flag::samples] > 0 ? arguments[flag::samples] : std::numeric_limits<long>::max();
   std::vector<MotionLine> lines;  // read beforehand: a file must not hold up the clock
   for (MotionLine line; motion.next(line);) lines.push_back(line);
   Operator near(response, draw_sender(), operator_options, lines.size());
-  const UdpAddress peer = parse_address(arguments.text("--peer"));
+  const UdpAddress peer = parse_address(arguments[flag::peer]);
   UdpSocket socket({peer.host == 0x7F000001 ? peer.host : 0, 0});
-  ImpairedChannel channel(impairment(arguments),
-                          static_cast<std::uint64_t>(arguments.integer("--seed")));
+  ImpairedChannel channel(impairment(arguments), static_cast<std::uint64_t>(arguments[flag::seed]));
   Metadata metadata = motion.metadata();
   metadata.set("felt", "forces over a network");
   Output output(arguments.output());
@@ -138,8 +137,7 @@ int run_operator(const Arguments& arguments) {
     if (took > pacer.period()) ++misses;
   }
   // What is still on its way.
-  const std::int64_t end =
-      monotonic_ns() + std::llround(1e9 * (2 * arguments.number("--delay") + 0.5));
+  const std::int64_t end = monotonic_ns() + std::llround(1e9 * (2 * arguments[flag::delay] + 0.5));
   while (monotonic_ns() < end) {
     socket.wait(std::min(channel.next_due(), monotonic_ns() + 10'000'000));
     exchange(monotonic_ns());
@@ -178,8 +176,8 @@ int run_operator(const Arguments& arguments) {
   line(fmt::format("identified after {:.2f} s in at most {:.3g} ms: {}",
                    static_cast<double>(at) / rate, 1e3 * near.longest_identification(),
                    moduli_words(found, times, 3)));
-  if (arguments.given("--identified")) {
-    Output identified(arguments.text("--identified"));
+  if (arguments.given(flag::identified)) {
+    Output identified(arguments[flag::identified]);
     write_model(identified.stream(), identified_model(found, times, nu));
     identified.commit();
   }
@@ -187,9 +185,9 @@ int run_operator(const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--listen") == arguments.given("--peer"))
+  if (arguments.given(flag::listen) == arguments.given(flag::peer))
     fail_usage("it is either a teleoperator or an operator", "give --listen or --peer");
-  return arguments.given("--listen") ? run_teleoperator(arguments) : run_operator(arguments);
+  return arguments.given(flag::listen) ? run_teleoperator(arguments) : run_operator(arguments);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "cli/tool.h"
 #include "formats/format_table.h"
+#include "hs-scan2ply/flags.h"
 #include "hs-scan2ply/specification.h"
 #include "io/extension.h"
 #include "io/number.h"
@@ -22,7 +23,7 @@ namespace hapsim {
 namespace {
 
 // Numbers between commas, as many as one of `counts`.
-std::vector<double> numbers(const Arguments& arguments, const std::string& flag,
+std::vector<double> numbers(const Arguments& arguments, const AnyFlag& flag,
                             const std::vector<std::size_t>& counts) {
   const std::string text = arguments.text(flag);
   std::vector<double> values;
@@ -36,13 +37,13 @@ std::vector<double> numbers(const Arguments& arguments, const std::string& flag,
     from = to + 1;
   }
   if (std::find(counts.begin(), counts.end(), values.size()) == counts.end()) {
-    fail_usage(fmt::format("{} {} holds {} numbers", flag, text, values.size()),
+    fail_usage(fmt::format("{} {} holds {} numbers", flag.name, text, values.size()),
                fmt::format("it takes {}", fmt::join(counts, " or ")));
   }
   return values;
 }
 
-Pose pose(const Arguments& arguments, const std::string& flag) {
+Pose pose(const Arguments& arguments, const AnyFlag& flag) {
   std::vector<double> v = numbers(arguments, flag, {3, 6});
   v.resize(6, 0.0);
   return make_pose({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
@@ -50,17 +51,17 @@ Pose pose(const Arguments& arguments, const std::string& flag) {
 
 Beam beam_of(const Arguments& arguments) {
   Beam beam;
-  beam.mount = pose(arguments, "--mount");
-  beam.object = pose(arguments, "--object");
-  const std::vector<double> d = numbers(arguments, "--beam", {3});
+  beam.mount = pose(arguments, flag::mount);
+  beam.object = pose(arguments, flag::object);
+  const std::vector<double> d = numbers(arguments, flag::beam, {3});
   beam.direction = Vec3(d[0], d[1], d[2]);
   if (beam.direction.norm() < 1e-9) fail_usage("--beam has no length", "write --beam 0,0,1");
   beam.direction.normalize();
-  if (arguments.given("--bar")) beam.bar = arguments.number("--bar");
-  beam.angle_factor = unit_factor(Quantity::kAngle, arguments.text("--angle-unit"));
-  beam.length_factor = unit_factor(Quantity::kLength, arguments.text("--unit"));
-  if (arguments.given("--range")) {
-    const std::vector<double> r = numbers(arguments, "--range", {2});
+  if (arguments.given(flag::bar)) beam.bar = arguments[flag::bar];
+  beam.angle_factor = unit_factor(Quantity::kAngle, arguments[flag::angle_unit]);
+  beam.length_factor = unit_factor(Quantity::kLength, arguments[flag::unit]);
+  if (arguments.given(flag::range)) {
+    const std::vector<double> r = numbers(arguments, flag::range, {2});
     if (!(r[0] <= r[1])) fail_usage("--range ends before it begins", "write --range MIN,MAX");
     beam.range = {{r[0], r[1]}};
   }
@@ -68,17 +69,17 @@ Beam beam_of(const Arguments& arguments) {
 }
 
 Robot load_robot(const Arguments& arguments) {
-  Input input(arguments.text("--robot"));
-  return Robot(input.read_all(), input.name(), arguments.text("--root"), arguments.text("--tip"));
+  Input input(arguments[flag::robot]);
+  return Robot(input.read_all(), input.name(), arguments[flag::root], arguments[flag::tip]);
 }
 
 int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
   if (file.robot == nullptr) fail_usage("--plan needs a robot", "add --robot FILE.urdf");
-  const std::string what = arguments.text("--plan");
-  const double pitch = arguments.number("--pitch");
+  const std::string what = arguments[flag::plan];
+  const double pitch = arguments[flag::pitch];
   std::optional<Region> region;
-  if (arguments.given("--region")) {
-    const std::vector<double> r = numbers(arguments, "--region", {4});
+  if (arguments.given(flag::region)) {
+    const std::vector<double> r = numbers(arguments, flag::region, {4});
     if (!(r[0] <= r[2] && r[1] <= r[3])) {
       fail_usage("--region ends before it begins", "write --region X0,Y0,X1,Y1");
     }
@@ -90,23 +91,23 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
     if ((region->at(2) - region->at(0)) * (region->at(3) - region->at(1)) > 1e6 * pitch * pitch) {
       fail_usage("the grid would have more than a million places", "give a larger --pitch");
     }
-    targets = raster_on_grid(*region, pitch, arguments.number("--height"));
+    targets = raster_on_grid(*region, pitch, arguments[flag::height]);
   } else {
     Input input(arguments.input());
     const PointCloud known = what == "surface" ? read_known_surface(input, file.unit, pitch / 3)
                                                : read_positions(input, file.unit);
-    check_extent(known.points, arguments.text("--unit"), input.name());
+    check_extent(known.points, arguments[flag::unit], input.name());
     if (what == "surface") {
-      targets =
-          raster_on_surface(known, pitch, region, arguments.number("--steepest") * M_PI / 180);
+      targets = raster_on_surface(known, pitch, region, arguments[flag::steepest] * M_PI / 180);
     } else {
       for (std::size_t i = 0; i < known.points.size(); ++i) {
         targets.push_back({known.points[i], known.normals[i]});
       }
     }
   }
-  const double standoff = arguments.given("--standoff") ? arguments.number("--standoff")
-                                                        : (file.beam.bar > 0 ? file.beam.bar : 0.1);
+  const double standoff = arguments.given(flag::standoff)
+                              ? arguments[flag::standoff]
+                              : (file.beam.bar > 0 ? file.beam.bar : 0.1);
   const ScanPlan plan = plan_scan(*file.robot, file.beam, standoff, targets);
   for (const int t : plan.unreachable) {
     const Vec3& p = targets[static_cast<std::size_t>(t)].point;
@@ -125,7 +126,7 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
   say(arguments, kTool,
       fmt::format("{} poses, {} of {} places out of reach; collisions were not checked",
                   plan.poses.size(), plan.unreachable.size(), targets.size()));
-  return arguments.given("--check") && !plan.unreachable.empty() ? 1 : 0;
+  return arguments[flag::check] && !plan.unreachable.empty() ? 1 : 0;
 }
 
 // A volume's surface as a scan.
@@ -141,16 +142,16 @@ Scan volume_scan(const Arguments& arguments, ScanRecord& record) {
     name = input.name();
     volume = read_volume(input.read_all(), name);
   }
-  if (!arguments.given("--threshold")) fail_no_threshold(volume, name);
-  const IsoOptions options{.threshold = arguments.number("--threshold"),
-                           .below = arguments.given("--below"),
-                           .all_parts = arguments.given("--all-parts"),
-                           .cavities = arguments.given("--cavities")};
+  if (!arguments.given(flag::threshold)) fail_no_threshold(volume, name);
+  const IsoOptions options{.threshold = arguments[flag::threshold],
+                           .below = arguments[flag::below],
+                           .all_parts = arguments[flag::all_parts],
+                           .cavities = arguments[flag::cavities]};
   return scan_of_volume(volume, options, name, record);
 }
 
 bool is_volume(const Arguments& arguments) {
-  return arguments.given("--threshold") ||
+  return arguments.given(flag::threshold) ||
          (arguments.input() != "-" && std::filesystem::is_directory(arguments.input()));
 }
 
@@ -163,30 +164,30 @@ Scan gather(const Arguments& arguments, const ScanFileOptions& file, ScanRecord&
   Input input(arguments.input());
   name = input.name();
   Scan scan = read_scan(input, file);
-  for (const std::string& path : arguments.list("--zone")) {
+  for (const std::string& path : arguments.list(flag::zone)) {
     Input more(path);
     append_zone(scan, read_scan(more, file), std::filesystem::path(path).stem().string());
   }
-  check_extent(scan.cloud.points, arguments.text("--unit"), name);
+  check_extent(scan.cloud.points, arguments[flag::unit], name);
   return scan;
 }
 
 void run_register(const Arguments& arguments, Scan& scan, ScanRecord& record,
                   const std::string& name) {
   record.registered = register_zones(scan,
-                                     {.fixed = arguments.text("--fix-zone"),
-                                      .most_drift = arguments.number("--most-drift"),
-                                      .most_error = arguments.number("--most-shift-error")},
+                                     {.fixed = arguments[flag::fix_zone],
+                                      .most_drift = arguments[flag::most_drift],
+                                      .most_error = arguments[flag::most_shift_error]},
                                      name);
   for (const std::string& line : zone_lines(*record.registered)) say(arguments, kTool, line);
 }
 
 std::optional<TouchModel> touch_model(const Arguments& arguments) {
   TouchModel model;
-  const bool stiffness = arguments.given("--touch-stiffness");
-  const bool modulus = arguments.given("--touch-modulus");
+  const bool stiffness = arguments.given(flag::touch_stiffness);
+  const bool modulus = arguments.given(flag::touch_modulus);
   if (!stiffness && !modulus) {
-    if (arguments.given("--touch-force")) {
+    if (arguments.given(flag::touch_force)) {
       fail_usage("--touch-force alone says no indentation",
                  "add --touch-stiffness, or --touch-modulus and --tip-radius");
     }
@@ -196,15 +197,15 @@ std::optional<TouchModel> touch_model(const Arguments& arguments) {
     fail_usage("--touch-stiffness and --touch-modulus contradict each other", "give one of them");
   }
   if (stiffness) {
-    model.stiffness = arguments.number("--touch-stiffness");
+    model.stiffness = arguments[flag::touch_stiffness];
     return model;
   }
-  if (!arguments.given("--tip-radius"))
+  if (!arguments.given(flag::tip_radius))
     fail_usage("--touch-modulus needs the tip", "add --tip-radius");
-  model.E = arguments.number("--touch-modulus");
-  model.nu = arguments.number("--touch-nu");
-  model.tip_radius = arguments.number("--tip-radius");
-  model.flat = arguments.given("--flat-tip");
+  model.E = arguments[flag::touch_modulus];
+  model.nu = arguments[flag::touch_nu];
+  model.tip_radius = arguments[flag::tip_radius];
+  model.flat = arguments[flag::flat_tip];
   return model;
 }
 
@@ -214,10 +215,10 @@ void correct_touch(const Arguments& arguments, const TouchModel& model, const Sc
                    const std::string& name) {
   Scan touched = pick(scan, index);
   if (touched.touch_force.empty()) {
-    if (!arguments.given("--touch-force")) {
+    if (!arguments.given(flag::touch_force)) {
       fail_input(name, "the scan has no column touch_force", "add it, or give --touch-force");
     }
-    touched.touch_force.assign(index.size(), arguments.number("--touch-force"));
+    touched.touch_force.assign(index.size(), arguments[flag::touch_force]);
   }
   touched.cloud = clean;
   record.touch = undo_touch(touched, model, 0.05, name);
@@ -227,44 +228,44 @@ void correct_touch(const Arguments& arguments, const TouchModel& model, const Sc
 
 int run(const Arguments& arguments) {
   const std::string end = extension_of(arguments.output());
-  if (arguments.given("--plan") && !end.empty() && end != "csv" && end != "txt")
+  if (arguments.given(flag::plan) && !end.empty() && end != "csv" && end != "txt")
     fail_usage("--output ends in ." + end + ", and a plan is a table", "end it in .csv");
   ScanFileOptions file;
-  const std::string unit = arguments.text("--unit");
+  const std::string unit = arguments[flag::unit];
   file.unit = unit_factor(Quantity::kLength, unit);
-  file.sections = arguments.given("--sections");
-  if (arguments.given("--section-distance")) {
-    file.section_distance = arguments.number("--section-distance");
+  file.sections = arguments[flag::sections];
+  if (arguments.given(flag::section_distance)) {
+    file.section_distance = arguments[flag::section_distance];
   }
   file.beam = beam_of(arguments);
   std::optional<Robot> robot;
-  if (arguments.given("--robot")) file.robot = &robot.emplace(load_robot(arguments));
-  if (arguments.given("--plan")) return run_plan(arguments, file);
+  if (arguments.given(flag::robot)) file.robot = &robot.emplace(load_robot(arguments));
+  if (arguments.given(flag::plan)) return run_plan(arguments, file);
   const std::optional<TouchModel> touch = touch_model(arguments);
 
   ScanRecord record;
   std::string name;
   Scan scan = gather(arguments, file, record, name);
   for (const std::string& note : scan.notes) say(arguments, kTool, note);
-  if (arguments.given("--register")) run_register(arguments, scan, record, name);
+  if (arguments[flag::register_]) run_register(arguments, scan, record, name);
 
   CleanOptions options;
-  options.remove_outliers = !arguments.given("--keep-outliers");
-  if (arguments.given("--spacing")) options.spacing = arguments.number("--spacing");
+  options.remove_outliers = !arguments[flag::keep_outliers];
+  if (arguments.given(flag::spacing)) options.spacing = arguments[flag::spacing];
   PointCloud clean = clean_points(scan.cloud, options, name, record.cleaned);
   record.normals = complete_normals(clean, scan, record.cleaned.index);
   if (touch) correct_touch(arguments, *touch, scan, record.cleaned.index, clean, record, name);
 
   record.spacing = point_spacing(clean.points);
-  if (arguments.given("--json")) {
-    Output report(arguments.text("--json"));
+  if (arguments.given(flag::json)) {
+    Output report(arguments[flag::json]);
     report.write(scan_json(record));
     report.commit();
   }
   Output output(arguments.output());
   format_to_write(arguments.output(), Content::kPoints)
       .write_points(output.stream(), clean,
-                    {.ascii = arguments.given("--ascii"),
+                    {.ascii = arguments[flag::ascii],
                      .comments = {"hs-scan2ply: points in m, read in " + unit}});
   output.commit();
   say(arguments, kTool, points_words(record, record.volume ? "the volume's frame" : unit));

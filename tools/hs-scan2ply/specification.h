@@ -5,29 +5,25 @@
 
 #include "cli/tool.h"
 #include "formats/format_table.h"
+#include "hs-scan2ply/flags.h"
 
 namespace hapsim {
 
 inline constexpr const char* kTool = "hs-scan2ply";
 
-inline Option number_option(const char* flag, const char* value, const char* help, double minimum,
-                            double maximum, const char* default_text = "") {
+inline Option number_option(const AnyFlag& flag, const char* value, const char* help,
+                            double minimum, double maximum, const char* default_text = "") {
   return {.flag = flag,
-          .kind = OptionKind::kNumber,
           .value = value,
           .help = help,
           .default_text = default_text,
           .minimum = minimum,
           .maximum = maximum};
 }
-inline Option of_kind(OptionKind kind, Option option) {
-  option.kind = kind;
-  return option;
+inline Option switch_option(const AnyFlag& flag, const char* help) {
+  return {.flag = flag, .help = help};
 }
-inline Option switch_option(const char* flag, const char* help) {
-  return {.flag = flag, .kind = OptionKind::kSwitch, .help = help};
-}
-inline Option text_option(const char* flag, const char* value, const char* help,
+inline Option text_option(const AnyFlag& flag, const char* value, const char* help,
                           const char* default_text = "") {
   return {.flag = flag, .value = value, .help = help, .default_text = default_text};
 }
@@ -41,112 +37,85 @@ inline std::vector<Option> scan2ply_options() {
     }
   };
   add("Points",
-      {{.flag = "--unit",
-        .kind = OptionKind::kChoice,
+      {{.flag = flag::unit,
         .value = "UNIT",
         .help = "Unit of coordinates, distances and sliding joints (not of volumes).",
         .default_text = "m",
         .choices = {"m", "mm", "cm", "um", "in"}},
-       of_kind(
-           OptionKind::kLength,
-           number_option("--spacing", "M",
-                         "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1)),
-       switch_option("--keep-outliers", "Removes only points that are given twice."),
-       switch_option("--ascii", "Writes text instead of a binary PLY."),
-       {.flag = "--json",
-        .kind = OptionKind::kFile,
+       number_option(flag::spacing, "M",
+                     "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1),
+       switch_option(flag::keep_outliers, "Removes only points that are given twice."),
+       switch_option(flag::ascii, "Writes text instead of a binary PLY."),
+       {.flag = flag::json,
         .value = "FILE",
         .help = "Writes the summary, with every zone's motion, as JSON.",
         .writes = {"json"}}});
   add("Zones",
-      {{.flag = "--zone",
-        .kind = OptionKind::kFile,
+      {{.flag = flag::zone,
         .value = "FILE",
         .help = "A further zone or view of the same object.",
         .repeatable = true},
-       switch_option("--register", "Moves the zones so that they agree where they overlap."),
-       text_option("--fix-zone", "NAME", "Zone that stays, else the one with most overlap."),
-       of_kind(
-           OptionKind::kLength,
-           number_option("--most-drift", "M", "Largest drift looked for [m].", 1e-5, 1, "0.01")),
-       of_kind(OptionKind::kLength, number_option("--most-shift-error", "M",
-                                                  "Standard error of a shift that is accepted [m].",
-                                                  1e-6, 1, "0.001"))});
+       switch_option(flag::register_, "Moves the zones so that they agree where they overlap."),
+       text_option(flag::fix_zone, "NAME", "Zone that stays, else the one with most overlap."),
+       number_option(flag::most_drift, "M", "Largest drift looked for [m].", 1e-5, 1, "0.01"),
+       number_option(flag::most_shift_error, "M", "Standard error of a shift that is accepted [m].",
+                     1e-6, 1, "0.001")});
   add("Touch",
-      {of_kind(
-           OptionKind::kForce,
-           number_option("--touch-force", "N",
-                         "Force of the touching probe, where no column touch_force says it [N].", 0,
-                         100)),
-       number_option("--touch-stiffness", "N/M", "Undoes the indentation by this stiffness [N/m].",
-                     1e-3, 1e9),
-       of_kind(OptionKind::kPressure,
-               number_option("--touch-modulus", "PA", "... or by Hertz with this modulus E [Pa].",
-                             1, 1e13)),
-       number_option("--touch-nu", "NU", "Poisson's ratio with --touch-modulus.", 0, 0.5, "0.5"),
-       of_kind(OptionKind::kLength,
-               number_option("--tip-radius", "M",
-                             "Radius of the probe's tip with --touch-modulus [m].", 1e-6, 1)),
-       switch_option("--flat-tip", "The tip is flat instead of a ball.")});
+      {number_option(flag::touch_force, "N",
+                     "Force of the touching probe, where no column touch_force says it [N].", 0,
+                     100),
+       number_option(flag::touch_stiffness, "N/M",
+                     "Undoes the indentation by this stiffness [N/m].", 1e-3, 1e9),
+       number_option(flag::touch_modulus, "PA", "... or by Hertz with this modulus E [Pa].", 1,
+                     1e13),
+       number_option(flag::touch_nu, "NU", "Poisson's ratio with --touch-modulus.", 0, 0.5, "0.5"),
+       number_option(flag::tip_radius, "M", "Radius of the probe's tip with --touch-modulus [m].",
+                     1e-6, 1),
+       switch_option(flag::flat_tip, "The tip is flat instead of a ball.")});
   add("Robot",
-      {{.flag = "--robot",
-        .kind = OptionKind::kFile,
+      {{.flag = flag::robot,
         .value = "URDF",
         .help = "The input holds joint angles of this robot."},
-       text_option("--root", "LINK", "Link in whose frame points are, else the robot's first."),
-       text_option("--tip", "LINK", "Link that carries the sensor, else the robot's only end."),
-       of_kind(
-           OptionKind::kPose,
-           text_option("--mount", "X,Y,Z[,R,P,Y]",
-                       "Place [m] and roll, pitch, yaw [rad] of the sensor on the tip.", "0,0,0")),
-       text_option("--beam", "X,Y,Z", "Direction of laser or bar in the sensor's frame.", "0,0,1"),
-       of_kind(OptionKind::kLength,
-               number_option("--bar", "M",
-                             "Length of a touching bar along the beam, instead of a laser [m].",
-                             1e-6, 10)),
-       of_kind(OptionKind::kPose,
-               text_option("--object", "X,Y,Z[,R,P,Y]",
-                           "Frame of the object in the robot's root, in which points are written.",
-                           "0,0,0")),
-       {.flag = "--angle-unit",
-        .kind = OptionKind::kChoice,
+       text_option(flag::root, "LINK", "Link in whose frame points are, else the robot's first."),
+       text_option(flag::tip, "LINK", "Link that carries the sensor, else the robot's only end."),
+       text_option(flag::mount, "X,Y,Z[,R,P,Y]",
+                   "Place [m] and roll, pitch, yaw [rad] of the sensor on the tip.", "0,0,0"),
+       text_option(flag::beam, "X,Y,Z", "Direction of laser or bar in the sensor's frame.",
+                   "0,0,1"),
+       number_option(flag::bar, "M",
+                     "Length of a touching bar along the beam, instead of a laser [m].", 1e-6, 10),
+       text_option(flag::object, "X,Y,Z[,R,P,Y]",
+                   "Frame of the object in the robot's root, in which points are written.",
+                   "0,0,0"),
+       {.flag = flag::angle_unit,
         .value = "UNIT",
         .help = "Unit of the joint angles read.",
         .default_text = "rad",
         .choices = {"rad", "deg"}},
-       of_kind(OptionKind::kLengths,
-               text_option(
-                   "--range", "MIN,MAX",
-                   "Distances outside [m], and cells without one, mean that nothing was seen."))});
+       text_option(flag::range, "MIN,MAX",
+                   "Distances outside [m], and cells without one, mean that nothing was seen.")});
   add("Plan",
-      {{.flag = "--plan",
-        .kind = OptionKind::kChoice,
+      {{.flag = flag::plan,
         .value = "WHAT",
         .help = "Writes joint angles instead: a raster over the input's surface, a level grid over "
                 "--region, or one pose a row of the input.",
         .choices = {"surface", "grid", "positions"}},
-       of_kind(OptionKind::kLength,
-               number_option("--pitch", "M", "Distance of raster points [m].", 1e-5, 1, "0.005")),
-       of_kind(
-           OptionKind::kLength,
-           number_option("--standoff", "M",
-                         "Distance of the sensor from the surface [m], else --bar or 0.1.", 0, 10)),
-       of_kind(OptionKind::kLengths,
-               text_option("--region", "X0,Y0,X1,Y1",
-                           "Plan view of the raster in the object's frame [m].")),
-       of_kind(OptionKind::kLength,
-               number_option("--height", "Z", "Height of the grid [m].", -10, 10, "0")),
-       number_option("--steepest", "DEG", "Leaves out places steeper than this.", 0, 180, "80"),
-       switch_option("--check", "Exit code 1 when a pose is out of reach.")});
+       number_option(flag::pitch, "M", "Distance of raster points [m].", 1e-5, 1, "0.005"),
+       number_option(flag::standoff, "M",
+                     "Distance of the sensor from the surface [m], else --bar or 0.1.", 0, 10),
+       text_option(flag::region, "X0,Y0,X1,Y1",
+                   "Plan view of the raster in the object's frame [m]."),
+       number_option(flag::height, "Z", "Height of the grid [m].", -10, 10, "0"),
+       number_option(flag::steepest, "DEG", "Leaves out places steeper than this.", 0, 180, "80"),
+       switch_option(flag::check, "Exit code 1 when a pose is out of reach.")});
   add("Volume",
-      {number_option("--threshold", "V", "Value at a volume's surface.", -1e30, 1e30),
-       switch_option("--below", "The body is where values are below the threshold."),
-       switch_option("--all-parts", "Takes every part of a volume, not the largest alone."),
-       switch_option("--cavities", "Takes surfaces of cavities too."),
-       switch_option("--sections", "Rows of equal z are contours, in their order."),
-       of_kind(OptionKind::kLength,
-               number_option("--section-distance", "M", "Distance of sections given without z [m].",
-                             1e-6, 1))});
+      {number_option(flag::threshold, "V", "Value at a volume's surface.", -1e30, 1e30),
+       switch_option(flag::below, "The body is where values are below the threshold."),
+       switch_option(flag::all_parts, "Takes every part of a volume, not the largest alone."),
+       switch_option(flag::cavities, "Takes surfaces of cavities too."),
+       switch_option(flag::sections, "Rows of equal z are contours, in their order."),
+       number_option(flag::section_distance, "M", "Distance of sections given without z [m].", 1e-6,
+                     1)});
   return all;
 }
 

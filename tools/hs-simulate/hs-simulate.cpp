@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "common_options.h"
 #include "experiment/forces.h"
+#include "hs-simulate/flags.h"
 #include "hs-simulate/live.h"
 #include "hs-simulate/specification.h"
 #include "io/csv.h"
@@ -21,7 +22,7 @@ namespace hapsim {
 namespace {
 
 SolverKind solver_kind(const Arguments& arguments) {
-  const std::string name = arguments.text("--solver");
+  const std::string name = arguments[flag::solver];
   if (name == "direct") return SolverKind::kDirect;
   return name == "iterative" ? SolverKind::kIterative : SolverKind::kBySize;
 }
@@ -30,13 +31,13 @@ SolverKind solver_kind(const Arguments& arguments) {
 void write_simulated(const Arguments& arguments, const std::string& label, Recording& out) {
   out.metadata.remove("force_noise");
   out.metadata.set("simulated", label);
-  if (arguments.given("--add-noise")) {
-    const double noise = arguments.number("--add-noise");
-    Random random(static_cast<std::uint64_t>(arguments.integer("--seed")));
+  if (arguments.given(flag::add_noise)) {
+    const double noise = arguments[flag::add_noise];
+    Random random(static_cast<std::uint64_t>(arguments[flag::seed]));
     for (Vec3& force : out.f)
       for (int k = 0; k < 3; ++k) force[k] += noise * random.normal();
     out.metadata.set("force_noise", format_number(noise));
-    out.metadata.set("seed", arguments.text("--seed"));
+    out.metadata.set("seed", arguments.text(flag::seed));
   }
   Output output(arguments.output());
   write_recording(output.stream(), out);
@@ -59,9 +60,9 @@ void write_forces(const Arguments& arguments, const Model& model, const Dataset&
 int run_full_mode(const Arguments& arguments, const Model& model) {
   const TetMesh body = load_body(arguments);
   FullOptions options;
-  options.own_mesh = arguments.given("--own-mesh");
-  options.force_control = arguments.given("--force-control");
-  if (arguments.given("--rim-edge")) options.rim_edge = arguments.number("--rim-edge");
+  options.own_mesh = arguments[flag::own_mesh];
+  options.force_control = arguments[flag::force_control];
+  if (arguments.given(flag::rim_edge)) options.rim_edge = arguments[flag::rim_edge];
   Recording out = load_recording(arguments, arguments.input(), options.force_control);
   Progress progress(arguments, "rows", out.rows());
   options.step = [&progress](std::size_t rows) { progress.step(rows); };
@@ -84,11 +85,11 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
                     "pressed; mesh it with --order 2, or add --full",
                     nu));
   std::vector<FieldRow> fields;
-  if (arguments.given("--vtu"))
-    fields = field_rows(dataset, arguments.given("--rows") ? arguments.text("--rows") : "");
+  if (arguments.given(flag::vtu))
+    fields = field_rows(dataset, arguments.given(flag::rows) ? arguments[flag::rows] : "");
   const OwnMesh body(mesh, model, dataset.positions, dataset.recording.tool_radius(),
                      solver_kind(arguments));
-  if (arguments.given("--vtu") && body.is_regional())
+  if (arguments.given(flag::vtu) && body.is_regional())
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
   dataset = with_normals(std::move(dataset), body.normals());
@@ -97,7 +98,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   write_forces(arguments, model, dataset, all,
                model_forces(model, dataset, stiffness_at, all, false).f);
   for (const FieldRow& row : fields) {
-    Output output(fmt::format("{}-{}.vtu", arguments.text("--vtu"), row.row + 1));
+    Output output(fmt::format("{}-{}.vtu", arguments[flag::vtu], row.row + 1));
     body.write_field(output.stream(), dataset.episodes[row.episode], row.sample);
     output.commit();
   }
@@ -132,10 +133,9 @@ Eigen::VectorXd contact_mesh_forces(const Arguments& arguments, const Model& mod
 }
 
 int run_acfm(const Arguments& arguments, const Acfm& model) {
-  for (const char* flag : {"--full", "--own-mesh"})
+  for (const AnyFlag& flag : AnyFlags{flag::full, flag::own_mesh})
     if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of finite elements, and this model has none",
-                 "leave it out");
+      fail_usage(flag + " is of finite elements, and this model has none", "leave it out");
   const Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
   Recording out = dataset.recording;
   out.f = acfm_forces(model, dataset);
@@ -147,22 +147,21 @@ int run_acfm(const Arguments& arguments, const Acfm& model) {
 }
 
 int run(const Arguments& arguments) {
-  if (arguments.given("--own-mesh") && arguments.given("--live"))
+  if (arguments[flag::own_mesh] && arguments[flag::live])
     fail_usage("--own-mesh is of the batch mode", "leave out --live or --own-mesh");
-  if (arguments.given("--full") && arguments.given("--live"))
+  if (arguments[flag::full] && arguments[flag::live])
     fail_usage("--live and --full exclude each other", "leave one of them out");
-  for (const char* flag : {"--vtu", "--rows", "--solver"}) {
-    if (arguments.given(flag) && !arguments.given("--own-mesh"))
-      fail_usage(std::string(flag) + " is of the body's own mesh",
-                 "add --own-mesh, or leave it out");
-    if (arguments.given(flag) && arguments.given("--full"))
-      fail_usage(std::string(flag) + " is not of the full mode", "leave it out");
+  for (const AnyFlag& flag : AnyFlags{flag::vtu, flag::rows, flag::solver}) {
+    if (arguments.given(flag) && !arguments[flag::own_mesh])
+      fail_usage(flag + " is of the body's own mesh", "add --own-mesh, or leave it out");
+    if (arguments.given(flag) && arguments[flag::full])
+      fail_usage(flag + " is not of the full mode", "leave it out");
   }
-  if (arguments.given("--force-control") && !arguments.given("--full"))
+  if (arguments[flag::force_control] && !arguments[flag::full])
     fail_usage("--force-control is of the full mode", "add --full, or leave it out");
-  if (arguments.given("--rows") && !arguments.given("--vtu"))
+  if (arguments.given(flag::rows) && !arguments.given(flag::vtu))
     fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
-  Input file(arguments.text("--model"));
+  Input file(arguments[flag::model]);
   const std::string bytes = file.read_all();
   Input model_input = Input::from_bytes(bytes, file.name());
   std::optional<Acfm> acfm;
@@ -171,18 +170,18 @@ int run(const Arguments& arguments) {
     acfm = read_acfm(model_input);
   else
     model = load_model(arguments, "hs-simulate", model_input);
-  if (!acfm && !arguments.given("--body"))
+  if (!acfm && !arguments.given(flag::body))
     fail_usage("--body is required", "give the body that the model is of");
-  if (arguments.given("--live")) {
+  if (arguments[flag::live]) {
     if (acfm) return run_live_acfm(arguments, *acfm);
     return run_live_mode(arguments, model);
   }
-  for (const char* flag : {"--rate", "--contacts", "--binary"})
+  for (const AnyFlag& flag : AnyFlags{flag::rate, flag::contacts, flag::binary})
     if (arguments.given(flag))
-      fail_usage(std::string(flag) + " is of the live mode", "add --live, or leave it out");
+      fail_usage(flag + " is of the live mode", "add --live, or leave it out");
   if (acfm) return run_acfm(arguments, *acfm);
-  if (arguments.given("--full")) return run_full_mode(arguments, model);
-  if (arguments.given("--own-mesh")) return run_own_mesh(arguments, model);
+  if (arguments[flag::full]) return run_full_mode(arguments, model);
+  if (arguments[flag::own_mesh]) return run_own_mesh(arguments, model);
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);

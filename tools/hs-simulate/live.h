@@ -9,6 +9,7 @@
 #include "acfm/acfm_loop.h"
 #include "base/error.h"
 #include "common_options.h"
+#include "hs-simulate/flags.h"
 #include "model/model_edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/live_session.h"
@@ -23,21 +24,21 @@ namespace hapsim {
 inline std::optional<Experiment> fine_contacts(const Arguments& arguments, const TetMesh& body,
                                                const Model& model,
                                                std::shared_ptr<Progress>& progress) {
-  if (!arguments.given("--contacts")) return std::nullopt;
+  if (!arguments.given(flag::contacts)) return std::nullopt;
   ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(model, options);
-  return make_experiment(body, load_recording(arguments, arguments.text("--contacts"), false),
+  return make_experiment(body, load_recording(arguments, arguments[flag::contacts], false),
                          options);
 }
 
 // Where the motion comes from.
 struct LiveInput {
   explicit LiveInput(const Arguments& arguments) : input(arguments.input()) {
-    if (arguments.given("--add-noise"))
+    if (arguments.given(flag::add_noise))
       fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
-    binary = arguments.given("--binary");
+    binary = arguments.given(flag::binary);
     if (binary) {
-      source = std::make_unique<MotionRecords>(input, arguments.text("--binary") == "tip"
+      source = std::make_unique<MotionRecords>(input, arguments[flag::binary] == "tip"
                                                           ? MotionRecords::Kind::kTip
                                                           : MotionRecords::Kind::kPress);
       return;
@@ -63,7 +64,7 @@ struct LiveInput {
 inline int answer(const Arguments& arguments, LiveInput& in, const std::string& label,
                   ToolLoop& loop) {
   LiveOptions live;
-  if (arguments.has("--rate")) live.rate = arguments.number("--rate");
+  if (arguments.has(flag::rate)) live.rate = arguments[flag::rate];
   live.remembers = in.remembers();
   if (live.rate > 0) {
     widen_pipes();
@@ -118,11 +119,11 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
 }
 
 inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
-  if (arguments.given("--contacts"))
+  if (arguments.given(flag::contacts))
     fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
   LiveInput in(arguments);
   std::optional<SignedDistance> surface;
-  if (arguments.given("--body")) {
+  if (arguments.given(flag::body)) {
     const TetMesh mesh = load_body(arguments);
     surface.emplace(boundary_surface(mesh), "body");
     in.source->within(mesh.nodes);

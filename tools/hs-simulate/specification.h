@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common_options.h"
+#include "hs-simulate/flags.h"
 
 namespace hapsim {
 
@@ -55,82 +56,69 @@ inline ToolSpec simulate_specification() {
       "tool_id: rows of one press and time, one a tool, are one step."};
   spec.options = experiment_flags();
   for (Option& option : spec.options)
-    if (option.flag == "--body") {
+    if (option.name() == flag::body.name) {
       option.required = false;
       option.help += " An analytical model needs it only where contacts are to be found.";
     }
-  spec.options.push_back({.flag = "--model",
-                          .kind = OptionKind::kFile,
+  spec.options.push_back({.flag = flag::model,
                           .value = "FILE",
                           .help = "Model from hs-identify, also one of its --acfm.",
                           .group = "Input",
                           .required = true});
-  spec.options.push_back({.flag = "--add-noise",
-                          .kind = OptionKind::kForce,
+  spec.options.push_back({.flag = flag::add_noise,
                           .value = "N",
                           .help = "Adds Gaussian noise of this standard deviation [N] to every "
                                   "force component and declares it as force_noise.",
                           .group = "Output",
                           .minimum = 0});
-  spec.options.push_back({.flag = "--seed",
-                          .kind = OptionKind::kInteger,
+  spec.options.push_back({.flag = flag::seed,
                           .value = "N",
                           .help = "Seed of the added noise.",
                           .group = "Output",
                           .default_text = "1",
                           .minimum = 0});
-  spec.options.push_back({.flag = "--own-mesh",
-                          .kind = OptionKind::kSwitch,
+  spec.options.push_back({.flag = flag::own_mesh,
                           .help = "Presses the body's own mesh instead of meshes of its contacts.",
                           .group = "Solution"});
-  spec.options.push_back({.flag = "--full",
-                          .kind = OptionKind::kSwitch,
+  spec.options.push_back({.flag = flag::full,
                           .help = "Finite elements at every step; a step that does not converge "
                                   "ends it (exit 4).",
                           .group = "Solution"});
-  spec.options.push_back({.flag = "--force-control",
-                          .kind = OptionKind::kSwitch,
+  spec.options.push_back({.flag = flag::force_control,
                           .help = "Full: the motion's forces are given, its displacements are "
                                   "found and written.",
                           .group = "Solution"});
-  spec.options.push_back({.flag = "--solver",
-                          .kind = OptionKind::kChoice,
+  spec.options.push_back({.flag = flag::solver,
                           .value = "NAME",
                           .help = "Own mesh: how it is solved.",
                           .group = "Solution",
                           .default_text = "by-size",
                           .choices = {"by-size", "direct", "iterative"}});
-  spec.options.push_back({.flag = "--vtu",
-                          .kind = OptionKind::kText,
+  spec.options.push_back({.flag = flag::vtu,
                           .value = "PREFIX",
                           .help = "Own mesh: writes PREFIX-ROW.vtu with displacement, stress and "
                                   "energy density at the deepest row of each press, or at --rows.",
                           .group = "Output"});
-  spec.options.push_back({.flag = "--rows",
-                          .kind = OptionKind::kText,
+  spec.options.push_back({.flag = flag::rows,
                           .value = "LIST",
                           .help = "Rows of the motion to write with --vtu, from 1: 20,40,60.",
                           .group = "Output"});
-  spec.options.push_back({.flag = "--live",
-                          .kind = OptionKind::kSwitch,
+  spec.options.push_back({.flag = flag::live,
                           .help = "Answers each line as it comes; latencies on standard error.",
                           .group = "Live"});
-  spec.options.push_back({.flag = "--contacts",
-                          .kind = OptionKind::kFile,
+  spec.options.push_back({.flag = flag::contacts,
                           .value = "FILE",
                           .help = "Live: a recording whose contact positions are solved finely "
                                   "before the first line.",
                           .group = "Live"});
-  spec.options.push_back({.flag = "--rate",
-                          .kind = OptionKind::kNumber,
+  spec.options.push_back({.flag = flag::rate,
                           .value = "HZ",
                           .help = "Live: takes the lines at this rate by the clock, with memory "
                                   "locked and real-time scheduling where they are permitted.",
                           .group = "Live",
                           .minimum = 0.001,
                           .maximum = 100000});
-  spec.options.push_back({.flag = "--binary",
-                          .kind = OptionKind::kChoice,
+  spec.options.push_back({.flag = flag::binary,
                           .value = "KIND",
                           .help = "Live: records instead of lines in and out; tip positions or "
                                   "presses come in.",

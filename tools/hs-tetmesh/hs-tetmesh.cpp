@@ -8,6 +8,7 @@
 #include "cli/tool.h"
 #include "formats/body_input.h"
 #include "formats/format_table.h"
+#include "hs-tetmesh/flags.h"
 #include "recording/contact_points.h"
 #include "tetmesh/body_mesh.h"
 #include "tetmesh/body_words.h"
@@ -53,22 +54,19 @@ ToolSpec specification() {
       "longest edge over inscribed radius scaled to 1 for a regular one; with --verbose their "
       "counts and the ten worst with their places."};
   spec.options = {
-      {.flag = "--edge",
-       .kind = OptionKind::kLength,
+      {.flag = flag::edge,
        .value = "M",
        .help = "Wished edge length [m].",
        .group = "Mesh",
        .minimum = 1e-6,
        .maximum = 10},
-      {.flag = "--max-volume",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::max_volume,
        .value = "M3",
        .help = "Largest volume of a tetrahedron [m^3].",
        .group = "Mesh",
        .minimum = 1e-18,
        .maximum = 1000},
-      {.flag = "--radius-edge",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::radius_edge,
        .value = "RATIO",
        .help = "Bound of circumradius over shortest edge; smaller is better shaped and more "
                "tetrahedra.",
@@ -76,36 +74,31 @@ ToolSpec specification() {
        .default_text = "1.4",
        .minimum = 1.1,
        .maximum = 100},
-      {.flag = "--min-dihedral",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::min_dihedral,
        .value = "DEG",
        .help = "Wished smallest dihedral angle [deg]; not always reached.",
        .group = "Mesh",
        .default_text = "10",
        .minimum = 0,
        .maximum = 18},
-      {.flag = "--normal",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::normal,
        .help = "The plain constrained Delaunay mesh of the surface: no bound on shapes or sizes.",
        .group = "Mesh"},
-      {.flag = "--preserve-surface",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::preserve_surface,
        .help = "Keep the surface's triangles: no coarsening, no new node on it.",
        .group = "Mesh"},
-      {.flag = "--order",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::order,
        .value = "ORDER",
        .help = "First order (4 nodes) or second (10 nodes, middles on straight edges).",
        .group = "Mesh",
        .default_text = "1",
        .choices = {"1", "2"}},
-      {.flag = "--curved-to",
-       .kind = OptionKind::kFile,
+      {.flag = flag::curved_to,
        .value = "FILE",
        .help = "With --order 2: lays the free boundary nodes, middles too, on this smooth surface. "
                "Written so to every format; hapsim's linear solver takes edges as straight.",
        .group = "Mesh"},
-      {.flag = "--fixed",
+      {.flag = flag::fixed,
        .value = "WHERE",
        .help = "What is bonded to the support: bottom (the plane a PLY's comment base_plane tells, "
                "else triangles flat on the lowest plane; within 0.5 % of the height), plane:Z, "
@@ -114,107 +107,89 @@ ToolSpec specification() {
                "0), none; several joined by +. Metres, or with a unit: below:4mm.",
        .group = "Support and regions",
        .default_text = "bottom"},
-      {.flag = "--region",
-       .kind = OptionKind::kFile,
+      {.flag = flag::region,
        .value = "FILE",
        .help = "Closed surface inside the body; may be given again. Its tetrahedra get the "
                "numbers 1, 2, ... and end at its triangles; where it touches or leaves the body, "
                "they are chosen by their centres.",
        .group = "Support and regions",
        .repeatable = true},
-      {.flag = "--contacts",
-       .kind = OptionKind::kFile,
+      {.flag = flag::contacts,
        .value = "FILE",
        .help = "Recording whose pressed positions become nodes and are refined about. Only needed "
                "when this mesh itself is to be pressed.",
        .group = "Contacts"},
-      {.flag = "--tool-radius",
-       .kind = OptionKind::kLength,
+      {.flag = flag::tool_radius,
        .value = "M",
        .help = "Radius of the tool [m]; otherwise the recording's metadata tool_radius.",
        .group = "Contacts",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--size",
-       .kind = OptionKind::kLength,
+      {.flag = flag::size,
        .value = "M",
        .help = "Edge length about the contacts [m]; otherwise half the tool's radius.",
        .group = "Contacts",
        .minimum = 1e-6,
        .maximum = 1},
-      {.flag = "--growth",
-       .kind = OptionKind::kNumber,
+      {.flag = flag::growth,
        .value = "SLOPE",
        .help = "How much longer edges become over the distance from a contact.",
        .group = "Contacts",
        .default_text = "0.5",
        .minimum = 0.01,
        .maximum = 10},
-      {.flag = "--contact-meshes",
-       .kind = OptionKind::kText,
+      {.flag = flag::contact_meshes,
        .value = "PREFIX",
        .help =
            "Also writes the second-order mesh of each contact position, graded to the imprinted "
            "rim of the tool, as PREFIX-1.vtu, PREFIX-2.vtu, ...: what hs-identify solves.",
        .group = "Contacts"},
-      {.flag = "--unit",
-       .kind = OptionKind::kText,
+      {.flag = flag::unit,
        .value = "UNIT",
        .help = "Unit of the input's coordinates: m, mm, cm, um or in. The body is in metres.",
        .group = "Input",
        .default_text = "m"},
-      {.flag = "--remesh",
-       .kind = OptionKind::kSwitch,
+      {.flag = flag::remesh,
        .help = "Of a mesh of tetrahedra, take the boundary and mesh it anew.",
        .group = "Mesh"},
-      {.flag = "--time-limit",
-       .kind = OptionKind::kTime,
+      {.flag = flag::time_limit,
        .value = "S",
        .help = "Ends TetGen after this time [s].",
        .group = "Mesh",
        .default_text = "600",
        .minimum = 0.1,
        .maximum = 1e6},
-      {.flag = "--vtu",
-       .kind = OptionKind::kFile,
+      {.flag = flag::vtu,
        .value = "FILE",
        .help = "Also writes the body for ParaView.",
        .group = "Output",
        .writes = {"vtu"}},
-      {.flag = "--gmsh",
-       .kind = OptionKind::kFile,
+      {.flag = flag::gmsh,
        .value = "FILE",
        .help = "Also writes the body for Gmsh, ASCII.",
        .group = "Output",
        .writes = {"msh"}},
-      {.flag = "--gmsh-version",
-       .kind = OptionKind::kChoice,
+      {.flag = flag::gmsh_version,
        .value = "VERSION",
        .help = "Format of --gmsh, and of an output that ends in .msh.",
        .group = "Output",
        .default_text = "2.2",
        .choices = {"2.2", "4.1"}},
-      {.flag = "--inp",
-       .kind = OptionKind::kFile,
+      {.flag = flag::inp,
        .value = "FILE",
        .help = "Also writes nodes, elements, sets and the boundary for Abaqus and CalculiX.",
        .group = "Output",
        .writes = {"inp"}},
-      {.flag = "--tetgen",
-       .kind = OptionKind::kText,
+      {.flag = flag::tetgen,
        .value = "PREFIX",
        .help = "Also writes PREFIX.node and PREFIX.ele.",
        .group = "Output"},
-      {.flag = "--json",
-       .kind = OptionKind::kFile,
+      {.flag = flag::json,
        .value = "FILE",
        .help = "Also writes sizes and quality, counts and worst tetrahedra as JSON.",
        .group = "Output",
        .writes = {"json"}},
-      {.flag = "--ascii",
-       .kind = OptionKind::kSwitch,
-       .help = "Text instead of binary PLY and VTU.",
-       .group = "Output"}};
+      {.flag = flag::ascii, .help = "Text instead of binary PLY and VTU.", .group = "Output"}};
   spec.writes = extensions_to_write(Content::kTetrahedra);
   spec.tables = {
       {"Body (output, PLY)",
@@ -240,7 +215,7 @@ ToolSpec specification() {
 }
 
 BodyInput read_scaled(const Arguments& arguments, const std::string& path, std::string& where) {
-  const double factor = unit_factor(Quantity::kLength, arguments.text("--unit"));
+  const double factor = unit_factor(Quantity::kLength, arguments[flag::unit]);
   Input input(path);
   where = input.name();
   BodyInput body = read_body_input(input, factor);
@@ -257,44 +232,44 @@ Surface read_side_surface(const Arguments& arguments, const std::string& path, s
 }
 
 void read_contacts(const Arguments& arguments, BodyOptions& options) {
-  if (!arguments.given("--contacts")) {
-    if (arguments.given("--contact-meshes"))
+  if (!arguments.given(flag::contacts)) {
+    if (arguments.given(flag::contact_meshes))
       fail_usage("--contact-meshes needs the positions", "give --contacts data.csv");
     return;
   }
-  if (arguments.text("--contacts") == "-" && arguments.input() == "-")
+  if (arguments[flag::contacts] == "-" && arguments.input() == "-")
     fail_usage("both the surface and --contacts are to come from standard input",
                "give one of them as a file");
-  Input input(arguments.text("--contacts"));
+  Input input(arguments[flag::contacts]);
   const Recording recording = read_recording(input, false);
-  options.tool_radius = arguments.given("--tool-radius") ? arguments.number("--tool-radius")
-                                                         : recording.tool_radius();
+  options.tool_radius =
+      arguments.given(flag::tool_radius) ? arguments[flag::tool_radius] : recording.tool_radius();
   options.contacts = contact_points(recording);
 }
 
 BodyOptions read_options(const Arguments& arguments) {
   BodyOptions options;
-  options.support = parse_support(arguments.text("--fixed"));
-  if (arguments.given("--edge")) options.edge = arguments.number("--edge");
-  if (arguments.given("--max-volume")) options.max_volume = arguments.number("--max-volume");
-  options.radius_edge = arguments.number("--radius-edge");
-  options.min_dihedral = arguments.number("--min-dihedral");
-  options.plain = arguments.given("--normal");
-  options.preserve_surface = arguments.given("--preserve-surface");
-  options.order = static_cast<int>(arguments.integer("--order"));
-  if (arguments.given("--size")) options.contact_size = arguments.number("--size");
-  options.growth = arguments.number("--growth");
-  options.time_limit = arguments.number("--time-limit");
+  options.support = parse_support(arguments[flag::fixed]);
+  if (arguments.given(flag::edge)) options.edge = arguments[flag::edge];
+  if (arguments.given(flag::max_volume)) options.max_volume = arguments[flag::max_volume];
+  options.radius_edge = arguments[flag::radius_edge];
+  options.min_dihedral = arguments[flag::min_dihedral];
+  options.plain = arguments[flag::normal];
+  options.preserve_surface = arguments[flag::preserve_surface];
+  options.order = arguments[flag::order] == "2" ? 2 : 1;
+  if (arguments.given(flag::size)) options.contact_size = arguments[flag::size];
+  options.growth = arguments[flag::growth];
+  options.time_limit = arguments[flag::time_limit];
   std::string where;
-  if (arguments.given("--region"))
-    for (const std::string& path : arguments.list("--region")) {
+  if (arguments.given(flag::region))
+    for (const std::string& path : arguments.list(flag::region)) {
       Surface surface = read_side_surface(arguments, path, where);
       options.inner.push_back({std::move(surface), where});
     }
-  if (arguments.given("--curved-to")) {
+  if (arguments.given(flag::curved_to)) {
     if (options.order != 2)
       fail_usage("--curved-to bends second-order edges", "give --order 2 too");
-    options.curved_to = read_side_surface(arguments, arguments.text("--curved-to"), where);
+    options.curved_to = read_side_surface(arguments, arguments[flag::curved_to], where);
   }
   read_contacts(arguments, options);
   return options;
@@ -309,35 +284,34 @@ void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality
     outputs.push_back(std::make_unique<Output>(path));
     return outputs.back()->stream();
   };
-  if (arguments.given("--vtu"))
-    write_mesh_vtu(open(arguments.text("--vtu")), mesh, arguments.given("--ascii"));
-  if (arguments.given("--gmsh"))
-    write_mesh_gmsh(open(arguments.text("--gmsh")), mesh,
-                    arguments.text("--gmsh-version") == "4.1" ? 41 : 22);
-  if (arguments.given("--inp")) write_mesh_abaqus(open(arguments.text("--inp")), mesh);
-  if (arguments.given("--tetgen")) {
-    std::ostream& node = open(arguments.text("--tetgen") + ".node");
-    write_mesh_tetgen(node, open(arguments.text("--tetgen") + ".ele"), mesh);
+  if (arguments.given(flag::vtu))
+    write_mesh_vtu(open(arguments[flag::vtu]), mesh, arguments[flag::ascii]);
+  if (arguments.given(flag::gmsh))
+    write_mesh_gmsh(open(arguments[flag::gmsh]), mesh,
+                    arguments[flag::gmsh_version] == "4.1" ? 41 : 22);
+  if (arguments.given(flag::inp)) write_mesh_abaqus(open(arguments[flag::inp]), mesh);
+  if (arguments.given(flag::tetgen)) {
+    std::ostream& node = open(arguments[flag::tetgen] + ".node");
+    write_mesh_tetgen(node, open(arguments[flag::tetgen] + ".ele"), mesh);
   }
-  if (arguments.given("--json")) open(arguments.text("--json")) << body_json(mesh, quality, report);
+  if (arguments.given(flag::json)) open(arguments[flag::json]) << body_json(mesh, quality, report);
   format_to_write(arguments.output(), Content::kTetrahedra)
-      .write_mesh(
-          open(arguments.output()), mesh,
-          {.ascii = arguments.given("--ascii"), .version = arguments.text("--gmsh-version")});
+      .write_mesh(open(arguments.output()), mesh,
+                  {.ascii = arguments[flag::ascii], .version = arguments[flag::gmsh_version]});
   for (const auto& output : outputs) output->commit();
 }
 
 void write_contact_meshes(const Arguments& arguments, const TetMesh& mesh,
                           const BodyOptions& options) {
-  if (!arguments.given("--contact-meshes")) return;
+  if (!arguments.given(flag::contact_meshes)) return;
   const ContactBase base = make_contact_base(mesh);
   Progress progress(arguments, "contact meshes", options.contacts.size());
   for (std::size_t i = 0; i < options.contacts.size(); ++i) {
     const double rim = options.contact_size > 0 ? options.contact_size : options.tool_radius / 8;
     const ContactMesh contact =
         make_contact_mesh(base, options.contacts[i], options.tool_radius, rim, options.growth);
-    Output output(fmt::format("{}-{}.vtu", arguments.text("--contact-meshes"), i + 1));
-    write_mesh_vtu(output.stream(), contact.mesh, arguments.given("--ascii"));
+    Output output(fmt::format("{}-{}.vtu", arguments[flag::contact_meshes], i + 1));
+    write_mesh_vtu(output.stream(), contact.mesh, arguments[flag::ascii]);
     output.commit();
     progress.step();
   }
@@ -350,13 +324,13 @@ int run(const Arguments& arguments) {
   put_on_base(options.support, input);
   BodyReport report;
   TetMesh mesh;
-  if (input.mesh && !arguments.given("--remesh")) {
+  if (input.mesh && !arguments[flag::remesh]) {
     MeshFile& file = *input.mesh;
     report.notes.push_back(
         fmt::format("{} of order {} taken as it is", file.format, file.mesh.order));
     if (const std::string mended = mended_words(file.repairs); !mended.empty())
       report.notes.push_back(mended);
-    mesh = body_of_mesh(std::move(file.mesh), file.has_fixed && !arguments.given("--fixed"),
+    mesh = body_of_mesh(std::move(file.mesh), file.has_fixed && !arguments.given(flag::fixed),
                         options, where);
   } else {
     if (input.mesh) input.surface = boundary_surface(input.mesh->mesh);
@@ -371,7 +345,7 @@ int run(const Arguments& arguments) {
   write_contact_meshes(arguments, mesh, options);
   write_all(arguments, mesh, quality, report);
   for (const std::string& line :
-       body_lines(mesh, quality, report, arguments.text("--unit"), arguments.verbose()))
+       body_lines(mesh, quality, report, arguments[flag::unit], arguments.verbose()))
     say(arguments, kName, line);
   return 0;
 }

@@ -11,23 +11,32 @@
 namespace hapsim {
 namespace {
 
+namespace flag {
+constexpr FileFlag body{"--body"};
+constexpr NumberFlag depth{"--depth"};
+constexpr LengthFlag edge{"--edge"};
+constexpr TimesFlag times{"--times"};
+constexpr PoseFlag mount{"--mount"};
+constexpr FileFlag data{"--data"};
+}  // namespace flag
+
 ToolSpec sample() {
   ToolSpec spec;
   spec.name = "hs-parse";
   spec.summary = "a tool without an input";
-  Option body{"--body", OptionKind::kFile, "FILE", "The body."};
+  Option body{flag::body, "FILE", "The body."};
   body.required = true;
-  Option depths{"--depth", OptionKind::kNumber, "M", "Depths."};
+  Option depths{flag::depth, "M", "Depths."};
   depths.repeatable = true;
   depths.default_text = "0.001,0.002";
   depths.minimum = 0;
-  Option edge{"--edge", OptionKind::kLength, "M", "An edge."};
+  Option edge{flag::edge, "M", "An edge."};
   edge.minimum = 1e-6;
   edge.maximum = 1;
-  Option times{"--times", OptionKind::kTimes, "LIST", "Windows."};
+  Option times{flag::times, "LIST", "Windows."};
   times.repeatable = true;
-  Option mount{"--mount", OptionKind::kPose, "X,Y,Z[,R,P,Y]", "A place."};
-  Option data{"--data", OptionKind::kFile, "FILE", "Recordings."};
+  Option mount{flag::mount, "X,Y,Z[,R,P,Y]", "A place."};
+  Option data{flag::data, "FILE", "Recordings."};
   data.repeatable = true;
   spec.options = {body, depths, edge, times, mount, data};
   return spec;
@@ -50,7 +59,7 @@ using Texts = std::vector<std::string>;
 
 TEST(Parse, RequiresWhatIsRequired) {
   EXPECT_EQ(error_of([] { parsed(""); }, ExitCode::kUsage), "--body is required; The body.");
-  EXPECT_EQ(parsed("--body -").text("--body"), "-");
+  EXPECT_EQ(parsed("--body -")[flag::body], "-");
 }
 
 TEST(Parse, TakesNoInputWhereThereIsNone) {
@@ -59,22 +68,22 @@ TEST(Parse, TakesNoInputWhereThereIsNone) {
 }
 
 TEST(Parse, SplitsListsButNotFileNames) {
-  EXPECT_EQ(parsed("--body b").list("--depth"), (Texts{"0.001", "0.002"}));
-  EXPECT_EQ(parsed("--body b --depth 1,2 --depth 3").list("--depth"), (Texts{"1", "2", "3"}));
-  EXPECT_EQ(parsed("--body b --data a,b --data c").list("--data"), (Texts{"a,b", "c"}));
+  EXPECT_EQ(parsed("--body b").list(flag::depth), (Texts{"0.001", "0.002"}));
+  EXPECT_EQ(parsed("--body b --depth 1,2 --depth 3").list(flag::depth), (Texts{"1", "2", "3"}));
+  EXPECT_EQ(parsed("--body b --data a,b --data c").list(flag::data), (Texts{"a,b", "c"}));
   EXPECT_EQ(error_of([] { parsed("--body b --depth 1,-2"); }, ExitCode::kUsage),
             "--depth is -2; give a number of at least 0");
 }
 
 TEST(Parse, QuantitiesAreToldInSi) {
   for (const char* text : {"0.004", "4mm", "4_mm", "0.004_m", "0.4cm"})
-    EXPECT_EQ(parsed(std::string("--body b --edge ") + text).number("--edge"), 0.004) << text;
-  EXPECT_EQ(parsed("--body b --edge 4mm").text("--edge"), "0.004");
-  EXPECT_EQ(parsed("--body b --edge 4.0e-3").text("--edge"), "4.0e-3");  // as it was given
-  EXPECT_EQ(parsed("--body b --times 50ms:1s,2:30").list("--times"), (Texts{"0.05:1", "2:30"}));
-  EXPECT_EQ(parsed("--body b --mount 1,2,3mm,0,0,180deg").text("--mount"),
+    EXPECT_EQ(parsed(std::string("--body b --edge ") + text)[flag::edge], 0.004) << text;
+  EXPECT_EQ(parsed("--body b --edge 4mm").text(flag::edge), "0.004");
+  EXPECT_EQ(parsed("--body b --edge 4.0e-3").text(flag::edge), "4.0e-3");  // as it was given
+  EXPECT_EQ(parsed("--body b --times 50ms:1s,2:30").list(flag::times), (Texts{"0.05:1", "2:30"}));
+  EXPECT_EQ(parsed("--body b --mount 1,2,3mm,0,0,180deg")[flag::mount],
             "0.001,0.002,0.003,0,0,3.141592653589793");
-  EXPECT_EQ(parsed("--body b --mount=-5mm,0,0").text("--mount"), "-0.005,0,0");
+  EXPECT_EQ(parsed("--body b --mount=-5mm,0,0")[flag::mount], "-0.005,0,0");
 }
 
 TEST(Parse, QuantitiesOutOfBoundsOrOfAnotherKindAreRefused) {
@@ -89,14 +98,14 @@ TEST(Parse, QuantitiesOutOfBoundsOrOfAnotherKindAreRefused) {
 
 TEST(Parse, TellsGivenFromDefault) {
   const Arguments arguments = parsed("--body b");
-  EXPECT_TRUE(arguments.has("--depth"));
-  EXPECT_FALSE(arguments.given("--depth"));
-  EXPECT_FALSE(arguments.has("--data"));
-  EXPECT_FALSE(arguments.given("--quiet"));
+  EXPECT_TRUE(arguments.has(flag::depth));
+  EXPECT_FALSE(arguments.given(flag::depth));
+  EXPECT_FALSE(arguments.has(flag::data));
+  EXPECT_FALSE(arguments[hapsim::flag::quiet]);
   EXPECT_EQ(arguments.output(), "-");
-  EXPECT_EQ(arguments.text("--data"), "");
-  EXPECT_THROW(arguments.number("--data"), std::logic_error);
-  EXPECT_THROW(arguments.text("--bdy"), std::logic_error);
+  EXPECT_EQ(arguments[flag::data], "");
+  EXPECT_THROW(arguments[flag::edge], std::logic_error);
+  EXPECT_THROW(arguments[TextFlag("--bdy")], std::logic_error);
 }
 
 TEST(Parse, RefusesExtensionsThatAreNotWritten) {

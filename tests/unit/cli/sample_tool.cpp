@@ -13,7 +13,15 @@
 
 namespace {
 
-using hapsim::OptionKind;
+namespace flag {
+constexpr hapsim::ChoiceFlag unit{"--unit"};
+constexpr hapsim::NumberFlag ratio{"--ratio"};
+constexpr hapsim::IntegerFlag threads{"--threads"};
+constexpr hapsim::TextFlag effects{"--effects"};
+constexpr hapsim::FileFlag other{"--other"};
+constexpr hapsim::SwitchFlag echo{"--echo"};
+constexpr hapsim::ChoiceFlag act{"--act"};
+}  // namespace flag
 
 hapsim::ToolSpec specification() {
   hapsim::ToolSpec spec;
@@ -24,20 +32,20 @@ hapsim::ToolSpec specification() {
       "Copies its input to its output. A paragraph that is long enough to be wrapped by the help, "
       "which must not exceed eighty columns even where words are long.",
       ".A second paragraph, which begins with a dot and holds a back\\slash and a \xc2\xb5."};
-  hapsim::Option unit{"--unit", OptionKind::kChoice, "UNIT", "Unit of lengths."};
+  hapsim::Option unit{flag::unit, "UNIT", "Unit of lengths."};
   unit.default_text = "m";
   unit.choices = {"m", "mm", "cm"};
-  hapsim::Option ratio{"--ratio", OptionKind::kNumber, "R", "Poisson's ratio"};
+  hapsim::Option ratio{flag::ratio, "R", "Poisson's ratio"};
   ratio.minimum = -1;
   ratio.maximum = 0.5;
-  hapsim::Option threads{"--threads", OptionKind::kInteger, "N", "Number of threads."};
+  hapsim::Option threads{flag::threads, "N", "Number of threads."};
   threads.default_text = "1";
   threads.minimum = 1;
-  hapsim::Option effects{"--effects", OptionKind::kText, "NAMES", "Effects."};
+  hapsim::Option effects{flag::effects, "NAMES", "Effects."};
   effects.repeatable = true;
-  hapsim::Option other{"--other", OptionKind::kFile, "FILE", "Another output, written first."};
-  hapsim::Option echo{"--echo", OptionKind::kSwitch, "", "Print the arguments instead."};
-  hapsim::Option act{"--act", OptionKind::kChoice, "WHAT", "Misbehave."};
+  hapsim::Option other{flag::other, "FILE", "Another output, written first."};
+  hapsim::Option echo{flag::echo, "", "Print the arguments instead."};
+  hapsim::Option act{flag::act, "WHAT", "Misbehave."};
   act.choices = {"throw", "memory", "wait", "check", "flood", "progress", "error"};
   spec.options = {unit, ratio, threads, effects, other, echo, act};
   spec.tables = {{"Columns of the result", {{"x", "position [m]"}, {"y", "another [m]"}}}};
@@ -48,10 +56,10 @@ hapsim::ToolSpec specification() {
 
 void echo(const hapsim::Arguments& arguments, std::ostream& out) {
   out << "input=" << arguments.input() << " output=" << arguments.output()
-      << " unit=" << arguments.text("--unit") << " threads=" << arguments.integer("--threads");
-  if (arguments.has("--ratio")) out << " ratio=" << arguments.number("--ratio");
-  for (const std::string& name : arguments.list("--effects")) out << " effect=" << name;
-  out << " given=" << arguments.given("--unit") << '\n';
+      << " unit=" << arguments[flag::unit] << " threads=" << arguments[flag::threads];
+  if (arguments.has(flag::ratio)) out << " ratio=" << arguments[flag::ratio];
+  for (const std::string& name : arguments.list(flag::effects)) out << " effect=" << name;
+  out << " given=" << arguments.given(flag::unit) << '\n';
 }
 
 int act(const std::string& what, const hapsim::Arguments& arguments, hapsim::Output& out) {
@@ -79,13 +87,13 @@ int act(const std::string& what, const hapsim::Arguments& arguments, hapsim::Out
 
 int run(const hapsim::Arguments& arguments) {
   std::optional<hapsim::Output> other;
-  if (arguments.has("--other")) {
-    other.emplace(arguments.text("--other"));
+  if (arguments.has(flag::other)) {
+    other.emplace(arguments[flag::other]);
     other->write("other\n");
   }
   hapsim::Output out(arguments.output());
-  if (arguments.has("--act")) return act(arguments.text("--act"), arguments, out);
-  if (arguments.given("--echo"))
+  if (arguments.has(flag::act)) return act(arguments[flag::act], arguments, out);
+  if (arguments[flag::echo])
     echo(arguments, out.stream());
   else
     out.write(hapsim::Input(arguments.input()).read_all());

@@ -1,0 +1,19 @@
+// The flags of hs-compare.
+#pragma once
+
+#include "shared_flags.h"
+
+namespace hapsim {
+
+namespace flag {
+inline constexpr FileFlag simulated{"--simulated"}, html{"--html"}, figures{"--figures"},
+    json{"--json"}, ply{"--ply"}, history{"--history"}, diagnosis{"--diagnosis"}, junit{"--junit"},
+    events{"--events"};
+inline constexpr LengthFlag reach{"--reach"};
+inline constexpr TextFlag title{"--title"}, fail_above{"--fail-above"};
+inline constexpr SwitchFlag follow{"--follow"}, hold{"--hold"};
+inline constexpr NumberFlag rate{"--rate"}, false_alarms{"--false-alarms"};
+inline constexpr TimeFlag learning{"--learning"};
+}  // namespace flag
+
+}  // namespace hapsim

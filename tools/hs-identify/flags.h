@@ -1,0 +1,23 @@
+// The flags of hs-identify.
+#pragma once
+
+#include "shared_flags.h"
+
+namespace hapsim {
+
+namespace flag {
+inline constexpr TimeFlag until{"--until"};
+inline constexpr FileFlag image{"--image"}, library{"--library"}, diagnosis{"--diagnosis"},
+    history{"--history"}, locations{"--locations"}, data{"--data"};
+inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"--effects"},
+    add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, terms{"--terms"},
+    regions{"--regions"};
+inline constexpr TimesFlag windows{"--windows"};
+inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"}, memory{"--memory"},
+    boundary{"--boundary"}, starts{"--starts"}, seed{"--seed"};
+inline constexpr SwitchFlag stiffening{"--stiffening"}, profile{"--profile"}, follow{"--follow"},
+    resume{"--resume"};
+inline constexpr ChoiceFlag robust{"--robust"};
+}  // namespace flag
+
+}  // namespace hapsim

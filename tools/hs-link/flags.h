@@ -1,0 +1,18 @@
+// The flags of hs-link.
+#pragma once
+
+#include "shared_flags.h"
+
+namespace hapsim {
+
+namespace flag {
+inline constexpr TextFlag listen{"--listen"}, peer{"--peer"};
+inline constexpr IntegerFlag samples{"--samples"}, seed{"--seed"};
+inline constexpr NumberFlag rate{"--rate"}, loss{"--loss"}, duplicate{"--duplicate"},
+    reorder{"--reorder"};
+inline constexpr FileFlag identified{"--identified"};
+inline constexpr TimeFlag delay{"--delay"}, jitter{"--jitter"}, idle{"--idle"};
+inline constexpr ForceFlag add_noise{"--add-noise"};
+}  // namespace flag
+
+}  // namespace hapsim

@@ -1,0 +1,19 @@
+// The flags of hs-simulate.
+#pragma once
+
+#include "shared_flags.h"
+
+namespace hapsim {
+
+namespace flag {
+inline constexpr ForceFlag add_noise{"--add-noise"};
+inline constexpr IntegerFlag seed{"--seed"};
+inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
+    force_control{"--force-control"}, live{"--live"};
+inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
+inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
+inline constexpr FileFlag contacts{"--contacts"};
+inline constexpr NumberFlag rate{"--rate"};
+}  // namespace flag
+
+}  // namespace hapsim

@@ -1,0 +1,18 @@
+// The flags that several tools have.
+#pragma once
+
+#include "cli/flag.h"
+
+namespace hapsim {
+
+namespace flag {
+inline constexpr FileFlag body{"--body"}, model{"--model"};
+inline constexpr LengthFlag tool_radius{"--tool-radius"};
+inline constexpr ForceFlag noise{"--noise"};
+inline constexpr NumberFlag floor{"--floor"}, rim_edge{"--rim-edge"}, nu{"--nu"};
+inline constexpr IntegerFlag threads{"--threads"};
+inline constexpr TextFlag cache{"--cache"};
+inline constexpr TimesFlag times{"--times"};
+}  // namespace flag
+
+}  // namespace hapsim
