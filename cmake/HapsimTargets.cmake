@@ -1,12 +1,12 @@
 # How every target of hapsim is made: one place for the flags.
 
 # A program holds what it calls of the rooms it links, also where they are compiled whole, and equal
-# functions once where the linker can tell them.
+# functions once where the linker can tell them (of debug information it would take too much memory).
 include(CheckLinkerFlag)
 add_link_options(-Wl,--gc-sections)
 check_linker_flag(CXX "-fuse-ld=gold;-Wl,--icf=safe" HAPSIM_LINKER_FOLDS)
 if(HAPSIM_LINKER_FOLDS)
-  add_link_options(-fuse-ld=gold -Wl,--icf=safe)
+  add_link_options($<$<CONFIG:Release>:-fuse-ld=gold> $<$<CONFIG:Release>:-Wl,--icf=safe>)
 endif()
 
 # hapsim_flags(<target>): a section for each function and object, and the warnings every file must pass.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "compare/error_map.h"
-#include "formats/ply.h"
+#include "containers/ply.h"
 
 namespace hapsim {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "containers/ply.h"
+#include "containers/text_scanner.h"
 #include "formats/format_table.h"
-#include "formats/ply.h"
 #include "formats/surface_io.h"
-#include "formats/text_scanner.h"
 #include "io/wrapped.h"
 
 namespace hapsim {

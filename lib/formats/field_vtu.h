@@ -4,7 +4,7 @@
 #include <ostream>
 #include <vector>
 
-#include "formats/vtu.h"
+#include "containers/vtu.h"
 #include "mesh/tetmesh.h"
 
 namespace hapsim {

@@ -8,9 +8,9 @@
 #include <unordered_map>
 
 #include "base/error.h"
+#include "containers/text_scanner.h"
 #include "formats/format.h"
 #include "formats/mesh_file.h"
-#include "formats/text_scanner.h"
 
 namespace hapsim {
 namespace {

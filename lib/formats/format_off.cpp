@@ -1,9 +1,9 @@
 // OFF, as text: triangles, polygons as fans, colours left out.
 #include <algorithm>
 
+#include "containers/text_scanner.h"
 #include "formats/format.h"
 #include "formats/off.h"
-#include "formats/text_scanner.h"
 #include "mesh/drop_unused.h"
 
 namespace hapsim {

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "containers/ply.h"
 #include "formats/format.h"
-#include "formats/ply.h"
 #include "formats/surface_io.h"
 #include "formats/tetmesh_io.h"
 

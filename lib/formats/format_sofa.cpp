@@ -8,8 +8,8 @@
 #include <map>
 
 #include "base/error.h"
+#include "containers/mesh_xml.h"
 #include "formats/format.h"
-#include "formats/mesh_xml.h"
 
 namespace hapsim {
 namespace {

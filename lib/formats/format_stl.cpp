@@ -6,8 +6,8 @@
 #include <functional>
 #include <unordered_map>
 
+#include "containers/stl.h"
 #include "formats/format.h"
-#include "formats/stl.h"
 
 namespace hapsim {
 namespace {

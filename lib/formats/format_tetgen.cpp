@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "base/error.h"
+#include "containers/text_scanner.h"
 #include "formats/format.h"
 #include "formats/mesh_file.h"
-#include "formats/text_scanner.h"
 #include "io/stream.h"
 
 namespace hapsim {

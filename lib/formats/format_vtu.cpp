@@ -9,11 +9,11 @@
 #include <ostream>
 
 #include "base/error.h"
+#include "containers/vtu.h"
 #include "formats/field_vtu.h"
 #include "formats/format.h"
 #include "formats/mesh_file.h"
 #include "formats/tetmesh_io.h"
-#include "formats/vtu.h"
 
 namespace hapsim {
 namespace {

@@ -4,8 +4,8 @@
 #include <cctype>
 #include <sstream>
 
+#include "containers/ply.h"
 #include "formats/field_vtu.h"
-#include "formats/ply.h"
 #include "formats/tetmesh_io.h"
 #include "io/csv.h"
 

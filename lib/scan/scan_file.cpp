@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "containers/ply.h"
 #include "formats/format_table.h"
-#include "formats/ply.h"
 #include "formats/surface_io.h"
 #include "scan/sections.h"
 #include "scan/table_columns.h"

@@ -25,7 +25,7 @@ gdcm|nifti/|teem/: volume
 CLI/: cli
 boost/math/: estimate
 sqlite3\.h: io
-pugixml\.hpp: formats
+pugixml\.hpp: containers
 "
 
 breach() { # FILE LINE TEXT

@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "formats/ply.h"
-#include "formats/stl.h"
+#include "containers/ply.h"
+#include "containers/stl.h"
 #include "io/csv.h"
 #include "recording/recording.h"
 

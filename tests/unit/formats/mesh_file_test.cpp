@@ -13,9 +13,9 @@
 #include <sstream>
 
 #include "base/random.h"
+#include "containers/vtu.h"
 #include "formats/format_table.h"
 #include "formats/tetmesh_io.h"
-#include "formats/vtu.h"
 #include "support/needs.h"
 #include "support/shapes.h"
 #include "tetmesh/body_mesh.h"

@@ -5,9 +5,9 @@
 
 #include <sstream>
 
+#include "containers/ply.h"
+#include "containers/vtu.h"
 #include "formats/mesh_file.h"
-#include "formats/ply.h"
-#include "formats/vtu.h"
 #include "io/csv.h"
 #include "support/block_mesh.h"
 

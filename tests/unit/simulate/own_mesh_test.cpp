@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 #include <sstream>
 
-#include "formats/vtu.h"
+#include "containers/vtu.h"
 #include "simulate/field_rows.h"
 #include "support/synthetic.h"
 

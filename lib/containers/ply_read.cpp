@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "formats/ply_types.h"
+#include "containers/ply_types.h"
 #include "io/number.h"
 
 namespace hapsim {

@@ -1,7 +1,7 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "formats/ply_types.h"
+#include "containers/ply_types.h"
 #include "io/number.h"
 
 namespace hapsim::ply {

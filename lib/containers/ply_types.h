@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "formats/ply.h"
+#include "containers/ply.h"
 
 namespace hapsim::ply {
 

@@ -1,4 +1,4 @@
-#include "formats/mesh_xml.h"
+#include "containers/mesh_xml.h"
 
 #include <fmt/format.h>
 

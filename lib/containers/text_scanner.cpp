@@ -1,4 +1,4 @@
-#include "formats/text_scanner.h"
+#include "containers/text_scanner.h"
 
 #include <fmt/format.h>
 

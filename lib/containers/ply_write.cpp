@@ -4,7 +4,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "formats/ply_types.h"
+#include "containers/ply_types.h"
 #include "io/number.h"
 
 namespace hapsim {

@@ -1,4 +1,4 @@
-#include "formats/ply.h"
+#include "containers/ply.h"
 
 #include <cmath>
 #include <sstream>

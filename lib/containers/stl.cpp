@@ -1,4 +1,4 @@
-#include "formats/stl.h"
+#include "containers/stl.h"
 
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "formats/ply_types.h"
+#include "containers/ply_types.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "formats/vtu.h"
+#include "containers/vtu.h"
 
 #include <fmt/format.h>
 #include <zlib.h>
