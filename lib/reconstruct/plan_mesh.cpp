@@ -10,13 +10,14 @@
 
 #include "base/error.h"
 #include "reconstruct/plan_view.h"
+#include "reconstruct/stamped.h"
 
 namespace hapsim {
 
 Surface plan_mesh(const std::vector<Vec2>& outline, double edge, int& rim) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using VertexBase = CGAL::Delaunay_mesh_vertex_base_2<Kernel>;
-  using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel>;
+  using VertexBase = Stamped<CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
+  using FaceBase = Stamped<CGAL::Delaunay_mesh_face_base_2<Kernel>>;
   using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
       Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
   using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "reconstruct/raw_surface.h"
+#include "reconstruct/stamped.h"
 
 namespace hapsim {
 namespace {
@@ -31,7 +32,8 @@ using Regular = CGAL::Regular_triangulation_3<
     Kernel, CGAL::Triangulation_data_structure_3<
                 CGAL::Triangulation_vertex_base_with_info_3<
                     int, Kernel, CGAL::Regular_triangulation_vertex_base_3<Kernel>>,
-                CGAL::Regular_triangulation_cell_base_3<Kernel>>>;
+                // Its edges are told by the first of the cells about them.
+                Stamped<CGAL::Regular_triangulation_cell_base_3<Kernel>>>>;
 
 constexpr double kBeyond = 0.02;  // of the size: the surface ends this near the points
 
