@@ -7,6 +7,8 @@
 #include "cli/tool.h"
 #include "formats/format_table.h"
 #include "import/block.h"
+#include "import/encoding.h"
+#include "import/implausible.h"
 #include "import/import_report.h"
 #include "io/number.h"
 #include "io/quantity.h"
@@ -15,10 +17,11 @@
 namespace hapsim {
 namespace flag {
 inline constexpr TextFlag unit{"--unit"}, force_unit{"--force-unit"}, time_unit{"--time-unit"},
-    split_by{"--split-by"}, direction{"--direction"}, column{"--column"}, names{"--names"};
+    split_by{"--split-by"}, direction{"--direction"}, column{"--column"}, names{"--names"},
+    encoding{"--encoding"}, specimen{"--specimen"};
 inline constexpr ChoiceFlag contact{"--contact"}, tip{"--tip"}, force{"--force"},
-    estimate_noise{"--estimate-noise"}, tool{"--tool"};
-inline constexpr SwitchFlag list{"--list"}, drop_air{"--drop-air"};
+    estimate_noise{"--estimate-noise"}, tool{"--tool"}, decimal{"--decimal"};
+inline constexpr SwitchFlag list{"--list"}, drop_air{"--drop-air"}, yes{"--yes"};
 inline constexpr LengthsFlag at{"--at"}, block{"--block"};
 inline constexpr FileFlag surface{"--surface"}, scan{"--scan"};
 inline constexpr NumberFlag rate{"--rate"};
@@ -34,6 +37,12 @@ Option choice(const std::string& group, const AnyFlag& flag, const std::string& 
           .group = group,
           .default_text = usual,
           .choices = choices};
+}
+
+std::string encodings() {
+  std::string all;
+  for (const std::string& name : known_encodings()) all += (all.empty() ? "" : ", ") + name;
+  return all;
 }
 
 Option text(const std::string& group, const AnyFlag& flag, const std::string& value,
@@ -58,11 +67,23 @@ std::vector<Option> options() {
        .help = "Names of the columns of a table without a header, or instead of its header.",
        .group = "Columns",
        .repeatable = true},
+      text("Columns", flag::encoding, "NAME",
+           "Encoding of a text, where it is not found rightly: " + encodings() + "."),
+      choice("Columns", flag::decimal,
+             "What stands before decimals, where the table does not show it.", "auto",
+             {"auto", "point", "comma"}),
+      text("Columns", flag::specimen, "N",
+           "Of several specimens side by side the one that is read: its number from the left. "
+           "Without it all, one recording each."),
+      {.flag = flag::yes,
+       .help = "Goes on where a size says that a unit is wrong, or a unit is not known.",
+       .group = "Columns"},
       text("Columns", flag::unit, "UNIT",
-           "Unit of lengths whose name has none: m, mm, cm, um, in. Without it m, or mm where the "
+           "Unit of lengths whose name has none: m, mm, cm, um, nm, in. Without it m, or mm where "
+           "the "
            "size allows nothing else (a warning)."),
       text("Columns", flag::force_unit, "UNIT",
-           "Unit of forces whose name has none: N, mN, kN, gf, kgf, lbf. Without it N."),
+           "Unit of forces whose name has none: N, mN, uN, nN, kN, gf, kgf, lbf. Without it N."),
       text("Columns", flag::time_unit, "UNIT",
            "Unit of a time whose name has none: s, ms, us, ns, min. Without it s."),
       text(
@@ -135,15 +156,41 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-import";
   spec.summary = "convert recordings of other machines and robots";
-  spec.input = "table as text: commas, semicolons, tabs or spaces; decimal points or commas";
+  spec.input = "table as text, in any encoding; LabVIEW .lvm";
   spec.description = {
-      "Columns are recognised by name, in English and German, whatever their case and punctuation: "
-      "\"Standardkraft [N]\", force_mN, CurrentPos_x, nx. A unit in the name, or in a row of units "
+      "Columns are recognised by name, in English, German, French, Spanish, Italian, Portuguese, "
+      "Chinese and Japanese, whatever their case and punctuation: "
+      "\"Standardkraft [N]\", force_mN, Temps d'essai, CurrentPos_x, nx. A unit of any SI prefix "
+      "in the "
+      "name, or in a row of units "
       "below "
       "the header, is converted; a comment such as \"# units: mm, N\" helps where names have none. "
+      "A unit "
+      "that is written and not known is refused. "
       "--list shows what was understood; --column corrects it. Columns "
       "without a "
-      "role are carried through.",
+      "role are carried through and named.",
+      "Separators, decimal commas, marks between thousands, titles above and statistics below the "
+      "rows "
+      "are found; so is the encoding (--encoding says it). Several specimens side by side (Load, "
+      "Load') "
+      "are all read, one recording each; the way in and the way out side by side are one press. "
+      "Seconds "
+      "and nanoseconds in two columns are one time; a table without a time is told by a WARNING.",
+      "Lengths and forces that nothing names a unit of, and whose size makes a press, a block, a "
+      "tool or a "
+      "modulus "
+      "(below 100 Pa, above 10 GPa) implausible, are refused with the factor that would mend them; "
+      "--yes "
+      "goes on.",
+      "Where the table holds the centre of the tool's ball at first contact and the contact point, "
+      "their "
+      "distance is the ball's radius: tool: sphere and tool_radius are written, and another "
+      "--tool-radius is "
+      "told. A gap between the tools gives the height of the specimen, thickness [m]. A tool that "
+      "slides "
+      "over the surface while it presses makes no presses: motion: sliding is written, one press a "
+      "recording, and --scan has every touched point. Rows marked by Fail are left out.",
       "A press needs a force (three components, or one along the normal) and one of: a "
       "displacement; tip "
       "positions, with or without a contact point; a depth or travel, with contact points and "
@@ -218,8 +265,8 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
     fail_usage("--direction has no length", "write for example 0,0,-1");
   if (arguments.given(flag::tool_radius)) {
     options.tool_radius = arguments[flag::tool_radius];
-    if (!(*options.tool_radius > 0 && *options.tool_radius < 1))
-      fail_usage("--tool-radius is not between 0 and 1 m", "write it with its unit: 4mm");
+    if (!(*options.tool_radius > 0))
+      fail_usage("--tool-radius is not above 0", "write it with its unit: 4mm");
   }
   options.tool = maybe(flag::tool);
   options.contact = arguments[flag::contact];
@@ -228,6 +275,19 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   options.noise = arguments[flag::estimate_noise];
   if (arguments.given(flag::rate)) options.rate = arguments[flag::rate];
   options.drop_air = arguments[flag::drop_air];
+  options.specimen = maybe(flag::specimen);
+  options.units.trusted = arguments[flag::yes];
+  options.block = block;
+  check_sizes_given(options);
+  return options;
+}
+
+TableOptions table_options(const Arguments& arguments) {
+  TableOptions options;
+  options.names = arguments.list(flag::names);
+  if (arguments.given(flag::encoding)) options.encoding = arguments[flag::encoding];
+  const std::string decimal = arguments[flag::decimal];
+  if (decimal != "auto") options.decimal = decimal;
   return options;
 }
 
@@ -239,7 +299,7 @@ int run(const Arguments& arguments) {
   const ImportOptions options = import_options(arguments, block);
 
   Input input(arguments.input());
-  const RawTable table = read_raw_table(input, arguments.list(flag::names));
+  const RawTable table = read_raw_table(input, table_options(arguments));
   Output output(arguments.output());
   if (arguments[flag::list]) {
     output.write(describe_columns(table, options));

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "base/median.h"
-#include "import/block.h"
+#include "import/table_facts.h"
 #include "io/number.h"
 #include "io/quantity.h"
 #include "recording/force_noise.h"
@@ -45,8 +45,8 @@ std::vector<char> contact_flags(const Samples& samples, const PressTrack& track,
   const auto& told = samples[ScalarRole::kContactFlag];
   const double top = *std::max_element(track.force.begin(), track.force.end());
   // Rounded coordinates do not lift the tip off the surface.
-  const double lift =
-      -std::max(5e-6, 0.005 * *std::max_element(track.travel.begin(), track.travel.end()));
+  const double reach = *std::max_element(track.travel.begin(), track.travel.end());
+  const double lift = -std::max(std::min(5e-6, 0.02 * reach), 0.005 * reach);
   std::vector<double> air;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (track.travel[i] < lift) air.push_back(track.force[i]);
@@ -54,7 +54,9 @@ std::vector<char> contact_flags(const Samples& samples, const PressTrack& track,
   std::vector<char> flags;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool feels = std::abs(track.force[i] - rest) > 6 * noise + 0.02 * top;
-    const bool touches = told.empty() ? track.travel[i] >= lift || feels : told[at(rows[i])] > 0;
+    const bool touches = track.segment.sliding ? track.force[i] > 0.2 * top
+                         : told.empty()        ? track.travel[i] >= lift || feels
+                                               : told[at(rows[i])] > 0;
     flags.push_back(touches ? 1 : 0);
   }
   return flags;
@@ -65,7 +67,7 @@ std::vector<bool> saturated(const PressTrack& track, double limit) {
   std::vector<bool> marks(track.force.size(), false);
   for (std::size_t i = 0; i < marks.size();) {
     std::size_t end = i;
-    while (end < marks.size() && track.force[end] >= limit - 1e-12) ++end;
+    while (end < marks.size() && track.force[end] >= limit * (1 - 1e-12)) ++end;
     if (end - i >= 5) {
       const auto [low, high] =
           std::minmax_element(track.travel.begin() + static_cast<std::ptrdiff_t>(i),
@@ -100,6 +102,25 @@ std::string carried_name(const std::string& name) {
   return kOwn.count(name) ? "source " + name : name;
 }
 
+// Digits that are kept: of every day's sizes to 0.1 nm and 1 nN, of smaller ones a millionth.
+struct Digits {
+  double length = 1e10, force = 1e9;  // per unit
+};
+
+Digits digits_of(const std::vector<PressTrack>& tracks) {
+  double depth = 0, force = 0;
+  for (const PressTrack& track : tracks)
+    for (std::size_t i = 0; i < track.f.size(); ++i) {
+      depth = std::max(depth, track.u[i].norm());
+      force = std::max(force, track.f[i].norm());
+    }
+  Digits digits;
+  const auto fine = [](double size) { return std::pow(10, 6 - std::floor(std::log10(size))); };
+  if (depth > 0 && depth < 1e-5) digits.length = fine(depth);
+  if (force > 0 && force < 1e-4) digits.force = fine(force);
+  return digits;
+}
+
 // Differences of decimal numbers are written as decimal numbers again; -0 becomes 0.
 Vec3 rounded(const Vec3& v, double per_unit) {
   return ((v * per_unit).array().round() / per_unit + 0.0).matrix();
@@ -107,13 +128,13 @@ Vec3 rounded(const Vec3& v, double per_unit) {
 
 // Of all samples, also those that --rate or --drop-air leave out. None from fewer differences than
 // would tell it to a fifth.
-NoiseEstimate noise_of(const std::vector<PressTrack>& tracks) {
+NoiseEstimate noise_of(const std::vector<PressTrack>& tracks, const Digits& digits) {
   constexpr std::size_t kFewest = 30;
   Recording all;
   for (std::size_t p = 0; p < tracks.size(); ++p) {
     all.press.insert(all.press.end(), tracks[p].f.size(), static_cast<int>(p));
-    for (const Vec3& u : tracks[p].u) all.u.push_back(rounded(u, 1e10));
-    for (const Vec3& f : tracks[p].f) all.f.push_back(rounded(f, 1e9));
+    for (const Vec3& u : tracks[p].u) all.u.push_back(rounded(u, digits.length));
+    for (const Vec3& f : tracks[p].f) all.f.push_back(rounded(f, digits.force));
   }
   const NoiseEstimate noise = measure_force_noise(all);
   return noise.differences < kFewest ? NoiseEstimate{} : noise;
@@ -129,8 +150,10 @@ class Assembler {
     Recording& out = result_.recording;
     out.name = table_.name;
     set_metadata();
+    set_facts(tracks);
     const std::vector<int> ids = press_ids(table_, map_, tracks);
-    const NoiseEstimate noise = noise_of(tracks);
+    digits_ = digits_of(tracks);
+    const NoiseEstimate noise = noise_of(tracks, digits_);
     note_noise(noise);
     carried_ =
         carried_columns(table_, map_, map_.press.size() == 1 && ids_are_table_ids(tracks, ids));
@@ -146,7 +169,6 @@ class Assembler {
       result_.notes.warnings.push_back(fmt::format(
           "{} samples at the sensor's limit ({:.4g} N) while the tip went on are left out",
           dropped_, limit));
-    check_sizes();
   }
 
  private:
@@ -175,6 +197,47 @@ class Assembler {
     // What the table states must be of use to whoever reads the recording.
     if (metadata.find("tool_radius")) result_.recording.tool_radius();
     result_.recording.force_noise();
+  }
+
+  // Every place that a sliding tool touched, half a millimetre apart.
+  void touch_along(const PressTrack& track, const std::vector<char>& flags) {
+    constexpr double kApart = 5e-4;
+    const std::size_t begin = result_.touched.size();
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+      const Vec3 place = rounded(track.contact + track.u[i], 1e10);
+      if (flags[i] && (result_.touched.size() == begin ||
+                       (place - result_.touched.back().point).norm() >= kApart))
+        result_.touched.push_back({place, Vec3::Zero()});
+    }
+  }
+
+  void set_facts(const std::vector<PressTrack>& tracks) {
+    Metadata& metadata = result_.recording.metadata;
+    const auto told = metadata.number("tool_radius", table_.name);
+    if (const auto radius = ball_radius(samples_, tracks)) {
+      if (!told) {
+        metadata.set("tool_radius", format_number(*radius));
+        if (options_.tool.empty()) metadata.set("tool", "sphere");
+        result_.notes.facts.push_back(fmt::format(
+            "the tool is a ball of radius {:.2f} mm, by its centre and the contact points",
+            1e3 * *radius));
+      } else if (std::abs(*radius - *told) > 0.05 * *told) {
+        result_.notes.warnings.push_back(
+            fmt::format("the tool's radius is said to be {:.2f} mm; by its ball's centre and the "
+                        "contact points it is {:.2f} mm",
+                        1e3 * *told, 1e3 * *radius));
+      }
+    }
+    if (const auto height = specimen_height(samples_, tracks)) {
+      metadata.set("thickness", fmt::format("{:.6g}", *height));
+      result_.notes.facts.push_back(
+          fmt::format("the specimen is {:.2f} mm thick: the gap at first contact", 1e3 * *height));
+      if (options_.block && std::abs(*height - options_.block->z()) > 0.1 * *height)
+        result_.notes.warnings.push_back(
+            fmt::format("the block is {:.2f} mm thick, by the gap at first contact it is {:.2f} mm",
+                        1e3 * options_.block->z(), 1e3 * *height));
+    }
+    if (!tracks.empty() && tracks.front().segment.sliding) metadata.set("motion", "sliding");
   }
 
   void note_noise(const NoiseEstimate& noise) {
@@ -210,32 +273,17 @@ class Assembler {
       out.press.push_back(id);
       if (!t.empty()) out.t.push_back(t[row]);
       out.position.push_back(rounded(track.contact, 1e10));
-      out.u.push_back(rounded(track.u[i], 1e10));
-      out.f.push_back(rounded(track.f[i], 1e9));
+      out.u.push_back(rounded(track.u[i], digits_.length));
+      out.f.push_back(rounded(track.f[i], digits_.force));
       if (!temp.empty()) out.temp.push_back(temp[row]);
       out.contact.push_back(flags[i]);
       for (std::size_t c = 0; c < carried_.size(); ++c)
         out.extra[c].push_back(table_.columns[carried_[c]][row]);
     }
+    if (track.segment.sliding) return touch_along(track, flags);
     result_.touched.push_back({rounded(track.contact, 1e10), map_.has(VectorRole::kNormal)
                                                                  ? rounded(track.outward, 1e9)
                                                                  : Vec3(Vec3::Zero())});
-  }
-
-  void check_sizes() {
-    const Recording& out = result_.recording;
-    double depth = 0, force = 0;
-    for (std::size_t i = 0; i < out.rows(); ++i) {
-      if (!out.in_air(i)) depth = std::max(depth, out.u[i].norm());
-      force = std::max(force, out.f[i].norm());
-    }
-    const auto warn = [this](const std::string& text) { result_.notes.warnings.push_back(text); };
-    if (depth > 0.1)
-      warn(fmt::format("the deepest press is {:.3g} m: is the unit of length right?", depth));
-    if (depth < 1e-5)
-      warn(fmt::format("the deepest press is {:.3g} m: is the unit of length right?", depth));
-    if (force > 2000 || force < 1e-4)
-      warn(fmt::format("the largest force is {:.3g} N: is its unit right?", force));
   }
 
   const RawTable& table_;
@@ -244,6 +292,7 @@ class Assembler {
   const ImportOptions& options_;
   ImportResult& result_;
   std::vector<std::size_t> carried_;
+  Digits digits_;
   std::size_t dropped_ = 0;
 };
 

@@ -1,8 +1,11 @@
 #include "import/column_name.h"
 
+#include <algorithm>
 #include <cctype>
+#include <initializer_list>
 
-#include "import/text_decode.h"
+#include "import/fold.h"
+#include "import/header_words.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -20,32 +23,50 @@ std::string separate_words(std::string_view name) {
   return out;
 }
 
+// Letters and digits; other scripts than Latin are words of their own.
 std::vector<std::string> words_of(std::string_view text) {
   std::vector<std::string> words;
   std::string word;
+  bool latin = true;
   for (const char c : fold(separate_words(text)) + " ") {
-    if (std::isalnum(static_cast<unsigned char>(c))) {
-      word += c;
-    } else if (!word.empty()) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool part = byte >= 0x80 || std::isalnum(byte);
+    if (!word.empty() && (!part || latin != (byte < 0x80))) {
       words.push_back(word);
       word.clear();
     }
+    latin = byte < 0x80;
+    if (part) word += c;
   }
   return words;
 }
 
-// Takes "[mm]", "(N)", "/ N", " in mm" off the end or the middle of a name.
-UnitName take_unit(std::string& name) {
+// What looks like a unit: one short word with a letter that no other word of headers is.
+bool looks_like_unit(std::string_view bracketed) {
+  const std::vector<std::string> words = words_of(bracketed);
+  if (words.size() != 1 || words[0].size() > 10) return false;
+  return std::none_of(words[0].begin(), words[0].end(),
+                      [](unsigned char c) { return std::isdigit(c); }) &&
+         !is_word(words[0], Word::kQualifier) && !is_known_word(words[0]);
+}
+
+// Takes "[mm]", "(N)", "/ N", ", N", " in mm" off the end or the middle of a name.
+UnitName take_unit(std::string& name, std::string& unknown) {
   for (const char* brackets : {"[]", "()", "{}", "<>"}) {
     const std::size_t open = name.rfind(brackets[0]);
     const std::size_t close = open == name.npos ? name.npos : name.find(brackets[1], open);
     if (close == name.npos) continue;
-    UnitName unit = parse_unit(std::string_view(name).substr(open, close - open + 1));
-    if (unit.kind == UnitKind::kNone) continue;
+    const std::string_view text = std::string_view(name).substr(open, close - open + 1);
+    UnitName unit = parse_unit(text);
+    if (unit.kind == UnitKind::kNone) {
+      if (unknown.empty() && looks_like_unit(text))
+        unknown = std::string(trim(text.substr(1, text.size() - 2)));
+      continue;
+    }
     name.erase(open, close - open + 1);
     return unit;
   }
-  for (const std::string_view mark : {" in ", "/"}) {
+  for (const std::string_view mark : {" in ", " en ", "/", ",", ":", ";"}) {
     const std::size_t at = name.rfind(mark);
     if (at == name.npos || at == 0) continue;
     UnitName unit = parse_unit(std::string_view(name).substr(at + mark.size()));
@@ -64,10 +85,38 @@ UnitName take_last_word(std::string& name) {
   const std::string last = name.substr(at + 1);
   UnitName unit = parse_unit(last);
   if (unit.kind == UnitKind::kNone ||
-      (last.size() == 1 && std::string("cCgGvV").find(last) != last.npos))
+      (last.size() == 1 && std::string("smnSMN").find(last) == last.npos))
     return {};
   name.erase(at);
   return unit;
+}
+
+// "distancemm", "forceN", "时间s": a word of the table and a unit of its quantity.
+UnitName take_glued(std::string& name) {
+  struct Kind {
+    UnitKind unit;
+    std::initializer_list<Word> words;
+  };
+  static const Kind kKinds[] = {{UnitKind::kTime, {Word::kTime}},
+                                {UnitKind::kForce, {Word::kForce}},
+                                {UnitKind::kLength, {Word::kDepth, Word::kTravel, Word::kGap}}};
+  for (std::size_t length = 1; length <= 3 && length < name.size(); ++length) {
+    const std::size_t cut = name.size() - length;
+    if ((static_cast<unsigned char>(name[cut]) & 0xC0) == 0x80) continue;
+    const UnitName unit = parse_unit(std::string_view(name).substr(cut));
+    if (unit.kind == UnitKind::kNone || unit.kind == UnitKind::kOther) continue;
+    std::string word;
+    for (const std::string& part : words_of(std::string_view(name).substr(0, cut))) word += part;
+    std::string whole;
+    for (const std::string& part : words_of(name)) whole += part;
+    for (const Kind& kind : kKinds)
+      for (const Word quantity : kind.words)
+        if (kind.unit == unit.kind && is_pattern(word, quantity) && !is_pattern(whole, quantity)) {
+          name.resize(cut);
+          return unit;
+        }
+  }
+  return {};
 }
 
 }  // namespace
@@ -80,9 +129,12 @@ std::string ColumnName::joined() const {
 
 ColumnName take_apart(std::string_view text) {
   ColumnName name;
-  std::string rest(trim(text));
-  name.unit = take_unit(rest);
+  std::string rest(trim(plain(text)));
+  while (!rest.empty() && (rest.back() == ':' || rest.back() == ' ')) rest.pop_back();
+  name.unit = take_unit(rest, name.unknown);
   if (name.unit.kind == UnitKind::kNone) name.unit = take_last_word(rest);
+  if (name.unit.kind == UnitKind::kNone) name.unit = take_glued(rest);
+  if (name.unit.kind != UnitKind::kNone) name.unknown.clear();
   name.words = words_of(rest);
   return name;
 }

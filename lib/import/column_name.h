@@ -12,11 +12,13 @@ namespace hapsim {
 struct ColumnName {
   std::vector<std::string> words;  // folded: "ContactPoint_x [mm]" gives contact, point, x
   UnitName unit;                   // kNone when the name holds none
+  std::string unknown;             // what stands in brackets as a unit and is none that is known
 
   std::string joined() const;  // the words without anything between them
 };
 
-// Understands units in brackets, after "/", after " in ", and as a last word ("x_mm").
+// Understands units in brackets, after "/", a comma or " in ", as a last word ("x_mm"), and glued
+// to a word that the table of words has ("distancemm", "forceN").
 ColumnName take_apart(std::string_view name);
 
 // One way to read a name as the component of a vector.

@@ -6,8 +6,9 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "import/column_synonyms.h"
+#include "import/fold.h"
+#include "import/header_words.h"
 #include "import/raw_rows.h"
-#include "import/text_decode.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -23,7 +24,8 @@ constexpr std::array kVectorNames{"position",
                                   "surface normal",
                                   "force"};
 constexpr std::array kScalarNames{
-    "time", "depth", "force", "temperature", "contact flag", "failed", "number of the sample"};
+    "time", "depth", "force", "temperature", "contact flag", "failed", "number of the sample",
+    "gap"};
 constexpr std::array kAxes{"x", "y", "z"};
 
 struct Told {
@@ -35,14 +37,15 @@ constexpr std::array kToldVectors{
     Told{"contact", VectorRole::kContact}, Told{"ball", VectorRole::kContactBall},
     Told{"u", VectorRole::kDisplacement},  Told{"n", VectorRole::kNormal},
     Told{"f", VectorRole::kForce}};
-constexpr std::array<std::pair<const char*, ScalarRole>, 7> kToldScalars{
+constexpr std::array<std::pair<const char*, ScalarRole>, 8> kToldScalars{
     {{"t", ScalarRole::kTime},
      {"depth", ScalarRole::kDepth},
      {"force", ScalarRole::kForce},
      {"temp", ScalarRole::kTemperature},
      {"contact", ScalarRole::kContactFlag},
      {"fail", ScalarRole::kFail},
-     {"sample", ScalarRole::kSample}}};
+     {"sample", ScalarRole::kSample},
+     {"gap", ScalarRole::kGap}}};
 
 UnitKind kind_of(VectorRole role) {
   if (role == VectorRole::kForce) return UnitKind::kForce;
@@ -63,9 +66,12 @@ class Recogniser {
     map_.meaning.assign(table.header.size(), "");
     for (std::size_t c = 0; c < table.header.size(); ++c) {
       names_.push_back(take_apart(table.header[c]));
-      if (names_[c].unit.kind == UnitKind::kNone && !table.unit[c].empty())
+      if (names_[c].unit.kind == UnitKind::kNone && !table.unit[c].empty()) {
         names_[c].unit = parse_unit(table.unit[c]);
+        names_[c].unknown = names_[c].unit.kind == UnitKind::kNone ? table.unit[c] : "";
+      }
       map_.unit.push_back(names_[c].unit);
+      map_.unknown.push_back(names_[c].unknown);
     }
     taken_.assign(table.header.size(), false);
   }
@@ -77,6 +83,11 @@ class Recogniser {
     find_plane();
     find_presses();
     find_scalars();
+    find_fraction();
+    if (!map_.has(ScalarRole::kDepth) && map_.has(ScalarRole::kGap)) {
+      map_.scalars[static_cast<std::size_t>(ScalarRole::kDepth)] = map_.find(ScalarRole::kGap);
+      map_.displacement_word = true;
+    }
     return map_;
   }
 
@@ -125,7 +136,7 @@ class Recogniser {
         }
     fail_usage("--column: '" + role + "' is no role",
                "use press t x y z tipx contactx ballx ux nx fx (also y, z) depth force temp "
-               "contact fail skip");
+               "contact fail sample gap skip");
   }
 
   void finish_told() {
@@ -177,7 +188,8 @@ class Recogniser {
     std::array<int, 3> place{-1, -1, -1};
     for (std::size_t c = 0; c < names_.size(); ++c)
       for (const Component& part : components(names_[c].words))
-        if (!taken_[c] && part.style == 'x' && vector_role(part.base) == VectorRole::kPlain &&
+        if (!taken_[c] && part.style == 'x' &&
+            (vector_role(part.base) == VectorRole::kPlain || is_word(part.base, Word::kStage)) &&
             place[static_cast<std::size_t>(part.axis)] < 0)
           place[static_cast<std::size_t>(part.axis)] = static_cast<int>(c);
     if (place[0] < 0 || place[1] < 0 || place[2] >= 0) return;
@@ -244,6 +256,23 @@ class Recogniser {
     }
     for (const int c : map_.scalars)
       if (c >= 0) taken_[static_cast<std::size_t>(c)] = true;
+  }
+
+  // "stamp.sec" and "stamp.nanosec": the second is what the first is short of.
+  void find_fraction() {
+    const int whole = map_.find(ScalarRole::kTime);
+    if (whole < 0) return;
+    const ColumnName& name = names_[static_cast<std::size_t>(whole)];
+    const auto is_fraction = [&](std::size_t c) {
+      return c != static_cast<std::size_t>(whole) && map_.meaning[c].empty() &&
+             names_[c].unit.kind == UnitKind::kTime && names_[c].unit.factor < name.unit.factor &&
+             names_[c].joined() == name.joined();
+    };
+    for (std::size_t c = 0; c < names_.size(); ++c)
+      if (name.unit.factor == 1 && is_fraction(c)) {
+        map_.time_fraction = static_cast<int>(c);
+        return take(static_cast<int>(c), "time, to be added");
+      }
   }
 
   const RawTable& table_;

@@ -1,4 +1,4 @@
-// What each column of a foreign table means: recognised by names, in English and German, or told.
+// What each column of a foreign table means: recognised by names in eight languages, or told.
 #pragma once
 
 #include <array>
@@ -24,14 +24,26 @@ enum class VectorRole {
   kCount
 };
 
-enum class ScalarRole { kTime, kDepth, kForce, kTemperature, kContactFlag, kFail, kSample, kCount };
+enum class ScalarRole {
+  kTime,
+  kDepth,
+  kForce,
+  kTemperature,
+  kContactFlag,
+  kFail,
+  kSample,
+  kGap,  // between the tools; where there is no depth it is that, counted the other way
+  kCount
+};
 
 struct ColumnMap {
   std::array<std::optional<std::array<int, 3>>, static_cast<std::size_t>(VectorRole::kCount)>
       vectors;
   std::array<int, static_cast<std::size_t>(ScalarRole::kCount)> scalars;  // -1: absent
+  int time_fraction = -1;            // what the time is short of: nanoseconds beside seconds
   std::vector<int> press;            // columns that together name a press
   std::vector<UnitName> unit;        // per column, of its name or of the row of units
+  std::vector<std::string> unknown;  // per column, what stands where its unit should and is none
   std::vector<std::string> meaning;  // per column, for people; "" when carried through
   bool displacement_word = false;  // the depth column is a machine's travel: its zero is arbitrary
 

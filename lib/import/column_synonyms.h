@@ -1,4 +1,4 @@
-// The words by which columns are recognised; names are folded and their words joined.
+// What a column's name means, by the table of words (import/header_words.h).
 #pragma once
 
 #include <string>

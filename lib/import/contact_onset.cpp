@@ -104,7 +104,7 @@ ContactOnset find_contact_onset(const std::vector<double>& travel,
   const double start = median({force.begin(), force.begin() + lead});
   const double top = *std::max_element(force.begin(), force.end());
   Approach a = approach_of(travel, force, start);
-  if (top - start <= std::max(6 * onset.noise, 1e-6)) return onset;
+  if (top - start <= std::max(6 * onset.noise, 1e-9 * std::abs(top))) return onset;
 
   // Window: all of the air, then up to 30 % of the force, at least four samples beyond that start.
   std::size_t end = a.f.size();

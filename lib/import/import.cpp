@@ -8,7 +8,9 @@
 #include "import/assemble.h"
 #include "import/column_name.h"
 #include "import/column_roles.h"
+#include "import/implausible.h"
 #include "import/press_track.h"
+#include "import/side_by_side.h"
 
 namespace hapsim {
 namespace {
@@ -27,6 +29,23 @@ std::vector<std::string> told_columns(const ImportOptions& options) {
     from = to + 1;
   }
   return told;
+}
+
+// Curves side by side below each other, unless it is told which columns are meant.
+RawTable curves_of(const RawTable& table, const ImportOptions& options) {
+  const bool told =
+      std::any_of(options.columns.begin(), options.columns.end(), [](const auto& text) {
+        return text.rfind("force=", 0) == 0 || text.rfind("depth=", 0) == 0;
+      });
+  return told ? table : unfold(table, options.specimen);
+}
+
+// What was in the table and had no part in the recording.
+void note_unused(const RawTable& table, const ColumnMap& map, Notes& notes) {
+  std::string all;
+  for (std::size_t c = 0; c < table.header.size(); ++c)
+    if (map.meaning[c].empty()) all += (all.empty() ? "" : ", ") + table.header[c];
+  if (!all.empty()) notes.facts.push_back("not used, carried through: " + all);
 }
 
 // Presses cut out of one recording follow each other without time to recover.
@@ -79,7 +98,8 @@ void drop_standing_time(Samples& samples, Notes& notes) {
 
 }  // namespace
 
-ImportResult import_recording(const RawTable& table, const ImportOptions& options) {
+ImportResult import_recording(const RawTable& given, const ImportOptions& options) {
+  const RawTable table = curves_of(given, options);
   ImportResult result;
   result.notes.facts = table.notes;
   const ColumnMap map = recognise_columns(table, told_columns(options));
@@ -101,19 +121,27 @@ ImportResult import_recording(const RawTable& table, const ImportOptions& option
   if (!plan.contact && !plan.tip && !options.at)
     result.notes.facts.push_back(
         "the table has no positions: contact at 0,0,0 (--at or --block say where)");
+  note_unused(table, map, result.notes);
+  if (!map.has(ScalarRole::kTime))
+    result.notes.warnings.push_back(
+        "no column is a time: the presses are quasi-static, and nothing that acts in time can be "
+        "told "
+        "(--column t=NAME)");
   assemble(table, map, samples, options, tracks, result);
+  check_plausible(result.recording, samples, options, result.notes);
   note_recovery(tracks, samples, result);
   return result;
 }
 
-std::string describe_columns(const RawTable& table, const ImportOptions& options) {
+std::string describe_columns(const RawTable& given, const ImportOptions& options) {
+  const RawTable table = curves_of(given, options);
   const ColumnMap map = recognise_columns(table, told_columns(options));
   std::string text = fmt::format("{:<28} {:<8} {}\n", "column", "unit", "taken for");
   for (std::size_t c = 0; c < table.header.size(); ++c) {
     const bool role = !map.meaning[c].empty();
     text += fmt::format("{:<28} {:<8} {}\n", table.header[c],
                         role && !map.unit[c].name.empty() ? map.unit[c].name : "",
-                        role ? map.meaning[c] : "(carried through)");
+                        role ? map.meaning[c] : "(not used, carried through)");
   }
   const auto miss = [&text](bool missing, const std::string& what) {
     if (missing) text += "missing: " + what + "\n";

@@ -23,7 +23,9 @@ struct ImportOptions {
   std::string tip = "auto";           // "surface", "centre" (of a ball)
   std::string force = "vector";       // "normal", "magnitude"
   std::string noise = "auto";         // "on", "off"
+  std::optional<Vec3> block;          // size of the body that is pressed [m]
   bool drop_air = false;
+  std::string specimen;        // of several side by side: its number from 1; "": all
   std::optional<double> rate;  // samples a second that are kept at most [Hz]
 };
 

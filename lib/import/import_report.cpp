@@ -31,7 +31,7 @@ std::vector<std::string> import_lines(const ImportResult& result) {
   if (!out.metadata.find("tool_radius"))
     line("WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius");
   line(fmt::format("{} at {}, {} ({} in the air), {}; depth up to {:.3g} mm, force up to {:.3g} N",
-                   counted(result.touched.size(), "press", "presses"),
+                   counted(out.presses().size(), "press", "presses"),
                    counted(places.size(), "position", "positions"),
                    counted(out.rows(), "sample", "samples"), air,
                    out.t.empty() ? "quasi-static" : "with time", 1e3 * depth, force));

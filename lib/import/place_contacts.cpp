@@ -100,6 +100,14 @@ void place_contacts(std::vector<PressTrack>& tracks, const TrackPlan& plan,
   std::vector<double> early, extrapolated;
   std::size_t untouched = 0;
   for (PressTrack& track : tracks) {
+    if (track.segment.sliding) {
+      const double some = 0.2 * largest(track.force);
+      const auto first = std::find_if(track.force.begin(), track.force.end(),
+                                      [some](double f) { return f >= some; });
+      set_zero(track, track.travel[static_cast<std::size_t>(first - track.force.begin())], true);
+      kept.push_back(std::move(track));
+      continue;
+    }
     const ContactOnset onset = find_contact_onset(track.travel, track.force);
     const double top = largest(track.force);
     const bool shared =

@@ -7,6 +7,7 @@
 
 #include "base/median.h"
 #include "import/contact_onset.h"
+#include "import/sliding.h"
 
 namespace hapsim {
 namespace {
@@ -23,6 +24,19 @@ double common_rise(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - ma) * (b[i] - mb);
   return sum;
+}
+
+// The same over the way to the force that differs most from the first: a long hold in which the
+// force relaxes says nothing of the direction.
+double loading_rise(std::vector<double> travel, std::vector<double> force) {
+  std::size_t way = 0;
+  for (std::size_t i = 0; i < force.size(); ++i)
+    if (std::abs(force[i] - force[0]) >= std::abs(force[way] - force[0])) way = i;
+  if (++way >= 5) {
+    travel.resize(way);
+    force.resize(way);
+  }
+  return common_rise(travel, force);
 }
 
 std::vector<double> force_sizes(const Samples& samples, const std::vector<int>& rows) {
@@ -77,7 +91,9 @@ class TrackMaker {
  private:
   void set_direction(PressTrack& track) const {
     const auto& rows = track.segment.rows;
-    if (plan_.has_normal)
+    if (track.segment.sliding)
+      track.outward = mean_force_direction(samples_, rows);
+    else if (plan_.has_normal)
       track.outward = mean_normal(samples_[VectorRole::kNormal], rows);
     else if (plan_.tip)
       track.outward = -path_direction(pick(*plan_.tip, rows), force_sizes(samples_, rows));
@@ -109,7 +125,8 @@ class TrackMaker {
   void turn_normals(std::vector<PressTrack>& tracks) {
     double rise = 0;
     for (const PressTrack& track : tracks)
-      rise += common_rise(track.travel, force_sizes(samples_, track.segment.rows));
+      if (!track.segment.sliding)
+        rise += loading_rise(track.travel, force_sizes(samples_, track.segment.rows));
     if (rise >= 0) return;
     if (plan_.method == TrackMethod::kDepth) {
       notes_.facts.push_back("the depth grows outward: its sign was changed");
@@ -193,12 +210,13 @@ class TrackMaker {
   double rise_of(const PressTrack& track) const {
     std::vector<double> force;
     for (const Vec3& f : track.f) force.push_back(f.dot(track.outward));
-    const double together = common_rise(track.travel, force);
+    const double together = loading_rise(track.travel, force);
     double sum = 0;
     for (const double f : force) sum += f;
+    if (track.segment.sliding) return sum;
     const double spread = *std::max_element(track.travel.begin(), track.travel.end()) -
                           *std::min_element(track.travel.begin(), track.travel.end());
-    return spread > 1e-6 ? together / spread : sum;
+    return spread > 1e-9 ? together / spread : sum;
   }
 
   const Samples& samples_;

@@ -4,19 +4,11 @@
 #include <array>
 #include <map>
 
-#include "import/text_decode.h"
+#include "import/fold.h"
+#include "import/number_style.h"
 #include "io/number.h"
 
 namespace hapsim {
-
-bool is_raw_number(std::string_view cell, bool comma) {
-  double value;
-  if (parse_number(cell, value)) return true;
-  if (!comma || std::count(cell.begin(), cell.end(), ',') != 1) return false;
-  std::string pointed(cell);
-  std::replace(pointed.begin(), pointed.end(), ',', '.');
-  return parse_number(pointed, value);
-}
 
 bool is_missing(std::string_view cell) {
   static constexpr std::array kWords{"",   "nan",  "-nan", "-",   "--",   "n/a",
@@ -58,7 +50,7 @@ char find_separator(const std::vector<std::string_view>& lines) {
       ++widths[cells.size()];
       for (const std::string& cell : cells) {
         filled += !cell.empty();
-        numbers += is_raw_number(cell, separator != ',' || line.find('"') != line.npos);
+        numbers += may_be_number(cell, separator != ',' || line.find('"') != line.npos);
       }
     }
     const auto most =

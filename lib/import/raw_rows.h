@@ -12,8 +12,6 @@ struct RawRow {
   std::vector<std::string> cells;
 };
 
-// A number with a decimal point, or with a decimal comma when `comma`.
-bool is_raw_number(std::string_view cell, bool comma);
 // How a missing number is written: empty, "nan", "-", "n/a", "null", "inf".
 bool is_missing(std::string_view cell);
 

@@ -17,9 +17,42 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-// "12:03:01.25" as seconds.
+// "2024-05-01" or "01.05.2024" as days since 1970 (Hinnant, "chrono-Compatible Low-Level Date
+// Algorithms", days_from_civil); false when it is no date.
+bool parse_date(std::string_view text, double& days) {
+  std::array<int, 3> part{};
+  std::size_t count = 0, digits = 0, first_digits = 0;
+  for (const char c : text) {
+    if (c >= '0' && c <= '9') {
+      part[count] = 10 * part[count] + (c - '0');
+      if (++digits > 4) return false;
+    } else if (std::string_view("-/.").find(c) != std::string_view::npos && digits > 0 &&
+               count < 2) {
+      if (count++ == 0) first_digits = digits;
+      digits = 0;
+    } else {
+      return false;
+    }
+  }
+  if (count != 2 || digits == 0) return false;
+  const bool year_first = first_digits == 4;
+  const int y0 = year_first ? part[0] : part[2], m = part[1], d = year_first ? part[2] : part[0];
+  const int y = y0 - (m <= 2), era = y / 400, of_era = y - 400 * era;
+  const int of_year = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
+  days = era * 146097.0 + of_era * 365 + of_era / 4 - of_era / 100 + of_year - 719468;
+  return true;
+}
+
+// "12:03:01.25" as seconds; a date may stand before it.
 bool parse_clock(std::string_view text, double& seconds) {
   seconds = 0;
+  if (const std::size_t gap = text.find_first_of(" T"); gap != text.npos) {
+    double days, rest;
+    if (!parse_date(text.substr(0, gap), days) || !parse_clock(text.substr(gap + 1), rest))
+      return false;
+    seconds = 86400 * days + rest;
+    return true;
+  }
   std::size_t parts = 0;
   for (std::string_view rest = text; parts < 3; ++parts) {
     const std::size_t colon = rest.find(':');
@@ -57,8 +90,11 @@ class Loader {
     for (std::size_t r = 0; r < samples.scalars.size(); ++r)
       if (map_.scalars[r] >= 0)
         samples.scalars[r] = load_scalar(static_cast<ScalarRole>(r), map_.scalars[r]);
+    add_fraction(samples);
     bad_.fail_if_any(table_.name);
     samples.block = table_.block;
+    samples.length_guessed = length_guessed_;
+    samples.force_guessed = force_guessed_;
     load_keys(samples);
     find_usable(samples);
     return samples;
@@ -79,9 +115,35 @@ class Loader {
     return values;
   }
 
+  void add_fraction(Samples& samples) {
+    if (map_.time_fraction < 0) return;
+    const auto c = static_cast<std::size_t>(map_.time_fraction);
+    const std::vector<double> fraction = raw(map_.time_fraction, true, false);
+    auto& t = samples.scalars[static_cast<std::size_t>(ScalarRole::kTime)];
+    for (std::size_t i = 0; i < t.size(); ++i) t[i] += map_.unit[c].factor * fraction[i];
+  }
+
+  // A unit that is written and not known must not be left unread.
+  void refuse_unknown(int c, const std::string& flag) const {
+    const std::string& unknown = map_.unknown[static_cast<std::size_t>(c)];
+    if (unknown.empty() || units_.trusted) return;
+    fail_input(table_.name,
+               "the unit " + shown(unknown) + " of column " +
+                   shown(table_.header[static_cast<std::size_t>(c)]) + " is not known",
+               "say it by " + flag + ", or --yes where it is none");
+  }
+
+  static double factor_of(const std::string& unit, UnitKind kind, Quantity quantity) {
+    const UnitName known = parse_unit(unit);
+    return known.kind == kind ? known.factor : unit_factor(quantity, unit);
+  }
+
   // Without a unit: a press is not a quarter of a metre deep, and a body not 1.5 m long.
-  double guess_length(const std::string& what, const Range& range, bool travel) {
-    if (!units_.length.empty()) return unit_factor(Quantity::kLength, units_.length);
+  double guess_length(int c, const std::string& what, const Range& range, bool travel) {
+    if (!units_.length.empty())
+      return factor_of(units_.length, UnitKind::kLength, Quantity::kLength);
+    refuse_unknown(c, "--unit");
+    length_guessed_ = true;
     const bool millimetres =
         travel ? range.width() > 0.25 : range.width() > 1.5 || range.largest() > 10;
     if (millimetres)
@@ -94,8 +156,10 @@ class Loader {
     return millimetres ? 1e-3 : 1;
   }
 
-  double force_factor(const std::string& what) {
-    if (!units_.force.empty()) return unit_factor(Quantity::kForce, units_.force);
+  double force_factor(int c, const std::string& what) {
+    if (!units_.force.empty()) return factor_of(units_.force, UnitKind::kForce, Quantity::kForce);
+    refuse_unknown(c, "--force-unit");
+    force_guessed_ = true;
     notes_.facts.push_back("the " + what + " has no unit: taken for N");
     return 1;
   }
@@ -120,10 +184,11 @@ class Loader {
     }
     double factor = 1;
     if (role == VectorRole::kForce)
-      factor = named ? named->factor : force_factor(role_name(role));
+      factor = named ? named->factor : force_factor(columns[0], role_name(role));
     else if (role != VectorRole::kNormal)
       factor = named ? named->factor
-                     : guess_length(role_name(role), range, role == VectorRole::kDisplacement);
+                     : guess_length(columns[0], role_name(role), range,
+                                    role == VectorRole::kDisplacement);
     std::vector<Vec3> vectors(table_.rows());
     for (std::size_t i = 0; i < vectors.size(); ++i)
       for (std::size_t axis = 0; axis < 3; ++axis)
@@ -132,8 +197,9 @@ class Loader {
     return vectors;
   }
 
-  double time_factor(const Range& range) {
-    if (!units_.time.empty()) return unit_factor(Quantity::kTime, units_.time);
+  double time_factor(int c, const Range& range) {
+    if (!units_.time.empty()) return factor_of(units_.time, UnitKind::kTime, Quantity::kTime);
+    refuse_unknown(c, "--time-unit");
     // A clock since 1970 counts seconds up to 1e10, and a thousand times more with each finer unit.
     double factor = 1;
     const char* unit = "s";
@@ -163,16 +229,18 @@ class Loader {
     double factor = 1;
     const bool named = unit.kind != UnitKind::kNone && unit.kind != UnitKind::kOther;
     if (role == ScalarRole::kTime) {
-      factor = named ? unit.factor : time_factor(range);
+      factor = named ? unit.factor : time_factor(c, range);
       // Clocks since 1970 leave few digits for the time within a press.
       if (range.largest() * factor > 1e6)
         for (double& value : values) value -= range.low;
-    } else if (role == ScalarRole::kDepth) {
-      factor = named ? unit.factor : needed ? guess_length(role_name(role), range, true) : 1;
+    } else if (role == ScalarRole::kDepth || role == ScalarRole::kGap) {
+      factor = named ? unit.factor : needed ? guess_length(c, role_name(role), range, true) : 1;
     } else if (role == ScalarRole::kForce) {
-      factor = named ? unit.factor : needed ? force_factor(role_name(role)) : 1;
+      factor = named ? unit.factor : needed ? force_factor(c, role_name(role)) : 1;
     }
-    for (double& value : values) value *= factor;
+    const double offset = role == ScalarRole::kTemperature && named ? unit.offset : 0;
+    if (role == ScalarRole::kTemperature && named) factor = unit.factor;
+    for (double& value : values) value = factor * value + offset;
     return values;
   }
 
@@ -218,6 +286,7 @@ class Loader {
   Notes& notes_;
   BadCells bad_;
   std::vector<bool> needed_;
+  bool length_guessed_ = false, force_guessed_ = false;
 };
 
 }  // namespace

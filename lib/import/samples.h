@@ -18,6 +18,7 @@ struct Notes {
 
 struct UnitChoice {
   std::string length, force, time;  // for columns whose unit is not named; "" asks for a guess
+  bool trusted = false;             // go on where a unit or a size is doubtful
 };
 
 // A row's number as an index.
@@ -31,6 +32,7 @@ struct Samples {
   std::array<std::vector<double>, static_cast<std::size_t>(ScalarRole::kCount)> scalars;
   std::vector<std::string> key;  // what names the press; empty when nothing does
   std::vector<int> block;
+  bool length_guessed = false, force_guessed = false;  // of some column nothing named the unit
   std::vector<int> usable;  // rows with all numbers that are needed, in the order of the file
 
   const std::vector<Vec3>& operator[](VectorRole role) const {

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/median.h"
 #include "import/contact_onset.h"
+#include "import/sliding.h"
 
 namespace hapsim {
 namespace {
@@ -230,16 +231,28 @@ std::vector<Segment> find_segments(const Samples& samples, const std::string& by
     if (by.empty()) groups = by_place(samples, std::move(groups));
     if (by.empty()) groups = by_depth(samples, groups);
   }
-  if (by == "jump" || (by.empty() && !named)) groups = by_jump(samples, groups);
+  const auto* tip = by.empty() ? moving_tip(samples) : nullptr;
+  const bool sliding =
+      tip && still_contact(samples) == nullptr &&
+      std::count_if(groups.begin(), groups.end(),
+                    [&](const Rows& rows) { return slides(*tip, samples, rows); }) *
+              2 >
+          static_cast<std::ptrdiff_t>(groups.size());
+  if (by == "jump" || (by.empty() && !named && !sliding)) groups = by_jump(samples, groups);
   put_in_order(samples, groups, file, notes);
+  if (sliding)
+    notes.warnings.push_back(
+        "the tool slides over the surface while it presses: no presses are cut out of it "
+        "(--split-by force "
+        "does); its touched points are a scan (--scan)");
 
   // A cut by force leaves the presses in one continuous recording.
   std::vector<Segment> segments;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const bool force =
-        by == "force" || (by.empty() && !named && !samples[ScalarRole::kTime].empty());
+        by == "force" || (by.empty() && !named && !sliding && !samples[ScalarRole::kTime].empty());
     for (Rows& rows : force ? by_force(samples, {groups[g]}) : Groups{groups[g]})
-      segments.push_back({std::move(rows), static_cast<int>(g)});
+      segments.push_back({std::move(rows), static_cast<int>(g), sliding});
   }
   return segments;
 }

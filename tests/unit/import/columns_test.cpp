@@ -7,7 +7,7 @@
 #include "import/column_name.h"
 #include "import/column_synonyms.h"
 #include "import/raw_rows.h"
-#include "import/text_decode.h"
+#include "import/fold.h"
 #include "synthetic.h"
 
 namespace hapsim::test {
