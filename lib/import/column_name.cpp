@@ -43,7 +43,7 @@ std::vector<std::string> words_of(std::string_view text) {
 
 // What looks like a unit: one short word with a letter that no other word of headers is.
 bool looks_like_unit(std::string_view bracketed) {
-  const std::vector<std::string> words = words_of(bracketed);
+  const std::vector<std::string> words = words_of(fold(bracketed));
   if (words.size() != 1 || words[0].size() > 10) return false;
   return std::none_of(words[0].begin(), words[0].end(),
                       [](unsigned char c) { return std::isdigit(c); }) &&
@@ -130,7 +130,8 @@ std::string ColumnName::joined() const {
 ColumnName take_apart(std::string_view text) {
   ColumnName name;
   std::string rest(trim(plain(text)));
-  while (!rest.empty() && (rest.back() == ':' || rest.back() == ' ')) rest.pop_back();
+  while (!rest.empty() && std::string_view(": '").find(rest.back()) != std::string_view::npos)
+    rest.pop_back();  // a prime tells equal names apart
   name.unit = take_unit(rest, name.unknown);
   if (name.unit.kind == UnitKind::kNone) name.unit = take_last_word(rest);
   if (name.unit.kind == UnitKind::kNone) name.unit = take_glued(rest);

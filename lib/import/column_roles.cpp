@@ -1,6 +1,7 @@
 #include "import/column_roles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "base/error.h"
@@ -204,7 +205,9 @@ class Recogniser {
     for (std::size_t c = 0; c < names_.size(); ++c) {
       if (taken_[c]) continue;
       const PressWord word = press_word(names_[c].joined());
-      if (word == PressWord::kNo || !names_episodes(table_.columns[c])) continue;
+      if (word == PressWord::kNo || !names_episodes(table_.columns[c]) ||
+          (word == PressWord::kPerhaps && !counts(c)))
+        continue;
       (word == PressWord::kYes     ? map_.press
        : word == PressWord::kGroup ? groups
                                    : perhaps)
@@ -221,6 +224,16 @@ class Recogniser {
         }))
       map_.press.clear();
     for (const int c : map_.press) take(c, "press");
+  }
+
+  // Whole numbers without a unit, or names: a "position" with decimals is a length.
+  bool counts(std::size_t c) const {
+    const auto& cells = table_.columns[c];
+    return names_[c].unit.kind != UnitKind::kLength &&
+           std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
+             double value;
+             return !parse_number(cell, value) || value == std::floor(value);
+           });
   }
 
   // Text in the first filled cells is no quantity, whatever its name. (A clock has digits, too.)

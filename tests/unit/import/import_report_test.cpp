@@ -16,7 +16,7 @@ ImportResult imported() {
   Recording& r = result.recording;
   r.name = "raw.csv";
   for (int i = 0; i < 3; ++i) {
-    r.press.push_back(1);
+    r.press.push_back(i == 2 ? 2 : 1);
     r.position.emplace_back(0, 0, 0.04);
     r.u.emplace_back(0, 0, i == 0 ? 0.05 : -0.002 * i);  // the first row in the air, far above
     r.f.emplace_back(0, 0, 0.5 * i);
