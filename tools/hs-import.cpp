@@ -18,7 +18,7 @@ namespace hapsim {
 namespace flag {
 inline constexpr TextFlag unit{"--unit"}, force_unit{"--force-unit"}, time_unit{"--time-unit"},
     split_by{"--split-by"}, direction{"--direction"}, column{"--column"}, names{"--names"},
-    encoding{"--encoding"}, specimen{"--specimen"};
+    encoding{"--encoding"}, specimen{"--specimen"}, part{"--part"};
 inline constexpr ChoiceFlag contact{"--contact"}, tip{"--tip"}, force{"--force"},
     estimate_noise{"--estimate-noise"}, tool{"--tool"}, decimal{"--decimal"};
 inline constexpr SwitchFlag list{"--list"}, drop_air{"--drop-air"}, yes{"--yes"};
@@ -69,6 +69,10 @@ std::vector<Option> options() {
        .repeatable = true},
       text("Columns", flag::encoding, "NAME",
            "Encoding of a text, where it is not found rightly: " + encodings() + "."),
+      text("Columns", flag::part, "NAME",
+           "Of a MATLAB or HDF5 file that holds several tables: the struct, group or variable that "
+           "is "
+           "read."),
       choice("Columns", flag::decimal,
              "What stands before decimals, where the table does not show it.", "auto",
              {"auto", "point", "comma"}),
@@ -156,7 +160,7 @@ ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-import";
   spec.summary = "convert recordings of other machines and robots";
-  spec.input = "table as text, in any encoding; LabVIEW .lvm";
+  spec.input = "table as text, in any encoding; LabVIEW .lvm, MATLAB (5, 7.3), HDF5";
   spec.description = {
       "Columns are recognised by name, in English, German, French, Spanish, Italian, Portuguese, "
       "Chinese and Japanese, whatever their case and punctuation: "
@@ -183,6 +187,11 @@ ToolSpec specification() {
       "(below 100 Pa, above 10 GPa) implausible, are refused with the factor that would mend them; "
       "--yes "
       "goes on.",
+      "Of MATLAB and HDF5 files arrays of one length are columns, three columns x, y and z, an "
+      "array of "
+      "structs a recording each; what stands alone in a struct is repeated. An attribute units of "
+      "a dataset "
+      "names its unit.",
       "Where the table holds the centre of the tool's ball at first contact and the contact point, "
       "their "
       "distance is the ball's radius: tool: sphere and tool_radius are written, and another "
@@ -285,6 +294,7 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
 TableOptions table_options(const Arguments& arguments) {
   TableOptions options;
   options.names = arguments.list(flag::names);
+  if (arguments.given(flag::part)) options.part = arguments[flag::part];
   if (arguments.given(flag::encoding)) options.encoding = arguments[flag::encoding];
   const std::string decimal = arguments[flag::decimal];
   if (decimal != "auto") options.decimal = decimal;

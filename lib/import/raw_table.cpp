@@ -19,7 +19,7 @@ void RawTable::set_header(const std::vector<std::string>& names) {
 }
 
 const std::vector<const Container*>& all_containers() {
-  static const std::vector<const Container*> all{&kLvmFile, &kTextFile};
+  static const std::vector<const Container*> all{&kMatlabFile, &kHdf5File, &kLvmFile, &kTextFile};
   return all;
 }
 

@@ -27,8 +27,12 @@ DecodedText decode_text(const std::string& bytes, const std::string& encoding,
   };
   if (starts("PK\x03\x04") || starts("\xD0\xCF\x11\xE0"))
     fail_input(name, "this looks like a spreadsheet or zip file", "export the sheet as CSV");
-  if (starts("MATLAB 5.0"))
-    fail_input(name, "this is a MATLAB file", "export it as CSV; share/examples/import shows how");
+  if (starts("MATLAB"))
+    fail_input(name, "this is a MATLAB file of a version that is not known",
+               "save it by save FILE -v7");
+  if (starts("#ROSBAG"))
+    fail_input(name, "this is a bag of ROS",
+               "write its topics as CSV: rostopic echo -b BAG -p TOPIC");
   if (starts("TDSm"))
     fail_input(name, "this is a TDMS file of LabVIEW, which no library of Debian reads",
                "write it as .lvm or CSV");

@@ -26,6 +26,7 @@ CLI/: cli
 boost/math/: estimate
 sqlite3\.h: io
 pugixml\.hpp: containers
+matio\.h|hdf5\.h: import
 "
 
 breach() { # FILE LINE TEXT
