@@ -136,6 +136,11 @@ ColumnName take_apart(std::string_view text) {
   if (name.unit.kind == UnitKind::kNone) name.unit = take_last_word(rest);
   if (name.unit.kind == UnitKind::kNone) name.unit = take_glued(rest);
   if (name.unit.kind != UnitKind::kNone) name.unknown.clear();
+  // Nobody presses with meganewtons: it is mN in capitals, or not known.
+  if (name.unit.kind == UnitKind::kForce && name.unit.factor == 1e6) {
+    name.unknown = name.unit.name;
+    name.unit = {};
+  }
   name.words = words_of(rest);
   return name;
 }

@@ -44,8 +44,9 @@ std::vector<TextLine> lines_of(std::string_view text, std::vector<TextLine>& com
 }
 
 std::size_t count_numbers(const RawRow& row) {
-  return static_cast<std::size_t>(std::count_if(
-      row.cells.begin(), row.cells.end(), [](const auto& cell) { return may_be_number(cell); }));
+  return static_cast<std::size_t>(
+      std::count_if(row.cells.begin(), row.cells.end(),
+                    [](const auto& cell) { return may_be_number(cell) || may_be_moment(cell); }));
 }
 
 bool is_data(const RawRow& row, std::size_t width) {

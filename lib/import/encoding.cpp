@@ -172,8 +172,9 @@ DecodedText decode(const std::string& bytes, const std::string& told, const std:
   int most = -1;
   // The first of equals: by how the letters stand where no word is known.
   const bool pairs = in_pairs(bytes);
-  for (const char* candidate : pairs ? std::array{"GB18030", "Shift-JIS", "Windows-1252"}
-                                     : std::array{"Windows-1252", "GB18030", "Shift-JIS"}) {
+  for (const char* candidate :
+       pairs ? std::array{"GB18030", "Shift-JIS", "Big5", "EUC-JP", "Windows-1252"}
+             : std::array{"Windows-1252", "GB18030", "Shift-JIS", "Big5", "EUC-JP"}) {
     const auto text = convert(bytes, named(candidate));
     if (!text) continue;
     const int known = known_words(*text);

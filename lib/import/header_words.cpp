@@ -110,7 +110,7 @@ const HeaderWord kWords[] = {
     {"en", W::kForce, kPart, "standardforce", 2},   {"de", W::kForce, kPart, "standardkraft", 3},
     {"de", W::kForce, kPart, "pruefkraft", 4},      {"en", W::kForce, kPart, "force", 5},
     {"de", W::kForce, kPart, "kraft", 6},           {"en", W::kForce, kPart, "load", 7},
-    {"en", W::kForce, kPart, "fmag", 8},            {"de", W::kForce, kPart, "normalkraft", 0},
+    {"en", W::kForce, kPart, "fmag", 8}, {"-", W::kForce, kWhole, "fz", 9},            {"de", W::kForce, kPart, "normalkraft", 0},
     {"fr", W::kForce, kPart, "forcestandard", 2},   {"fr", W::kForce, kPart, "effort", 5},
     {"fr", W::kForce, kWhole, "charge", 1},         {"es", W::kForce, kPart, "fuerza", 5},
     {"es", W::kForce, kWhole, "fuerza", 1},         {"es", W::kForce, kWhole, "carga", 1},

@@ -85,6 +85,18 @@ bool may_be_number(std::string_view cell, bool commas) {
   return marks_of(body_of(cell, nullptr, nullptr)).number;
 }
 
+bool may_be_moment(std::string_view cell) {
+  cell = trim(cell);
+  if (cell.size() < 5 || !is_digit(cell[0])) return false;
+  std::size_t marks = 0;
+  for (const char c : cell) {
+    marks += std::string_view(":/-").find(c) != std::string_view::npos;
+    if (!is_digit(c) && std::string_view(":/-., TZ").find(c) == std::string_view::npos)
+      return false;
+  }
+  return marks >= 2 || (marks == 1 && cell.find(':') != cell.npos);
+}
+
 std::string plain_number(std::string_view cell, const NumberStyle& style) {
   double value;
   const bool point = style.decimal == '.' || cell.find_first_of(".,") == cell.npos;

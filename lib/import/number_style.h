@@ -16,6 +16,9 @@ struct NumberStyle {
 // need a comma are none (the comma separates cells).
 bool may_be_number(std::string_view cell, bool commas = true);
 
+// A date or a time of day: "2024-05-01", "12:03:01.25", both.
+bool may_be_moment(std::string_view cell);
+
 // The cell with a decimal point and nothing between thousands, minus signs and spaces made plain;
 // the cell as it is where it is no number of that style.
 std::string plain_number(std::string_view cell, const NumberStyle& style);

@@ -50,7 +50,8 @@ char find_separator(const std::vector<std::string_view>& lines) {
       ++widths[cells.size()];
       for (const std::string& cell : cells) {
         filled += !cell.empty();
-        numbers += may_be_number(cell, separator != ',' || line.find('"') != line.npos);
+        numbers += may_be_moment(cell) ||
+                   may_be_number(cell, separator != ',' || line.find('"') != line.npos);
       }
     }
     const auto most =

@@ -64,7 +64,7 @@ class Unfolder {
     // "f1, f2, f3, d1, d2, d3" are vectors: theirs stand together, those of specimens take turns.
     const bool turns = travels.size() == forces.size() && take_turns(forces, travels);
     if (travels.size() != forces.size() || (forces.size() == 3 && !turns)) {
-      if (travels.size() == 3 || forces.size() == 3) return only();
+      if (travels.size() == 3 || (forces.size() == 3 && has_other_vector())) return only();
       fail_input(table_.name,
                  shown(table_.header[forces[0]]) + " and " + shown(table_.header[forces[1]]) +
                      " may both be the force, of " + std::to_string(travels.size()) + " travels",
@@ -91,6 +91,13 @@ class Unfolder {
       best = columns_.at(names_[c].key);
     }
     return best;
+  }
+
+  // Three columns of one name that are neither forces nor travels: normals, places.
+  bool has_other_vector() const {
+    return std::any_of(columns_.begin(), columns_.end(), [this](const auto& named) {
+      return named.second.size() == 3 && names_[named.second[0]].match.role == ScalarRole::kCount;
+    });
   }
 
   static bool take_turns(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {

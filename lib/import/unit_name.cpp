@@ -16,9 +16,10 @@ struct Prefix {
 };
 
 // Symbols: their case matters.
-constexpr std::array kPrefixes{
-    Prefix{"", 1},     Prefix{"p", 1e-12}, Prefix{"n", 1e-9}, Prefix{"u", 1e-6}, Prefix{"m", 1e-3},
-    Prefix{"c", 1e-2}, Prefix{"d", 1e-1},  Prefix{"k", 1e3},  Prefix{"M", 1e6},  Prefix{"G", 1e9}};
+constexpr std::array kPrefixes{Prefix{"", 1},     Prefix{"p", 1e-12}, Prefix{"n", 1e-9},
+                               Prefix{"u", 1e-6}, Prefix{"m", 1e-3},  Prefix{"c", 1e-2},
+                               Prefix{"d", 1e-1}, Prefix{"da", 10},   Prefix{"k", 1e3},
+                               Prefix{"M", 1e6},  Prefix{"G", 1e9}};
 // Names, folded.
 constexpr std::array kPrefixNames{
     Prefix{"", 1},          Prefix{"pico", 1e-12}, Prefix{"nano", 1e-9},     Prefix{"micro", 1e-6},

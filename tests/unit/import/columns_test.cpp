@@ -6,8 +6,8 @@
 #include "import/block.h"
 #include "import/column_name.h"
 #include "import/column_synonyms.h"
-#include "import/raw_rows.h"
 #include "import/fold.h"
+#include "import/raw_rows.h"
 #include "synthetic.h"
 
 namespace hapsim::test {
@@ -23,6 +23,22 @@ TEST(ImportColumns, UnitsInNames) {
   EXPECT_EQ(unit("Tiefe [µm]"), "um");
   EXPECT_EQ(unit("depth"), "");
   EXPECT_EQ(take_apart("ContactPoint_x [mm]").joined(), "contactpointx");
+}
+
+TEST(ImportColumns, PrefixesAndCaseOfUnits) {
+  const auto factor = [](const char* name) { return take_apart(name).unit.factor; };
+  EXPECT_DOUBLE_EQ(factor("Extend Force(nN)"), 1e-9);
+  EXPECT_DOUBLE_EQ(factor("Pd (µm)"), 1e-6);
+  EXPECT_DOUBLE_EQ(factor("荷重（ｍＮ）"), 1e-3);
+  EXPECT_DOUBLE_EQ(factor("Effort (daN)"), 10);
+  EXPECT_DOUBLE_EQ(factor("LOAD(KN)"), 1e3);
+  EXPECT_DOUBLE_EQ(factor("载荷 (毫牛)"), 1e-3);
+  EXPECT_DOUBLE_EQ(factor("distance_mm"), 1e-3);
+  EXPECT_EQ(take_apart("Moment (Nm)").unit.kind, UnitKind::kOther);
+  EXPECT_EQ(take_apart("Travel (nm)").unit.kind, UnitKind::kLength);
+  EXPECT_EQ(take_apart("LOAD (MN)").unknown, "MN");
+  EXPECT_EQ(take_apart("Force (raw)").unknown, "");
+  EXPECT_DOUBLE_EQ(take_apart("Temp (K)").unit.offset, -273.15);
 }
 
 TEST(ImportColumns, ScalarNames) {
