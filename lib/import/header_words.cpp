@@ -127,7 +127,7 @@ const HeaderWord kWords[] = {
     {"en", W::kNoForce, kPart, "tare", 0},          {"en", W::kNoForce, kPart, "noise", 0},
     {"en", W::kNoForce, kPart, "contactforce", 0},  {"fr", W::kNoForce, kPart, "precharge", 0},
     {"es", W::kNoForce, kPart, "precarga", 0},      {"it", W::kNoForce, kPart, "precarico", 0},
-    {"zh", W::kNoForce, kPart, "预载", 0},          {"en", W::kNoForce, kPart, "friction", 1},
+    {"zh", W::kNoForce, kPart, "预载", 0},          {"en", W::kNoForce, kPart, "frict", 1},
     {"en", W::kNoForce, kPart, "lateral", 1},
 
     // temperature
