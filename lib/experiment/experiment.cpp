@@ -44,6 +44,7 @@ Experiment make_experiment(const TetMesh& body, Recording recording,
 Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
                            const ExperimentOptions& options) {
   require_small_displacements(bodies, dataset);
+  const PressDepth depth = press_depth(bodies, dataset);
   ContactLibraryOptions library;
   library.threads = options.threads;
   library.cache = options.cache;
@@ -79,6 +80,7 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
           places,
           noise,
           shape,
+          depth,
           floor,
           doubted_floor};
 }

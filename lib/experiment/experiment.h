@@ -9,6 +9,7 @@
 
 #include "experiment/dataset.h"
 #include "experiment/places.h"
+#include "experiment/press_depth.h"
 #include "experiment/shape_error.h"
 #include "model/model.h"
 #include "recording/force_noise.h"
@@ -27,6 +28,7 @@ struct Experiment {
   Places places;
   Noise noise;
   ShapeError shape;
+  PressDepth depth;
   double floor = 0;          // Allowance::floor, as the meshes and the shape let expect it
   double doubted_floor = 0;  // the same, if distances of points from the surface are none of a
                              // move's
@@ -50,8 +52,8 @@ struct ExperimentOptions {
 constexpr double kLeastFloor = 0.01;
 
 // Reads nothing; prepares (or finds in the cache) the stiffness at each position of the recording.
-// Error(kBadInput), with the recording's name: displacements beyond the size of the body, a contact
-// off its surface or on what is bonded.
+// Error(kBadInput), with the recording's name: displacements beyond the size of the body or through
+// it, a contact off its surface or on what is bonded.
 Experiment make_experiment(const TetMesh& body, Recording recording,
                            const ExperimentOptions& options);
 // Of several bodies or tools: Setup::body of the dataset numbers `bodies`.

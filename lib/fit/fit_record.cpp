@@ -13,6 +13,7 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   for (const char* key : {"heldout", "until", "heldout_later"}) model.metadata.remove(key);
   model.metadata.set("rmse", format_number(fitted.error.told()));
   model.metadata.set("force_noise", format_number(w.noise.value));
+  model.metadata.set("depth", format_number(w.depth.depth));
   if (w.dataset.tools() > 1)
     model.metadata.remove("tool_radius");
   else
