@@ -167,7 +167,7 @@ void steps(const Named& body, const Model& model, bool slides) {
     const Vec3 f = loop.step(t, tool);
     histogram.add(monotonic_ns() - start);
     work += f.z();
-    touching += loop.state().tool.touching() ? 1 : 0;
+    touching += loop.tool().touching() ? 1 : 0;
   }
   fmt::print(
       "{:<8} {:>5} {:>8} {:>5.0f} % {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>10.1f}   {:.3g}\n",

@@ -73,6 +73,7 @@ int main() {
     item("Taken for", joined(card.confounders));
     item("To tell them apart", card.separated_by);
     item("Includes", joined(card.contains));
+    item("Live", card.live);
   }
   std::printf(".SH SEE ALSO\nhs\\-identify(1), hs\\-diagnose(1)\n");
   return 0;

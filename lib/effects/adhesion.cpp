@@ -1,6 +1,7 @@
 // The body holds on to the tool.
 #include <algorithm>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -10,6 +11,38 @@ namespace {
 struct Hold {
   double m = 0, dm_dd = 0;  // how much of the leaving has been mobilised, 0 to 1
   Eigen::RowVectorXd dm;    // by the parameters, through the motion
+};
+
+// m after a way `step` of the height.
+double mobilised(double m, double step, double d) {
+  return std::clamp(m + step / d, 0.0, 1.0);
+}
+
+// Remembers whether it is touched, m, and the last height.
+class AdhesionStep : public EffectStep {
+ public:
+  AdhesionStep(double F, double d, double a) : F_(F), d_(d), a_(a) {}
+  std::size_t memory() const override { return 3; }
+  double reach() const override { return F_ > 0 ? d_ : 0; }
+  void take_place(const StepPlace& place) noexcept override { normal_ = place.normal; }
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    double &touched = memory[0], &m = memory[1], &before = memory[2];
+    const double h = sample.u.dot(normal_);
+    if (sample.first || sample.in_air || h >= d_) touched = 0;
+    if (touched == 0) {
+      touched = !sample.in_air && h < 0 ? 1 : 0;
+      m = 0;
+    } else {
+      m = mobilised(m, h - before, d_);
+    }
+    before = h;
+    if (touched == 0) return;
+    f -= F_ * (a_ + (1 - a_) * m) * (h > 0 ? 1 - h / d_ : 1) * normal_;
+  }
+
+ private:
+  double F_, d_, a_;
+  Vec3 normal_ = Vec3::UnitZ();
 };
 
 class Adhesion : public Effect {
@@ -84,6 +117,12 @@ class Adhesion : public Effect {
       signal.df.middleRows(row, 3) -=
           F.value * n * ((1 - a.value) * near * hold.dm + share * dnear_dh * dh);
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    return std::make_unique<AdhesionStep>(find_value(values, "F").value,
+                                          find_value(values, "d").value,
+                                          find_value(values, "a").value);
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {

@@ -1,10 +1,45 @@
 // Play in the drive that moves the tool.
 #include <algorithm>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
+
+// e of the sample after one with `e`, for a drive at s.
+double taken_up(double e, double s, double g) {
+  return std::min(std::max(e, s), s + g);
+}
+
+// Remembers e, the deepest displacement of the press and its direction. Whatever is deeper than all
+// before it has taken the gap up, so that e needs no turning when the direction changes.
+class BacklashStep : public EffectStep {
+ public:
+  explicit BacklashStep(double g) : g_(g) {}
+  std::size_t memory() const override { return 5; }
+  void take_place(const StepPlace& place) noexcept override { normal_ = place.normal; }
+  void move(StepSample& sample, double* memory) noexcept override {
+    double &e = memory[0], &deepest = memory[1];
+    Eigen::Map<Vec3> d(memory + 2);
+    if (sample.first) {
+      deepest = 0;
+      d = -normal_;
+    }
+    const double depth = sample.recorded.norm();
+    if (depth > deepest && sample.recorded.dot(normal_) <= 0 && !sample.in_air) {
+      deepest = depth;
+      d = sample.recorded / depth;
+    }
+    const double s = sample.u.dot(d);
+    e = sample.first ? s : taken_up(e, s, g_);
+    sample.u += (e - s) * d;
+  }
+
+ private:
+  double g_;
+  Vec3 normal_ = Vec3::UnitZ();
+};
 
 class Backlash : public Effect {
  public:
@@ -26,7 +61,11 @@ class Backlash : public Effect {
         .confounders = {"adhesion", "softening", "viscoelastic"},
         .separated_by =
             "a press in steps that reverse at several depths, slowly, with the tip's own motion "
-            "measured"};
+            "measured",
+        .looks_ahead = true,
+        .live =
+            "the direction of a press is known when it is over; sample by sample d is that of the "
+            "deepest displacement so far, which is the same as long as it goes straight"};
     return card;
   }
 
@@ -53,6 +92,10 @@ class Backlash : public Effect {
       motion.u[i] += (e - s) * d;
       if (wanted) motion.du.middleRows(row, 3) += d * (de - ds);
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    return std::make_unique<BacklashStep>(find_value(values, "g").value);
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {

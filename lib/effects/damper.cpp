@@ -2,10 +2,31 @@
 #include <algorithm>
 #include <limits>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
+
+// Remembers the last sample: force, displacement, whether it was in the air.
+class DamperStep : public EffectStep {
+ public:
+  DamperStep(double c, double tau) : c_(c), tau_(tau) {}
+  std::size_t memory() const override { return 7; }
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    Eigen::Map<Vec3> f_before(memory), u_before(memory + 3);
+    double& was_in_air = memory[6];
+    const Vec3 f_now = f;
+    if (!sample.first && sample.dt > 0 && !sample.in_air && was_in_air == 0)
+      f += tau_ * (f_now - f_before) / sample.dt - c_ * (sample.u - u_before) / sample.dt;
+    f_before = f_now;
+    u_before = sample.u;
+    was_in_air = sample.in_air ? 1 : 0;
+  }
+
+ private:
+  double c_, tau_;
+};
 
 class Damper : public Effect {
  public:
@@ -53,6 +74,11 @@ class Damper : public Effect {
         signal.df.middleRows(row, 3) -=
             c.value / dt * (press.du.middleRows(row, 3) - press.du.middleRows(row - 3, 3));
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    return std::make_unique<DamperStep>(find_value(values, "c").value,
+                                        find_value(values, "tau").value);
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {

@@ -2,12 +2,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
 
 constexpr double kSoft = 0.2;  // the edge spreads over this share of the threshold to each side
+
+// f = sign above S; slope: of S by size/d.
+struct Reading {
+  double size = 0, sign = 1, S = 0, slope = 0, above = 0;
+};
+Reading reading(double f, double d, double k) {
+  const double size = std::abs(f);
+  const double t = std::clamp((size / d - 1 + kSoft) / (2 * kSoft), 0.0, 1.0);
+  return {size, f < 0 ? -1.0 : 1.0, t * t * (3 - 2 * t), 3 * t * (1 - t) / kSoft, size - k * d};
+}
 
 class Deadband : public Effect {
  public:
@@ -37,10 +48,7 @@ class Deadband : public Effect {
     const ParameterValue& k = find_value(values, "k");
     if (d.value <= 0) return;
     for (Eigen::Index row = 0; row < 3 * static_cast<Eigen::Index>(press.size()); ++row) {
-      const double size = std::abs(signal.f[row]), sign = signal.f[row] < 0 ? -1 : 1;
-      const double t = std::clamp((size / d.value - 1 + kSoft) / (2 * kSoft), 0.0, 1.0);
-      const double S = t * t * (3 - 2 * t), slope = 3 * t * (1 - t) / kSoft;  // by size/d
-      const double above = size - k.value * d.value;
+      const auto [size, sign, S, slope, above] = reading(signal.f[row], d.value, k.value);
       signal.f[row] = sign * above * S;
       if (signal.df.cols() == 0) continue;
       signal.df.row(row) *= S + above * slope / d.value;
@@ -49,6 +57,17 @@ class Deadband : public Effect {
             sign * (-k.value * S - above * slope * size / (d.value * d.value));
       if (k.column >= 0) signal.df(row, k.column) -= sign * d.value * S;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    const double d = find_value(values, "d").value, k = find_value(values, "k").value;
+    if (d <= 0) return nullptr;
+    return map_step([d, k](const StepSample&, Vec3& f) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const Reading r = reading(f[axis], d, k);
+        f[axis] = r.sign * r.above * r.S;
+      }
+    });
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {

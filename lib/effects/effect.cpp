@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "effects/effect_step.h"
+
 namespace hapsim {
 
 void Motion::make_du() {
@@ -26,12 +28,16 @@ std::string Effect::implausible(const Values&, const std::vector<Vec3>&) const {
   return "";
 }
 
-bool Effect::live(const Values&, double, std::vector<MaxwellTerm>&) const {
+std::unique_ptr<EffectStep> Effect::step(const Values&, const StepContext&) const {
+  return nullptr;
+}
+
+bool Effect::relaxation(const Values&, double, std::vector<MaxwellTerm>&) const {
   return false;
 }
 
 bool Effect::full(const Values& values, double modulus, FullSpec& spec) const {
-  return card().solved || live(values, modulus, spec.terms);
+  return card().solved || relaxation(values, modulus, spec.terms);
 }
 
 std::vector<std::vector<double>> Effect::starts(const DataSummary&, int terms) const {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +66,10 @@ struct EffectCard {
   std::vector<std::string> confounders;
   std::string separated_by;           // the measurement that tells it from them
   std::vector<std::string> contains;  // effects that this one includes as a special case
+  bool looks_ahead = false;  // asks for what comes later in the press: its step takes what has come
+  // Where its step (Effect::step) is not what a whole press would have: why, and what it does
+  // instead. "": sample by sample it is the same.
+  std::string live;
 };
 
 // A parameter's value as the model hands it to an effect. `column` is its column in the derivative
@@ -181,6 +186,9 @@ struct FullSpec {
   double friction = std::numeric_limits<double>::infinity();  // infinite: what touches sticks
 };
 
+class EffectStep;
+struct StepContext;
+
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -193,14 +201,18 @@ class Effect {
   // Other effects: changes the force and carries all columns of the derivative through; adds its
   // own.
   virtual void apply(const PressView& press, const Values& values, Signal& signal) const;
-  // The effect as a loop at a fixed rate takes it, sample by sample: what it needs beyond the
-  // material (describe()), for the modulus of region 0 [Pa]. False: it has no such form.
-  virtual bool live(const Values& values, double modulus, std::vector<MaxwellTerm>& terms) const;
+  // move() and apply() without derivatives, sample by sample (effects/effect_step.h). Null: all
+  // that it does is in the material.
+  virtual std::unique_ptr<EffectStep> step(const Values& values, const StepContext& context) const;
+  // The effect as a linear body with Maxwell elements: what it has of these beyond the material
+  // (describe()), for the modulus of region 0 [Pa]. False: it has no such form.
+  virtual bool relaxation(const Values& values, double modulus,
+                          std::vector<MaxwellTerm>& terms) const;
   // Why fitted values are not what the effect is meant for, given the points that were pressed;
   // "" when they are.
   virtual std::string implausible(const Values& values, const std::vector<Vec3>& pressed) const;
   // The effect as the full simulation solves it, beyond the material. Default: what describes the
-  // body alone, or has a live() form. False: it has no such form.
+  // body alone, or has a relaxation() form. False: it has no such form.
   virtual bool full(const Values& values, double modulus, FullSpec& spec) const;
   // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
   // card's.

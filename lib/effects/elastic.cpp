@@ -28,7 +28,7 @@ class Elastic : public Effect {
         .separated_by = "a calibration weight: a common gain of the force sensor looks like E"};
     return card;
   }
-  bool live(const Values&, double, std::vector<MaxwellTerm>&) const override { return true; }
+  bool relaxation(const Values&, double, std::vector<MaxwellTerm>&) const override { return true; }
   void describe(const Values& values, MaterialSpec& material) const override {
     for (const ParameterValue& v : values) {
       if (v.name == "nu") {

@@ -1,12 +1,51 @@
 // The tool slides when the tangential force exceeds what friction can carry.
 #include <algorithm>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
 
 constexpr double kRough = 1e3;  // a friction coefficient from which on nothing slips
+
+// The tangential force of a trial one; g: what slip has taken from it so far.
+struct Return {
+  double along = 0, pressure = 0, length = 0, bound = 0;
+  bool slips = false;
+  Vec3 trial = Vec3::Zero(), tangential = Vec3::Zero();
+};
+Return radial_return(const Vec3& f, const Vec3& n, double mu, const Vec3& g) {
+  Return r;
+  r.along = f.dot(n);
+  r.pressure = std::max(0.0, r.along);
+  r.trial = (Eigen::Matrix3d::Identity() - n * n.transpose()) * f + g;
+  r.length = r.trial.norm();
+  r.bound = mu * r.pressure;
+  r.slips = r.length > r.bound;
+  r.tangential = r.slips ? Vec3(r.bound / r.length * r.trial) : r.trial;
+  return r;
+}
+
+// Remembers g.
+class FrictionStep : public EffectStep {
+ public:
+  explicit FrictionStep(double mu) : mu_(mu) {}
+  std::size_t memory() const override { return 3; }
+  void take_place(const StepPlace& place) noexcept override { normal_ = place.normal; }
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    Eigen::Map<Vec3> g(memory);
+    if (sample.first || sample.in_air) g.setZero();
+    if (sample.in_air) return;
+    const Return r = radial_return(f, normal_, mu_, g);
+    g = r.tangential - (f - r.along * normal_);
+    f = r.along * normal_ + r.tangential;
+  }
+
+ private:
+  double mu_;
+  Vec3 normal_ = Vec3::UnitZ();
+};
 
 class Friction : public Effect {
  public:
@@ -48,14 +87,9 @@ class Friction : public Effect {
         continue;
       }
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
-      const Eigen::Vector3d f = signal.f.segment<3>(row);
-      const double along = f.dot(n);
-      const double pressure = std::max(0.0, along);
-      const Eigen::Vector3d trial = across * f + g;
-      const double length = trial.norm(), bound = mu.value * pressure;
-      const bool slips = length > bound;
-      const Eigen::Vector3d tangential = slips ? Eigen::Vector3d(bound / length * trial) : trial;
-      g = tangential - across * f;
+      const auto [along, pressure, length, bound, slips, trial, tangential] =
+          radial_return(signal.f.segment<3>(row), n, mu.value, g);
+      g = tangential - across * signal.f.segment<3>(row);
       signal.f.segment<3>(row) = along * n + tangential;
       if (columns == 0) continue;
       const Eigen::MatrixXd df = signal.df.middleRows(row, 3);
@@ -69,6 +103,12 @@ class Friction : public Effect {
       dg = dt - across * df;
       signal.df.middleRows(row, 3) = n * (n.transpose() * df) + dt;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    const double mu = find_value(values, "mu").value;
+    if (mu >= kRough) return nullptr;
+    return std::make_unique<FrictionStep>(mu);
   }
 
   bool full(const Values& values, double, FullSpec& spec) const override {

@@ -1,7 +1,9 @@
 // Finite strain and stiffening of the material under the tool, from one energy.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 #include "effects/local_contact.h"
 
@@ -73,6 +75,39 @@ struct Law {
   }
 };
 
+// Remembers the way of the last sample, x - u.
+class HyperelasticStep : public EffectStep {
+ public:
+  HyperelasticStep(double s, double finite, double radius) : law_{s, finite, 0, 0, radius, {}} {}
+  std::size_t memory() const override { return 3; }
+  void take_place(const StepPlace& place) noexcept override {
+    stiffness_ = place.contact;
+    contact_.emplace(stiffness_, place.normal, law_.a, true);
+    law_.k_n = contact_->disc().normal;
+    law_.k_t = contact_->disc().tangential;
+    law_.n = place.normal;
+  }
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    Eigen::Map<Vec3> way(memory);
+    if (sample.first) way.setZero();
+    if (sample.in_air || !contact_) return;
+    Vec3 x = sample.u + way;
+    LocalForce force;
+    // Where nothing is found, as the last sample found it.
+    if (!contact_->find([this](const Vec3& at) { return law_.at(at); }, sample.u, x, force)) {
+      x = sample.u + way;
+      force = law_.at(x);
+    }
+    way = x - sample.u;
+    f += stiffness_.K * sample.u - force.F;
+  }
+
+ private:
+  Law law_;
+  ContactStiffness stiffness_;
+  std::optional<LocalContact> contact_;  // of stiffness_
+};
+
 class Hyperelastic : public Effect {
  public:
   const EffectCard& card() const override {
@@ -111,7 +146,7 @@ class Hyperelastic : public Effect {
     const ParameterValue& finite = find_value(values, "finite");
     const bool identity = s.value == 0 && finite.value == 0;
     if (identity && s.column < 0 && finite.column < 0) return;
-    const LocalContact contact(press, true);
+    const LocalContact contact(press.contact, press.normal, press.radius, true);
     const Law law{s.value,      finite.value, contact.disc().normal, contact.disc().tangential,
                   press.radius, press.normal};
     const Eigen::Matrix3d& K = press.contact.K;
@@ -142,6 +177,13 @@ class Hyperelastic : public Effect {
       if (du.cols() > 0) df += K * du;
       for (const auto& [column, dK] : press.contact.by_column) df.col(column) += dK * u;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values,
+                                   const StepContext& context) const override {
+    const double s = find_value(values, "s").value, finite = find_value(values, "finite").value;
+    if (s == 0 && finite == 0) return nullptr;
+    return std::make_unique<HyperelasticStep>(s, finite, context.tool_radius);
   }
 
   // The energy that the law was fitted to. Without `finite` the elements have no such form.

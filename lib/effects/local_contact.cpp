@@ -28,10 +28,11 @@ DiscStiffness bonded_disc(double modulus, double nu, double radius) {
   return disc;
 }
 
-LocalContact::LocalContact(const PressView& press, bool stiff)
-    : contact_(press.contact),
-      normal_(press.normal),
-      disc_(bonded_disc(contact_.modulus, contact_.nu, press.radius)),
+LocalContact::LocalContact(const ContactStiffness& contact, const Vec3& normal, double radius,
+                           bool stiff)
+    : contact_(contact),
+      normal_(normal),
+      disc_(bonded_disc(contact_.modulus, contact_.nu, radius)),
       along_(normal_ * normal_.transpose()),
       across_(Eigen::Matrix3d::Identity() - along_) {
   if (stiff) {
@@ -50,29 +51,7 @@ LocalContact::LocalContact(const PressView& press, bool stiff)
   rest_ = Eigen::Matrix3d::Identity() - contact_.K * C_;
 }
 
-LocalForce LocalContact::solve(const LocalLaw& law, const Vec3& u, Vec3& x) const {
-  constexpr int kMost = 100;
-  const Eigen::Matrix3d& K = contact_.K;
-  const double scale = std::max(u.norm(), 1e-12);
-  LocalForce force = law(x);
-  Vec3 residual = K * (x - u) + rest_ * force.F;
-  for (int k = 0; k < kMost; ++k) {
-    Vec3 step = (K + rest_ * force.tangent).partialPivLu().solve(-residual);
-    // Halved while the residual grows: laws have corners where the contact opens or closes.
-    const double before = residual.norm();
-    Vec3 next = x + step;
-    force = law(next);
-    residual = K * (next - u) + rest_ * force.F;
-    for (int halvings = 0; residual.norm() > before && step.norm() > 1e-11 * scale && halvings < 30;
-         ++halvings) {
-      step /= 2;
-      next = x + step;
-      force = law(next);
-      residual = K * (next - u) + rest_ * force.F;
-    }
-    x = next;
-    if (step.norm() <= 1e-11 * scale) return force;
-  }
+void LocalContact::no_equilibrium() {
   fail_numerics("contact law", "no equilibrium is found under the tool",
                 "give the parameters of tip and hyperelastic less extreme values or bounds");
 }

@@ -1,7 +1,8 @@
 // A law of what happens under the tool, in series with the rest of the body.
 #pragma once
 
-#include <functional>
+#include <Eigen/LU>
+#include <algorithm>
 
 #include "effects/effect.h"
 
@@ -21,7 +22,6 @@ struct LocalForce {
   Vec3 F = Vec3::Zero();
   Eigen::Matrix3d tangent = Eigen::Matrix3d::Zero();
 };
-using LocalLaw = std::function<LocalForce(const Vec3& x)>;
 
 // The tool's way u is that into the material under it, x, and what the body gives way far from it:
 //   u = x + (K^-1 - C) F(x),
@@ -33,11 +33,21 @@ class LocalContact {
  public:
   // `stiff`: a body that is stiffer than the half-space (a thin one, on its support) by more than a
   // tenth has a stiffer disc, so that laws that stiffen find an equilibrium there too.
-  explicit LocalContact(const PressView& press, bool stiff = false);
+  // `contact` outlives it; `normal` outward, the tool's radius [m].
+  LocalContact(const ContactStiffness& contact, const Vec3& normal, double radius,
+               bool stiff = false);
 
-  // x for a tool at u; `x` holds the start. Error(kNoConvergence) when Newton's method fails, which
-  // no convex law lets it.
-  LocalForce solve(const LocalLaw& law, const Vec3& u, Vec3& x) const;
+  // x for a tool at u and the force of the law there, a LocalForce law(x); `x` holds the start.
+  // False: Newton's method fails, which no convex law lets it. Allocates and throws nothing.
+  template <class Law>
+  bool find(const Law& law, const Vec3& u, Vec3& x, LocalForce& force) const noexcept;
+  // The same; Error(kNoConvergence) instead of false.
+  template <class Law>
+  LocalForce solve(const Law& law, const Vec3& u, Vec3& x) const {
+    LocalForce force;
+    if (!find(law, u, x, force)) no_equilibrium();
+    return force;
+  }
 
   // Derivatives by the columns, given those of the motion (no columns: none) and those of F at
   // fixed x by all but the motion.
@@ -56,6 +66,7 @@ class LocalContact {
   Eigen::MatrixXd disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF) const;
 
  private:
+  [[noreturn]] static void no_equilibrium();
   Eigen::RowVectorXd by_columns(double of_half_space, double by_nu, Eigen::Index columns) const;
 
   const ContactStiffness& contact_;
@@ -65,5 +76,32 @@ class LocalContact {
   Vec3 way_ = Vec3::Zero();                    // in which the body is stiffest, of unit energy
   Eigen::Matrix3d along_, across_, C_, rest_;  // projections; rest: 1 - K C
 };
+
+template <class Law>
+bool LocalContact::find(const Law& law, const Vec3& u, Vec3& x, LocalForce& force) const noexcept {
+  constexpr int kMost = 100;
+  const Eigen::Matrix3d& K = contact_.K;
+  const double scale = std::max(u.norm(), 1e-12);
+  force = law(x);
+  Vec3 residual = K * (x - u) + rest_ * force.F;
+  for (int k = 0; k < kMost; ++k) {
+    Vec3 step = (K + rest_ * force.tangent).partialPivLu().solve(-residual);
+    // Halved while the residual grows: laws have corners where the contact opens or closes.
+    const double before = residual.norm();
+    Vec3 next = x + step;
+    force = law(next);
+    residual = K * (next - u) + rest_ * force.F;
+    for (int halvings = 0; residual.norm() > before && step.norm() > 1e-11 * scale && halvings < 30;
+         ++halvings) {
+      step /= 2;
+      next = x + step;
+      force = law(next);
+      residual = K * (next - u) + rest_ * force.F;
+    }
+    x = next;
+    if (step.norm() <= 1e-11 * scale) return true;
+  }
+  return false;
+}
 
 }  // namespace hapsim

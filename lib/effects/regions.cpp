@@ -42,7 +42,7 @@ class Regions : public Effect {
         .separated_by = "new positions between the pressed ones, and a tool of another radius"};
     return card;
   }
-  bool live(const Values&, double, std::vector<MaxwellTerm>&) const override { return true; }
+  bool relaxation(const Values&, double, std::vector<MaxwellTerm>&) const override { return true; }
   void describe(const Values& values, MaterialSpec& material) const override {
     std::map<std::pair<int, std::string>, Vec3> points;  // by region and number, in file order
     for (const ParameterValue& v : values) {

@@ -1,4 +1,5 @@
 // A constant offset of the force sensor.
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -32,6 +33,12 @@ class SensorBias : public Effect {
         if (b.column >= 0 && signal.df.cols() > 0) signal.df(row, b.column) += 1;
       }
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    Vec3 b;
+    for (int k = 0; k < 3; ++k) b[k] = find_value(values, card().parameters[k].name).value;
+    return map_step([b](const StepSample&, Vec3& f) { f += b; });
   }
 };
 

@@ -1,10 +1,16 @@
 // A force sensor whose reading is not proportional to the force.
+#include <array>
 #include <cmath>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
+
+double bend(double second, double third, double f) {
+  return second * std::abs(f) * f + third * f * f * f;
+}
 
 class SensorCurve : public Effect {
  public:
@@ -38,13 +44,21 @@ class SensorCurve : public Effect {
       for (std::size_t i = 0; i < press.size(); ++i) {
         const Eigen::Index row = 3 * static_cast<Eigen::Index>(i) + k;
         const double f = signal.f[row], size = std::abs(f);
-        signal.f[row] += second.value * size * f + third.value * f * f * f;
+        signal.f[row] += bend(second.value, third.value, f);
         if (signal.df.cols() == 0) continue;
         signal.df.row(row) *= 1 + 2 * second.value * size + 3 * third.value * f * f;
         if (second.column >= 0) signal.df(row, second.column) += size * f;
         if (third.column >= 0) signal.df(row, third.column) += f * f * f;
       }
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    std::array<double, 4> c;
+    for (std::size_t k = 0; k < 4; ++k) c[k] = find_value(values, card().parameters[k].name).value;
+    return map_step([c](const StepSample&, Vec3& f) {
+      for (int k = 0; k < 3; ++k) f[k] += k == 2 ? bend(c[0], c[1], f[k]) : bend(c[2], c[3], f[k]);
+    });
   }
 };
 

@@ -1,4 +1,5 @@
 // An offset of the force sensor that grows with the time of the session.
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -41,6 +42,15 @@ class SensorDrift : public Effect {
         if (r.column >= 0) signal.df(row, r.column) += t;
       }
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    Vec3 b, r;
+    for (int k = 0; k < 3; ++k) {
+      b[k] = find_value(values, card().parameters[k].name).value;
+      r[k] = find_value(values, card().parameters[k + 3].name).value;
+    }
+    return map_step([b, r](const StepSample& sample, Vec3& f) { f += b + r * sample.session; });
   }
 };
 

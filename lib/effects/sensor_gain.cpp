@@ -1,4 +1,5 @@
 // Axes of the force sensor with different gains.
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -37,6 +38,15 @@ class SensorGain : public Effect {
         if (g.column >= 0) signal.df(row, g.column) += f;
       }
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    const double gx = find_value(values, card().parameters[0].name).value;
+    const double gy = find_value(values, card().parameters[1].name).value;
+    return map_step([gx, gy](const StepSample&, Vec3& f) {
+      f.x() *= gx;
+      f.y() *= gy;
+    });
   }
 };
 

@@ -3,11 +3,80 @@
 #include <cmath>
 #include <limits>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 #include "material/maxwell_memory.h"
 
 namespace hapsim {
 namespace {
+
+// The force a dead time ago, straight between samples: remembers the first force of the press and
+// those since then.
+class DeadTime {
+ public:
+  explicit DeadTime(double delay) : delay_(delay) {}
+  std::size_t memory() const { return delay_ > 0 ? 5 + 4 * kMost : 0; }
+  void apply(const StepSample& sample, double* memory, Vec3& f) const noexcept {
+    if (delay_ <= 0) return;
+    double &head = memory[0], &count = memory[1];
+    Eigen::Map<Vec3> first(memory + 2);
+    double* ring = memory + 5;
+    if (sample.first) {
+      head = count = 0;
+      first = f;
+    }
+    if (count == static_cast<double>(kMost)) drop(head, count);
+    double* now = entry(ring, head + count);
+    now[0] = sample.t;
+    Eigen::Map<Vec3>(now + 1) = f;
+    ++count;
+    if (sample.first) return;
+    const double t = sample.t - delay_;
+    if (t <= 0) {
+      f = first;
+      return;
+    }
+    while (count > 2 && entry(ring, head + 1)[0] < t) drop(head, count);
+    const double *before = entry(ring, head), *after = entry(ring, head + 1);
+    const double w = std::max(0.0, (t - before[0]) / (after[0] - before[0]));
+    f = (1 - w) * Eigen::Map<const Vec3>(before + 1) + w * Eigen::Map<const Vec3>(after + 1);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 16384;
+  static double* entry(double* ring, double at) {
+    return ring + 4 * (static_cast<std::size_t>(at) % kMost);
+  }
+  static void drop(double& head, double& count) {
+    head = head + 1 < static_cast<double>(kMost) ? head + 1 : 0;
+    --count;
+  }
+  double delay_;
+};
+
+// Remembers the delayed force, what the filter has not let through of it, and the dead time's.
+class SensorLagStep : public EffectStep {
+ public:
+  SensorLagStep(double tau, double delay) : tau_(tau), dead_time_(delay) {}
+  std::size_t memory() const override { return 6 + dead_time_.memory(); }
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    Eigen::Map<Vec3> h(memory), before(memory + 3);
+    dead_time_.apply(sample, memory + 6, f);
+    const Vec3 now = f;
+    if (sample.first) {
+      h.setZero();
+    } else if (tau_ > 0) {
+      const MemoryStep s = memory_step(sample.dt, tau_);
+      h = s.a * h + s.c * (now - before);
+      f -= h;
+    }
+    before = now;
+  }
+
+ private:
+  double tau_;
+  DeadTime dead_time_;
+};
 
 class SensorLag : public Effect {
  public:
@@ -27,7 +96,8 @@ class SensorLag : public Effect {
         .needs_time = true,
         .signature = "too soft an instant after each change of speed, right at rest",
         .confounders = {"damper", "viscoelastic"},
-        .separated_by = "a fast press where the stiffness differs"};
+        .separated_by = "a fast press where the stiffness differs",
+        .live = "a delay of more than 16,384 samples is one of so many"};
     return card;
   }
 
@@ -51,6 +121,11 @@ class SensorLag : public Effect {
       signal.df.middleRows(3 * i, 3) -= dh;
       if (tau.column >= 0) signal.df.block<3, 1>(3 * i, tau.column) -= dh_dtau;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    return std::make_unique<SensorLagStep>(find_value(values, "tau").value,
+                                           find_value(values, "delay").value);
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {

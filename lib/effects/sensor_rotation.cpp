@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -69,6 +70,12 @@ class SensorRotation : public Effect {
       for (int k = 0; k < 3; ++k)
         if (r[k]->column >= 0) signal.df.block<3, 1>(3 * i, r[k]->column) += slope.col(k);
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    Eigen::Vector3d w;
+    for (int k = 0; k < 3; ++k) w[k] = find_value(values, card().parameters[k].name).value;
+    return map_step([R = turn_by(w).R](const StepSample&, Vec3& f) { f = (R * f).eval(); });
   }
 };
 

@@ -1,8 +1,22 @@
 // The body cannot pull a tool that is not bonded to it.
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
+
+class SlackStep : public EffectStep {
+ public:
+  explicit SlackStep(double enabled) : enabled_(enabled) {}
+  void take_place(const StepPlace& place) noexcept override { normal_ = place.normal; }
+  void apply(const StepSample&, double*, Vec3& f) noexcept override {
+    if (f.dot(normal_) < 0) f *= 1 - enabled_;
+  }
+
+ private:
+  double enabled_;
+  Vec3 normal_ = Vec3::UnitZ();
+};
 
 class Slack : public Effect {
  public:
@@ -33,6 +47,10 @@ class Slack : public Effect {
       signal.df.middleRows(row, 3) *= 1 - enabled.value;
       if (enabled.column >= 0) signal.df.block<3, 1>(row, enabled.column) -= f;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    return std::make_unique<SlackStep>(find_value(values, "enabled").value);
   }
 };
 

@@ -1,12 +1,85 @@
 // Stress softening and ageing: the first press to a depth is stiffer than those after it, or each
 // press is softer than those before.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
 namespace {
+
+// What is lost at depth q, over s.
+struct Loss {
+  double x = 0, power = 0, now = 0, fade = 0, before = 0, share = 0;
+};
+Loss loss(double q, double most, double past, double m, double c, double k) {
+  Loss l;
+  l.x = q / most;
+  l.power = std::pow(l.x, m);
+  l.now = 1 - l.power;
+  l.fade = q > past && past > 0 ? std::log(past / q) : 0;
+  l.before = past > 0 ? std::exp(k * l.fade) : 0;
+  l.share = (1 - c) * l.before + c * l.now;
+  return l;
+}
+
+// Remembers the places and how deep each was pressed; of this press its place, the deepest before
+// it, the deepest so far and when it began.
+class SofteningStep : public EffectStep {
+ public:
+  SofteningStep(double s, double m, double c, double k, double rate, bool heals)
+      : s_(s), m_(m), c_(c), k_(k), rate_(rate), heals_(heals) {}
+  std::size_t memory() const override { return 6 + 4 * kMostPlaces; }
+  void take_place(const StepPlace& place) noexcept override {
+    point_ = place.point;
+    normal_ = place.normal;
+  }
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    double &known = memory[0], &next = memory[1], &here = memory[2];
+    double &past = memory[3], &most = memory[4], &fresh = memory[5];
+    double* places = memory + 6;
+    if (sample.first) {
+      here = place(known, next, places);
+      past = heals_ ? 0 : deepest(places, here);
+      most = past;
+      fresh = std::exp(-rate_ * sample.session);
+    }
+    f *= fresh;
+    const double recorded = sample.recorded.norm();
+    if (!sample.in_air && sample.recorded.dot(normal_) <= 0)
+      deepest(places, here) = std::max(deepest(places, here), recorded);
+    const double q = sample.u.norm();
+    if (sample.in_air || q <= 0 || sample.u.dot(normal_) > 0) return;
+    most = std::max(most, q);
+    f *= 1 - s_ * loss(q, most, past, m_, c_, k_).share;
+  }
+
+ private:
+  static constexpr std::size_t kMostPlaces = 1024;
+  static constexpr double kSame = 1e-4;  // as kSamePlace of recordings [m]
+
+  static double& deepest(double* places, double here) {
+    return places[4 * static_cast<std::size_t>(here) + 3];
+  }
+  // The number of this place, in stead of the oldest one if it is new.
+  double place(double& known, double& next, double* places) const {
+    for (std::size_t p = 0; p < static_cast<std::size_t>(known); ++p)
+      if ((Eigen::Map<const Vec3>(places + 4 * p) - point_).norm() <= kSame)
+        return static_cast<double>(p);
+    const double here = next;
+    Eigen::Map<Vec3>(places + 4 * static_cast<std::size_t>(here)) = point_;
+    deepest(places, here) = 0;
+    known = std::max(known, here + 1);
+    next = here + 1 < static_cast<double>(kMostPlaces) ? here + 1 : 0;
+    return here;
+  }
+
+  double s_, m_, c_, k_, rate_;
+  bool heals_;
+  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::UnitZ();
+};
 
 class Softening : public Effect {
  public:
@@ -52,7 +125,8 @@ class Softening : public Effect {
         .confounders = {"viscoelastic", "temperature", "sensor-drift", "backlash", "adhesion"},
         .separated_by =
             "the same place pressed three times to one depth, then deeper, all at one speed; the "
-            "first place pressed again at the end, and the temperature recorded"};
+            "first place pressed again at the end, and the temperature recorded",
+        .live = "it remembers the last 1,024 places: what was pressed before them is fresh again"};
     return card;
   }
 
@@ -80,10 +154,8 @@ class Softening : public Effect {
         most = q;
         dmost = dq;
       }
-      const double x = q / most, power = std::pow(x, m.value), now = 1 - power;
-      const double fade = q > past && past > 0 ? std::log(past / q) : 0;
-      const double before = past > 0 ? std::exp(k.value * fade) : 0;
-      const double share = (1 - c.value) * before + c.value * now;
+      const auto [x, power, now, fade, before, share] =
+          loss(q, most, past, m.value, c.value, k.value);
       const Eigen::Vector3d f = signal.f.segment<3>(row);
       signal.f.segment<3>(row) *= 1 - s.value * share;
       if (signal.df.cols() == 0) continue;
@@ -99,6 +171,13 @@ class Softening : public Effect {
       if (q > past) dshare -= (1 - c.value) * k.value * before / q * dq;
       signal.df.middleRows(row, 3) -= s.value * f * dshare;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values,
+                                   const StepContext& context) const override {
+    const auto value = [&](const char* name) { return find_value(values, name).value; };
+    return std::make_unique<SofteningStep>(value("s"), value("m"), value("c"), value("k"),
+                                           value("rate"), context.heals);
   }
 
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {

@@ -1,7 +1,10 @@
 // An offset of the force sensor that is another one in every press.
 #include <array>
+#include <map>
 #include <string>
+#include <utility>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -44,6 +47,18 @@ class Tare : public Effect {
           if (b.column >= 0 && signal.df.cols() > 0) signal.df(3 * i + k, b.column) += 1;
         }
       }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    std::map<int, Vec3> offset;  // by press
+    for (const ParameterValue& b : values) {
+      const int number = std::stoi(b.name.substr(2));
+      offset.try_emplace(number, Vec3::Zero()).first->second[b.name[1] - 'x'] += b.value;
+    }
+    return map_step([offset = std::move(offset)](const StepSample& sample, Vec3& f) {
+      const auto found = offset.find(sample.number);
+      if (found != offset.end()) f += found->second;
+    });
   }
 };
 

@@ -1,6 +1,7 @@
 // A body that is softer when it is warm.
 #include <cmath>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -45,6 +46,14 @@ class Temperature : public Effect {
       if (beta.column >= 0) signal.df.block<3, 1>(row, beta.column) -= warmth * f;
       if (reference.column >= 0) signal.df.block<3, 1>(row, reference.column) += beta.value * f;
     }
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    const double beta = find_value(values, "beta").value;
+    const double reference = find_value(values, "T_ref").value;
+    return map_step([beta, reference](const StepSample& sample, Vec3& f) {
+      if (!std::isnan(sample.temperature)) f *= std::exp(-beta * (sample.temperature - reference));
+    });
   }
 
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {

@@ -2,11 +2,38 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/effect_step.h"
 #include "effects/effects.h"
 #include "material/maxwell_memory.h"
 
 namespace hapsim {
 namespace {
+
+// Remembers the force that drives the elements, then what each has of it.
+class ViscoelasticStep : public EffectStep {
+ public:
+  explicit ViscoelasticStep(std::vector<MaxwellTerm> terms) : terms_(std::move(terms)) {}
+  std::size_t memory() const override { return 3 + 3 * terms_.size(); }
+
+  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
+    Eigen::Map<Vec3> before(memory);
+    const Vec3 driver = f;
+    for (std::size_t k = 0; k < terms_.size(); ++k) {
+      Eigen::Map<Vec3> h(memory + 3 * (k + 1));
+      if (sample.first) {
+        h = driver;  // relaxed until now, then a jump
+      } else {
+        const MemoryStep s = memory_step(sample.dt, sample.times * terms_[k].tau);
+        h = s.a * h + s.c * (driver - before);
+      }
+      f += sample.moduli * terms_[k].share * h;
+    }
+    before = driver;
+  }
+
+ private:
+  std::vector<MaxwellTerm> terms_;
+};
 
 class Viscoelastic : public Effect {
  public:
@@ -65,7 +92,15 @@ class Viscoelastic : public Effect {
     }
   }
 
-  bool live(const Values& values, double modulus, std::vector<MaxwellTerm>& terms) const override {
+  std::unique_ptr<EffectStep> step(const Values& values,
+                                   const StepContext& context) const override {
+    std::vector<MaxwellTerm> terms;
+    relaxation(values, context.modulus, terms);
+    return std::make_unique<ViscoelasticStep>(std::move(terms));
+  }
+
+  bool relaxation(const Values& values, double modulus,
+                  std::vector<MaxwellTerm>& terms) const override {
     for (std::size_t k = 0; k + 1 < values.size(); k += 2)
       terms.push_back({values[k].value / modulus, values[k + 1].value});
     return true;

@@ -31,11 +31,6 @@ ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& mate
   return contact;
 }
 
-bool relaxes(const EffectInstance& instance) {
-  std::vector<MaxwellTerm> terms;
-  return instance.effect->live(instance.values, 1, terms) && !terms.empty();
-}
-
 void release_in_air(const PressView& view, Signal& signal) {
   for (std::size_t i = 0; i < view.size(); ++i) {
     if (!view.in_air[i]) continue;
@@ -116,6 +111,11 @@ std::vector<EffectInstance> effect_instances(const Model& model, bool derivative
     if (!instance.values.empty()) result.push_back(std::move(instance));
   }
   return result;
+}
+
+bool relaxes(const EffectInstance& instance) {
+  std::vector<MaxwellTerm> terms;
+  return instance.effect->relaxation(instance.values, 1, terms) && !terms.empty();
 }
 
 MaterialSpec material_of(const Model& model) {

@@ -25,6 +25,8 @@ struct EffectInstance {
   Values values;
 };
 std::vector<EffectInstance> effect_instances(const Model& model, bool derivatives);
+// It has Maxwell elements.
+bool relaxes(const EffectInstance& instance);
 
 // Episodes to evaluate, in this order; their rows follow one another in all stacked vectors.
 using Selection = std::vector<int>;

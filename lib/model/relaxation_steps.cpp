@@ -17,11 +17,11 @@ Values values_of(const Model& model, const Effect& effect, int region) {
   return values;
 }
 
-// Its Maxwell elements in a region (-1: all rows together) for that modulus; false: it has no form
-// for a loop.
+// Its Maxwell elements in a region (-1: all rows together) for that modulus; false: it has no such
+// form.
 bool terms_of(const Model& model, const Effect& effect, int region, double modulus,
               std::vector<MaxwellTerm>& terms) {
-  return effect.live(values_of(model, effect, region), modulus, terms);
+  return effect.relaxation(values_of(model, effect, region), modulus, terms);
 }
 
 // The largest region that an effect with Maxwell elements has rows of.
@@ -59,21 +59,27 @@ std::vector<RegionRelaxation> regional_relaxation_of(const Model& model,
   return relaxed ? std::vector<RegionRelaxation>{} : regions;
 }
 
-ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
-                              const std::string& asked) {
+ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material) {
   ModelRelaxation relaxation;
   relaxation.regional = regional_relaxation_of(model, material);
+  if (last_region(model) > 0) return relaxation;
   for (const Effect* effect : catalogue()) {
-    if (values_of(model, *effect, -1).empty()) continue;
     std::vector<MaxwellTerm> terms;
-    if (!terms_of(model, *effect, -1, material.modulus[0], terms))
+    if (!values_of(model, *effect, -1).empty())
+      terms_of(model, *effect, -1, material.modulus[0], terms);
+    relaxation.common.insert(relaxation.common.end(), terms.begin(), terms.end());
+  }
+  return relaxation;
+}
+
+void refuse_other_than_relaxation(const Model& model, const std::string& asked) {
+  for (const Effect* effect : catalogue()) {
+    std::vector<MaxwellTerm> terms;
+    if (!values_of(model, *effect, -1).empty() && !terms_of(model, *effect, -1, 1, terms))
       fail_input(model.name,
                  "the model has " + effect->card().name + ", which " + asked + " cannot do",
                  "leave it out, or fit a model without that effect");
-    if (last_region(model) == 0)
-      relaxation.common.insert(relaxation.common.end(), terms.begin(), terms.end());
   }
-  return relaxation;
 }
 
 void refuse_regional_relaxation(const Model& model) {

@@ -1,4 +1,4 @@
-// The Maxwell elements of a model, sample by sample.
+// The Maxwell elements of a model.
 #pragma once
 
 #include <vector>
@@ -16,12 +16,13 @@ struct ModelRelaxation {
 };
 
 // Terms with a region above 0 make the relaxation regional: each region has those of its own
-// number, none where there are none. Error(kBadInput): an effect that has no form for a loop
-// (Effect::live); `asked` says by what, "the real-time loop".
-ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material,
-                              const std::string& asked);
+// number, none where there are none. Other effects of the model are no matter.
+ModelRelaxation relaxation_of(const Model& model, const MaterialSpec& material);
+// Error(kBadInput) where the model has an effect without such a form (Effect::relaxation), for what
+// is of a linear body alone; `asked` says what, "the field of the body".
+void refuse_other_than_relaxation(const Model& model, const std::string& asked);
 
-// The same, empty where all regions relax alike; other effects of the model are no matter.
+// The elements of the regions, empty where all relax alike.
 std::vector<RegionRelaxation> regional_relaxation_of(const Model& model,
                                                      const MaterialSpec& material);
 // Error(kBadInput) where the relaxation is regional, for what cannot do that.

@@ -1,14 +1,53 @@
 #include "realtime/force_loop.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "material/maxwell_memory.h"
 
 namespace hapsim {
+namespace {
+
+// A tool that has touched is let go where the last of the effects lets it go.
+template <class Steps>
+ToolLoopOptions within_reach(ToolLoopOptions options, const Steps& steps) {
+  for (const auto& s : steps)
+    options.contact.release = std::max(options.contact.release, s.step->reach());
+  return options;
+}
+
+}  // namespace
+
+std::vector<ForceLoop::Running> ForceLoop::steps_of(const PreparedBody& body,
+                                                    const ToolLoopOptions& options) {
+  const StepContext context{body.tool_radius(), body.modulus(), body.heals()};
+  std::vector<Running> steps;
+  std::size_t memory = 0;
+  for (const EffectInstance& i : body.effects()) {
+    const Stage stage = i.effect->card().stage;
+    if (stage == Stage::kSensor && !options.sensor) continue;
+    if (body.is_regional() && relaxes(i)) continue;  // the elements stand for all that relaxes
+    std::unique_ptr<EffectStep> step = i.effect->step(i.values, context);
+    if (!step) continue;
+    const std::size_t needed = step->memory();
+    steps.push_back({std::move(step), stage, memory});
+    memory += needed;
+  }
+  return steps;
+}
 
 ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options)
-    : ToolLoop(&body.distance(), options), body_(body) {
+    : ForceLoop(body, options, steps_of(body, options)) {}
+
+ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options,
+                     std::vector<Running> steps)
+    : ToolLoop(&body.distance(), within_reach(options, steps)),
+      body_(body),
+      steps_(std::move(steps)) {
   state_.h.fill(Vec3::Zero());
   state_.driver.fill(Vec3::Zero());
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
+  if (!steps_.empty()) state_.memory.resize(steps_.back().memory + steps_.back().step->memory(), 0);
 }
 
 ForceLoopState ForceLoop::state() const {
@@ -20,36 +59,74 @@ ForceLoopState ForceLoop::state() const {
 void ForceLoop::restore(const ForceLoopState& state) noexcept {
   state_ = state;
   restore_tool(state.tool);
+  if (state_.placed)
+    for (const Running& s : steps_) s.step->take_place(state_.place);
 }
 
 void ForceLoop::take_place(const Place& place) noexcept {
-  state_.anchor = place.point;
-  state_.normal = place.normal;
-  state_.K = body_.field().at(place.face, place.point);
+  state_.place = body_.facts().at(place.face, place.point, place.normal);
+  state_.placed = true;
   if (body_.is_regional()) body_.maxwell_at(place.face, place.point, state_.maxwell.data());
+  for (const Running& s : steps_) s.step->take_place(state_.place);
 }
 
-Vec3 ForceLoop::advance(double t, const Vec3& u) noexcept {
-  const Vec3 elastic = -(state_.K * u);
-  Vec3 force = elastic;
-  const bool first = !state_.begun;
-  const double dt = t > state_.t ? t - state_.t : 0;
-  const std::vector<MaxwellTerm>& terms = body_.terms();
-  for (std::size_t i = 0; i < terms.size(); ++i) {
+StepSample ForceLoop::next_sample(double t, const Vec3& u, bool in_air) noexcept {
+  if (!std::isfinite(t)) t = state_.t;
+  state_.session = state_.number == 0 ? t : std::min(state_.session, t);
+  StepSample sample;
+  sample.first = !state_.begun;
+  if (sample.first) {
+    ++state_.number;
+    state_.press = state_.t = t;
+    state_.begun = true;
+  }
+  const double before = state_.t - state_.press;
+  state_.t = std::max(state_.t, t);
+  sample.number = state_.number;
+  sample.t = state_.t - state_.press;
+  sample.dt = sample.t - before;
+  sample.session = state_.t - state_.session;
+  sample.in_air = in_air;
+  sample.temperature = temperature();
+  sample.recorded = sample.u = u;
+  sample.moduli = moduli_;
+  sample.times = times_;
+  return sample;
+}
+
+Vec3 ForceLoop::regional_memory(const StepSample& sample, const Vec3& u) noexcept {
+  Vec3 force = Vec3::Zero();
+  for (std::size_t i = 0; i < body_.terms().size(); ++i) {
     Vec3& h = state_.h[i];
-    const Vec3 driver = body_.is_regional() ? Vec3(-(state_.maxwell[i] * u)) : elastic;
-    if (first) {
+    const Vec3 driver = -(state_.maxwell[i] * u);
+    if (sample.first) {
       h = driver;  // relaxed until now, then a jump
     } else {
-      const MemoryStep s = memory_step(dt, times_ * terms[i].tau);
+      const MemoryStep s = memory_step(sample.dt, times_ * body_.terms()[i].tau);
       h = s.a * h + s.c * (driver - state_.driver[i]);
     }
     state_.driver[i] = driver;
-    force += moduli_ * terms[i].share * h;
+    force += moduli_ * h;
   }
-  if (first || t > state_.t) state_.t = t;
-  state_.begun = true;
   return force;
+}
+
+Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {
+  StepSample sample = next_sample(t, u, in_air);
+  double* memory = state_.memory.data();
+  for (const Running& s : steps_) s.step->move(sample, memory + s.memory);
+  const Vec3 pressed = in_air ? Vec3(Vec3::Zero()) : sample.u;
+  Vec3 f = -(state_.place.contact.K * pressed);
+  if (body_.is_regional()) f += regional_memory(sample, pressed);
+  auto s = steps_.begin();
+  for (; s != steps_.end() && s->stage < Stage::kContact; ++s)
+    s->step->apply(sample, memory + s->memory, f);
+  f *= stiffness_;
+  for (; s != steps_.end() && s->stage < Stage::kSensor; ++s)
+    s->step->apply(sample, memory + s->memory, f);
+  if (in_air) f.setZero();  // whatever the body remembers
+  for (; s != steps_.end(); ++s) s->step->apply(sample, memory + s->memory, f);
+  return f;
 }
 
 }  // namespace hapsim

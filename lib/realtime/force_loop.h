@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <vector>
 
+#include "effects/effect_step.h"
 #include "realtime/prepared_body.h"
 #include "realtime/tool_loop.h"
 
@@ -11,39 +14,59 @@ namespace hapsim {
 // All that a loop remembers: plain data, to be stored and gone on from.
 struct ForceLoopState {
   ToolState tool;
-  Vec3 anchor = Vec3::Zero();                   // contact point on the surface [m]
-  Vec3 normal = Vec3::UnitZ();                  // outward there
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // stiffness there [N/m]
-  double t = 0;                                 // of the last sample [s]
-  bool begun = false;                           // there was a sample
-  // Of the Maxwell elements: the force that each remembers of and what it remembers [N]; where
-  // regions relax each in its own way, their stiffnesses there [N/m].
+  StepPlace place;      // contact point on the surface, and what is known of the body there
+  bool placed = false;  // there was one
+  double t = 0;         // of the last sample [s]
+  double press = 0, session = 0;  // when this press and the whole began [s]
+  int number = 0;                 // of the press, from 1; 0: there was no sample yet
+  bool begun = false;             // the press has had a sample
+  // Where regions relax each in its own way: of the Maxwell elements the force that each remembers
+  // of and what it remembers [N], and their stiffnesses there [N/m].
   std::array<Vec3, PreparedBody::kMostTerms> driver = {}, h = {};
   std::array<Eigen::Matrix3d, PreparedBody::kMostTerms> maxwell = {};
+  std::vector<double> memory;  // of the effects' steps
 };
 
-// f = f_e + sum_i (E_i/E) h_i with f_e = -K u, h_i the memory of f_e: the step of the batch mode
-// (viscoelastic effect, memory.h), exact for motion that is straight between samples, for any time
-// steps. Where regions relax each in its own way f = f_e + sum_j h_j, h_j the memory of -K_j u
-// (RelaxationSpectrum). `body` must outlive the loop.
+// The batch mode (experiment/forces.h) sample by sample: the motion effects, f = -K u, then the
+// other effects in the order of their stages, each by its own step (EffectStep). Where regions
+// relax each in its own way f = -K u + sum_j h_j, h_j the memory of -K_j u (RelaxationSpectrum).
+// Exact for motion that is straight between samples, for any time steps. Away from the body it
+// exerts nothing, and the sensor has its errors. `body` must outlive the loop.
 class ForceLoop : public ToolLoop {
  public:
   explicit ForceLoop(const PreparedBody& body, const ToolLoopOptions& options = {});
 
   ForceLoopState state() const;
+  // Of a loop on the same body with the same options.
   void restore(const ForceLoopState& state) noexcept;
-  // From the next sample on: factors of the Maxwell elements' moduli and of their times.
-  void set_relaxation(double moduli, double times) noexcept { moduli_ = moduli, times_ = times; }
+  // From the next sample on: a factor of the body's force, and factors of the Maxwell elements'
+  // moduli beside that and of their times.
+  void set_body(double stiffness, double moduli, double times) noexcept {
+    stiffness_ = stiffness, moduli_ = moduli, times_ = times;
+  }
 
  protected:
   void take_place(const Place& place) noexcept override;
   void forget() noexcept override { state_.begun = false; }
-  Vec3 advance(double t, const Vec3& u) noexcept override;
+  Vec3 advance(double t, const Vec3& u) noexcept override { return advance(t, u, false); }
+  Vec3 advance_in_air(double t, const Vec3& u) noexcept override { return advance(t, u, true); }
 
  private:
+  struct Running {
+    std::unique_ptr<EffectStep> step;
+    Stage stage;
+    std::size_t memory;  // where its own begins
+  };
+  static std::vector<Running> steps_of(const PreparedBody& body, const ToolLoopOptions& options);
+  ForceLoop(const PreparedBody& body, const ToolLoopOptions& options, std::vector<Running> steps);
+  StepSample next_sample(double t, const Vec3& u, bool in_air) noexcept;
+  Vec3 regional_memory(const StepSample& sample, const Vec3& u) noexcept;
+  Vec3 advance(double t, const Vec3& u, bool in_air) noexcept;
+
   const PreparedBody& body_;
+  std::vector<Running> steps_;
   ForceLoopState state_;
-  double moduli_ = 1, times_ = 1;
+  double stiffness_ = 1, moduli_ = 1, times_ = 1;
 };
 
 }  // namespace hapsim

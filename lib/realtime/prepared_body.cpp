@@ -48,34 +48,47 @@ class FieldMaker {
       condensed_ = apart;
     }
     const FieldMaterial about{material.nu, modulus_at, apart};
-    return std::make_unique<StiffnessField>(
-        mesh_, compliance_, about, options_.tool_radius,
-        options_.contacts ? options_.contacts(material) : std::vector<KnownStiffness>{}, like);
+    if (options_.contacts) known_ = options_.contacts(material);
+    return std::make_unique<StiffnessField>(mesh_, compliance_, about, options_.tool_radius, known_,
+                                            like);
   }
+  const std::vector<KnownStiffness>& known() const { return known_; }  // of the last field
   std::size_t unknowns() const { return static_cast<std::size_t>(compliance_.matrix().rows()); }
 
  private:
   const TetMesh& mesh_;
   const PreparedBodyOptions& options_;
   SurfaceCompliance compliance_;
+  std::vector<KnownStiffness> known_;
   bool condensed_ = false;  // of unit modulus: serves any
 };
 
 }  // namespace
 
 PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
-                           const PreparedBodyOptions& options) {
+                           const PreparedBodyOptions& options)
+    : effects_(effect_instances(model, false)),
+      tool_radius_(options.tool_radius),
+      heals_(options.heals) {
   const TetMesh mesh = corners_only(body);
   const MaterialSpec material = material_of(model);
-  const ModelRelaxation relaxation = relaxation_of(model, material, "the real-time loop");
+  modulus_ = material.modulus[0];
+  const bool moved = material.shift != Vec3::Zero() || material.rotation != Vec3::Zero();
+  if ((moved || !material.features.empty()) && !options.contacts)
+    fail_input(model.name,
+               moved ? "the body has moved, which its own mesh does not know"
+                     : "the body has features that its own mesh does not show",
+               "have the contacts solved finely: hs-simulate --live --contacts data.csv");
+  const ModelRelaxation relaxation = relaxation_of(model, material);
   FieldMaker maker(mesh, options);
   field_ = maker.field(material);
   surface_unknowns_ = maker.unknowns();
+  facts_ = std::make_unique<PlaceFacts>(*field_, material, maker.known());
   terms_ = relaxation.common;
   if (!relaxation.regional.empty())
     prepare_regional(relaxation.regional, material,
                      [&](const MaterialSpec& m) { return maker.field(m, field_.get()); });
-  if (terms_.size() > static_cast<std::size_t>(kMostTerms))
+  if (is_regional() && terms_.size() > static_cast<std::size_t>(kMostTerms))
     fail_input(model.name, "the model has " + std::to_string(terms_.size()) + " relaxation times",
                "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");

@@ -5,10 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "experiment/places.h"
+#include "experiment/forces.h"
 #include "mesh/signed_distance.h"
 #include "model/model.h"
 #include "model/relaxation_steps.h"
+#include "realtime/place_facts.h"
 #include "realtime/stiffness_field.h"
 
 namespace hapsim {
@@ -18,7 +19,8 @@ struct PreparedBodyOptions {
   // Finely solved contacts for a material, see known_contacts(); none where it is not set. Asked
   // once, or for some thirty materials where regions relax each in its own way.
   std::function<std::vector<KnownStiffness>(const MaterialSpec&)> contacts;
-  int threads = 1;  // of the condensation's dense part
+  int threads = 1;     // of the condensation's dense part
+  bool heals = false;  // the body recovers between presses (metadata `recovery: full`)
 };
 
 // Reads nothing, and holds all that a loop reads: never changed after, so any number of loops and
@@ -26,8 +28,8 @@ struct PreparedBodyOptions {
 // of first order); some thirty where regions relax each in its own way.
 class PreparedBody {
  public:
-  // Error(kBadInput): an effect of the model has no form for a loop (Effect::live), or more than
-  // kMostTerms Maxwell elements. Error(kBadInput): body without a closed surface.
+  // Error(kBadInput): more than kMostTerms regional Maxwell elements; features of the body, or a
+  // move, without contacts that know of them; body without a closed surface.
   // Error(kNoConvergence): body not held.
   PreparedBody(const TetMesh& body, const Model& model, const PreparedBodyOptions& options);
 
@@ -38,6 +40,12 @@ class PreparedBody {
   bool is_regional() const { return !maxwell_.empty(); }
   // The stiffnesses of all terms at a point of a face [N/m], interpolated as the field is.
   void maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) const noexcept;
+  // What the model does beside the material, in the order of the catalogue.
+  const std::vector<EffectInstance>& effects() const { return effects_; }
+  double tool_radius() const { return tool_radius_; }  // [m]
+  bool heals() const { return heals_; }
+  double modulus() const { return modulus_; }  // E of region 0 [Pa]
+  const PlaceFacts& facts() const { return *facts_; }
   // Of regional relaxation: what the Maxwell elements leave of the stiffness, the worst vertex's,
   // relative to it.
   double misfit() const { return misfit_; }
@@ -50,6 +58,10 @@ class PreparedBody {
       const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
       const std::function<std::unique_ptr<StiffnessField>(const MaterialSpec&)>& field_for);
 
+  std::vector<EffectInstance> effects_;
+  double tool_radius_ = 0, modulus_ = 0;
+  bool heals_ = false;
+  std::unique_ptr<PlaceFacts> facts_;
   std::vector<MaxwellTerm> terms_;
   std::vector<Eigen::Matrix3d> maxwell_;  // [vertex * terms + term]
   double misfit_ = 0;

@@ -21,32 +21,58 @@ const SignedDistance& no_surface() {
 ToolLoop::ToolLoop(const SignedDistance* surface, const ToolLoopOptions& options)
     : surface_(surface),
       options_(options),
-      contact_(surface != nullptr ? *surface : no_surface(), options.contact) {}
+      contact_(surface != nullptr ? *surface : no_surface(), options.contact),
+      way_(surface) {}
 
 Vec3 ToolLoop::step(double t, const Vec3& tool) noexcept {
   assert(surface_ != nullptr);
   const ToolState& now = contact_.update(tool);
-  if (!now.touching()) return advance(t, Vec3::Zero()), Vec3::Zero();
+  if (!now.touching()) return leave(t, Vec3::Zero());
   const bool began = now.phase == ContactPhase::kBegan;
   if (began && options_.relaxed) forget();
-  if (began || options_.contact.slides)
-    take_place({now.anchor, now.surface.normal, now.surface.face});
-  return advance(t, now.displacement);
+  if (began || options_.contact.slides) touch({now.anchor, now.surface.normal, now.surface.face});
+  return press_within(t, now.displacement);
 }
 
 void ToolLoop::begin(const Vec3& contact) noexcept {
   if (surface_ != nullptr) {
     const SurfaceSide side = surface_->at(contact);
-    take_place({side.point, side.normal, side.face});
+    touch({side.point, side.normal, side.face});
   } else {
-    take_place({contact, Vec3::Zero(), -1});
+    touch({contact, Vec3::Zero(), -1});
   }
   if (options_.relaxed) forget();
 }
 
 Vec3 ToolLoop::press(double t, const Vec3& u, bool in_air) noexcept {
-  if (in_air) return advance(t, Vec3::Zero()), Vec3::Zero();
-  return advance(t, u);
+  return in_air ? leave(t, u) : press_within(t, u);
+}
+
+void ToolLoop::touch(const Place& place) noexcept {
+  way_.begin(place.point, place.normal);
+  take_place(place);
+}
+
+Vec3 ToolLoop::press_within(double t, const Vec3& u) noexcept {
+  const double share = way_.share(u);
+  beyond_ = share > kValidShare || way_.depth(u) > options_.fitted_depth ? kBeyondDepth : 0;
+  pressed_ = u;
+  if (share > kHeldShare) {
+    beyond_ |= kBeyondHeld;
+    pressed_ *= kHeldShare / share;
+  }
+  return advance(t, pressed_);
+}
+
+Vec3 ToolLoop::leave(double t, const Vec3& u) noexcept {
+  beyond_ = 0;
+  pressed_ = u;
+  return advance_in_air(t, u);
+}
+
+Vec3 ToolLoop::advance_in_air(double t, const Vec3& /*u*/) noexcept {
+  advance(t, Vec3::Zero());
+  return Vec3::Zero();
 }
 
 }  // namespace hapsim

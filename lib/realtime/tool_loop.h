@@ -1,13 +1,25 @@
 // A tool in contact, sample by sample, whatever model answers it.
 #pragma once
 
+#include <limits>
+
 #include "mesh/tool_contact.h"
+#include "mesh/way_through.h"
 
 namespace hapsim {
 
 struct ToolLoopOptions {
   ToolContactOptions contact;  // of step(): radius, release, sliding
   bool relaxed = true;         // the body is relaxed before each contact; false: it remembers
+  // The deepest displacement that the model was fitted to [m].
+  double fitted_depth = std::numeric_limits<double>::infinity();
+  bool sensor = true;  // forces as the model's sensor reads them; false: as a hand feels them
+};
+
+// What a force is said to be beyond: bits of ToolLoop::beyond().
+enum Beyond : int {
+  kBeyondDepth = 1,  // deeper than fitted, or than kValidShare of the way through the body
+  kBeyondHeld = 2    // it is that of kHeldShare of that way, where the tool is held to be
 };
 
 // Finds the contact and hands displacements to a model. step(), begin() and press() allocate
@@ -20,8 +32,8 @@ class ToolLoop {
   virtual ~ToolLoop() = default;
 
   // The tool at `tool` [m] at time t [s], anywhere: finds whether and where it touches. Force of
-  // the body on the tool [N], zero away from it. A sample that is not finite repeats the last
-  // position; time that runs backwards counts as no time.
+  // the body on the tool [N], away from it what the sensor reads of none. A sample that is not
+  // finite repeats the last position; time that runs backwards counts as no time.
   Vec3 step(double t, const Vec3& tool) noexcept;
 
   // A recorded motion instead, whose contact point is known: begin() at each new press, then its
@@ -29,7 +41,14 @@ class ToolLoop {
   void begin(const Vec3& contact) noexcept;
   Vec3 press(double t, const Vec3& u, bool in_air = false) noexcept;
 
+  // Of the body from the next sample on [degC]; NaN, as at first: not known.
+  void set_temperature(double temperature) noexcept { temperature_ = temperature; }
+
   const ToolState& tool() const { return contact_.state(); }
+  // Of the last sample: Beyond, and the displacement that its force is of [m]. Without a surface
+  // nothing is known of the way through it.
+  int beyond() const { return beyond_; }
+  const Vec3& pressed() const { return pressed_; }
 
  protected:
   // Where the tool presses. Without a surface the normal is zero and the face -1.
@@ -40,13 +59,24 @@ class ToolLoop {
   virtual void take_place(const Place& place) noexcept = 0;
   virtual void forget() noexcept = 0;  // relaxed from here on
   virtual Vec3 advance(double t, const Vec3& u) noexcept = 0;
+  // Away from the body, displaced by u from where it touched last (zero: not known).
+  virtual Vec3 advance_in_air(double t, const Vec3& u) noexcept;
+  double temperature() const { return temperature_; }
 
   void restore_tool(const ToolState& state) noexcept { contact_.restore(state); }
 
  private:
+  void touch(const Place& place) noexcept;
+  Vec3 press_within(double t, const Vec3& u) noexcept;
+  Vec3 leave(double t, const Vec3& u) noexcept;
+
   const SignedDistance* surface_;
   ToolLoopOptions options_;
   ToolContact contact_;
+  WayThrough way_;
+  Vec3 pressed_ = Vec3::Zero();
+  int beyond_ = 0;
+  double temperature_ = std::numeric_limits<double>::quiet_NaN();
 };
 
 }  // namespace hapsim

@@ -128,8 +128,8 @@ void OwnMesh::write_field(std::ostream& out, const Episode& episode, std::size_t
   if (is_regional())
     fail_input(model_.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
-  const std::vector<MaxwellTerm> terms =
-      relaxation_of(model_, material_, "the field of the body").common;
+  refuse_other_than_relaxation(model_, "the field of the body");
+  const std::vector<MaxwellTerm> terms = relaxation_of(model_, material_).common;
   const Memory memory = memory_at(episode.view, terms, at);
   const auto position = static_cast<std::size_t>(episode.position);
   const Eigen::MatrixXd& field = solutions_[position].field;

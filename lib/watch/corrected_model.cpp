@@ -19,10 +19,11 @@ CorrectedModel::CorrectedModel(const PreparedBody& body, const SurfaceOffsets& o
 
 Vec3 CorrectedModel::step(const MotionLine& line, bool fresh, const Correction& c, double gap) {
   if (c.gone) return c.bias;
-  loop_.set_relaxation(c.relaxation, c.slowness);
+  loop_.set_body(c.stiffness, c.relaxation, c.slowness);
+  loop_.set_temperature(line.temperature);
   if (c.shift == Vec3::Zero()) {
     if (fresh) loop_.begin(line.point);
-    return c.stiffness * loop_.press(line.t, line.u, line.in_air) + c.bias;
+    return loop_.press(line.t, line.u, line.in_air) + c.bias;
   }
   Vec3 tool = line.point + line.u - c.shift;
   const ToolState& last = loop_.tool();
@@ -35,7 +36,7 @@ Vec3 CorrectedModel::step(const MotionLine& line, bool fresh, const Correction& 
   if (!fresh) touch_between(line.t, tool);
   last_t_ = line.t;
   last_tool_ = tool;
-  return c.stiffness * loop_.step(line.t, tool) + c.bias;
+  return loop_.step(line.t, tool) + c.bias;
 }
 
 // The contact begins where the way from the last sample goes through the surface: samples far

@@ -6,10 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <mutex>
-#include <new>
 
 #include "acfm/acfm_loop.h"
 #include "fusion/fused_loop.h"
@@ -17,6 +15,7 @@
 #include "realtime/force_loop.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
+#include "support/allocations.h"
 #include "support/synthetic.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -28,25 +27,9 @@
 #endif
 
 namespace {
-// Of each thread its own: the finite elements beside a loop may take what they want.
-thread_local long allocations = 0, locks = 0;
+using hapsim::test::allocations;
+thread_local long locks = 0;
 }  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t& /*unused*/) noexcept {
-  ++allocations;
-  return std::malloc(size);
-}
-void operator delete(void* p) noexcept {
-  std::free(p);
-}
-void operator delete(void* p, std::size_t) noexcept {
-  std::free(p);
-}
 
 #if HAPSIM_COUNTS_LOCKS
 extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
