@@ -52,7 +52,9 @@ ToolSpec specification() {
       "fast source alone, of the last slow force held, and of the last two drawn on. It is of "
       "whole recordings, as --slow and --learn are.",
       "With --live SIGINT or SIGTERM ends the motion; what was answered until then, or before a "
-      "bad row, is written."};
+      "bad row, is written. Its forces are for a hand: they have no effects of a force sensor. "
+      "Column beyond: 1 deeper than half of the way through the body, 2 the tool is held at nine "
+      "tenths of it, 3 both."};
   spec.options = {
       {.flag = flag::slow,
        .value = "FILE",
@@ -185,7 +187,7 @@ int run_live_fusion(const Arguments& arguments) {
   Metadata metadata = motion.metadata();
   metadata.set("simulated", "acfm, fused with " + effects_label(model));
   Output output(arguments.output());
-  CsvWriter(output.stream(), metadata, kForceColumns);
+  CsvWriter(output.stream(), metadata, motion.force_columns());
   output.stream().flush();
   LiveReport report;
   say(arguments, "hs-fuse", enter_real_time());  // this thread alone; the solver has begun before
@@ -197,6 +199,8 @@ int run_live_fusion(const Arguments& arguments) {
         output.commit();
         say(arguments, "hs-fuse",
             report.latency.summary() + fmt::format("; {} later than a period", report.misses));
+        if (const std::string deep = report.depth_summary(); !deep.empty())
+          say(arguments, "hs-fuse", deep);
         say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
         say(arguments, "hs-fuse", fusion_words(loop.report()));
       });

@@ -20,6 +20,29 @@ int number_of(const Setup& setup, std::vector<Setup>& setups) {
   return static_cast<int>(setups.size()) - 1;
 }
 
+constexpr int kNowhere = -1;
+
+// The number of a contact point; kNowhere when it is not there.
+int find_position(const Vec3& point, int setup, const Dataset& dataset) {
+  for (std::size_t p = 0; p < dataset.positions.size(); ++p)
+    if (dataset.setup_of[p] == setup && (dataset.positions[p] - point).norm() <= kSamePlace)
+      return static_cast<int>(p);
+  return kNowhere;
+}
+
+int new_position(const Vec3& point, int setup, Dataset& dataset) {
+  dataset.positions.push_back(point);
+  dataset.setup_of.push_back(setup);
+  return static_cast<int>(dataset.positions.size()) - 1;
+}
+
+// Any place of the setup, for a press that never touches: none is prepared for it alone.
+int any_position(const Vec3& point, int setup, Dataset& dataset) {
+  const auto found = std::find(dataset.setup_of.begin(), dataset.setup_of.end(), setup);
+  if (found == dataset.setup_of.end()) return new_position(point, setup, dataset);
+  return static_cast<int>(found - dataset.setup_of.begin());
+}
+
 template <class Value>
 std::size_t distinct(const std::vector<Setup>& setups, const Value& value) {
   std::vector<double> values;
@@ -53,15 +76,11 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
                    "give each contact point its own press number");
     const int setup =
         number_of(setup_of_row.empty() ? only : setup_of_row[press.rows.front()], dataset.setups);
-    int position = -1;
-    for (std::size_t p = 0; p < dataset.positions.size() && position < 0; ++p)
-      if (dataset.setup_of[p] == setup && (dataset.positions[p] - point).norm() <= kSamePlace)
-        position = static_cast<int>(p);
-    if (position < 0) {
-      position = static_cast<int>(dataset.positions.size());
-      dataset.positions.push_back(point);
-      dataset.setup_of.push_back(setup);
-    }
+    const bool touches = std::any_of(press.rows.begin(), press.rows.end(), [&](int row) {
+      return !recording.in_air(static_cast<std::size_t>(row));
+    });
+    int position = find_position(point, setup, dataset);
+    if (position == kNowhere && touches) position = new_position(point, setup, dataset);
     const bool goes_on =
         !relaxed && !dataset.episodes.empty() && dataset.episodes.back().position == position &&
         !recording.t.empty() &&
@@ -85,6 +104,12 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
       episode.view.session.push_back(recording.t[row] - session_start);
     }
   }
+  for (Episode& e : dataset.episodes)
+    if (e.position == kNowhere)
+      e.position = any_position(
+          recording.position[e.rows.front()],
+          number_of(setup_of_row.empty() ? only : setup_of_row[e.rows.front()], dataset.setups),
+          dataset);
   dataset.recording = std::move(recording);
   return dataset;
 }

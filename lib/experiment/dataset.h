@@ -38,7 +38,8 @@ struct Dataset {
   std::size_t tools() const;                               // distinct radii
 };
 
-// Contact points of one setup within kSamePlace are one position. `setup_of_row`: by row of the
+// Contact points of one setup within kSamePlace are one position. A press that never touches has
+// none of its own where there are others. `setup_of_row`: by row of the
 // recording; empty: all rows of one body, with the recording's tool. Error(kBadInput) when a press
 // moves its contact point by more than that.
 Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row = {});

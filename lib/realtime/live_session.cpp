@@ -1,5 +1,7 @@
 #include "realtime/live_session.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 
 #include "realtime/real_time.h"
@@ -14,11 +16,20 @@ bool goes_on(const MotionLine& last, const MotionLine& line) {
 
 }  // namespace
 
+std::string LiveReport::depth_summary() const {
+  if (deep == 0) return "";
+  return fmt::format(
+      "{} of {} lines are deeper than the model was fitted to, or than {:.0f} % of the way through "
+      "the body; of {} the force is held at {:.0f} %",
+      deep, latency.count(), 100 * kValidShare, held, 100 * kHeldShare);
+}
+
 void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOptions& options,
               LiveReport& report) {
   std::optional<Pacer> pacer;
   if (options.rate > 0) pacer.emplace(options.rate);
   MotionLine line, last;
+  Vec3 untouched = Vec3::Zero();  // where it was nearest at first
   std::string text;
   text.reserve(512);
   for (bool first = true;; first = false) {
@@ -26,6 +37,7 @@ void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOpt
     if (!in.next(line)) break;
     if (!pacer) since = monotonic_ns();
     Vec3 force;
+    loop.set_temperature(line.temperature);
     if (in.has_contact_point()) {
       const bool fresh = first || line.press != last.press;
       if (fresh && (first || !options.remembers || !goes_on(last, line))) loop.begin(line.point);
@@ -34,11 +46,17 @@ void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOpt
     } else {
       force = loop.step(line.t, line.point);
       const ToolState& tool = loop.tool();
+      // Every touch is a press. Away from the body a line belongs to the last one, at its contact
+      // point; before the first, to a press of number 0 that never touches.
+      if (first) untouched = tool.surface.point;
       line.press = tool.episode;
       line.in_air = !tool.touching();
-      line.point = line.in_air ? tool.surface.point : tool.anchor;
-      line.u = tool.displacement;
+      line.point = tool.episode == 0 ? untouched : tool.anchor;
     }
+    line.u = loop.pressed();
+    line.beyond = loop.beyond();
+    if (line.beyond & kBeyondHeld) ++report.held;
+    if (line.beyond != 0) ++report.deep;
     in.write_force(text, line, force);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.flush();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ostream>
+#include <string>
 
 #include "realtime/latency.h"
 #include "realtime/motion_source.h"
@@ -17,7 +18,10 @@ struct LiveOptions {
 struct LiveReport {
   // From the line read (with a rate: from when it was due) to its force handed to the system.
   LatencyHistogram latency;
-  std::int64_t misses = 0;  // forces later than one period after their line was due
+  std::int64_t misses = 0;          // forces later than one period after their line was due
+  std::int64_t deep = 0, held = 0;  // lines that are beyond what is valid, and of these those held
+  // What is said of these; "" where there is none.
+  std::string depth_summary() const;
 };
 
 // Runs until the input ends; `loop` made with `relaxed` where the source has contact points. Every

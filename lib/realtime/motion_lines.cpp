@@ -11,8 +11,8 @@
 namespace hapsim {
 namespace {
 
-constexpr std::array<const char*, 12> kNames{"press", "t",  "x",       "y",  "z",  "ux",
-                                             "uy",    "uz", "contact", "fx", "fy", "fz"};
+constexpr std::array<const char*, 13> kNames{"press", "t",       "x",    "y",  "z",  "ux", "uy",
+                                             "uz",    "contact", "temp", "fx", "fy", "fz"};
 
 void append(std::string& buffer, double value) {
   char text[32];
@@ -32,9 +32,10 @@ MotionLines::MotionLines(Input& input, bool forces) : csv_(input), name_(input.n
     if (found != known) present[static_cast<std::size_t>(meaning_.back())] = true;
   }
   known_ = present[kUx] || present[kUy] || present[kUz] || present[kPress];
+  warm_ = present[kTemp];
   for (std::size_t k = 0; k < kColumns; ++k) {
     const bool force = k >= kFx;
-    const bool needed = force ? forces : known_ ? k != kContact : k >= kT && k <= kZ;
+    const bool needed = force ? forces : known_ ? k != kContact && k != kTemp : k >= kT && k <= kZ;
     if (needed && !present[k])
       fail_missing_column(input.name(), kNames[k], header, {kNames.begin(), kNames.end()});
   }
@@ -58,6 +59,7 @@ bool MotionLines::next(MotionLine& line) {
   line.point = {value_[kX], value_[kY], value_[kZ]};
   line.u = {value_[kUx], value_[kUy], value_[kUz]};
   line.in_air = value_[kContact] == 0;
+  if (warm_) line.temperature = value_[kTemp];
   if (known_) {
     if (std::abs(value_[kPress]) > INT_MAX || value_[kPress] != std::floor(value_[kPress]))
       fail_input(csv_.where(), "press is " + format_number(value_[kPress]) + ", not an integer",
@@ -71,6 +73,21 @@ bool MotionLines::next(MotionLine& line) {
 void MotionLines::write_force(std::string& buffer, const MotionLine& line,
                               const Vec3& force) const {
   write_force_line(buffer, line, force);
+  buffer.pop_back();
+  buffer += ',';
+  append(buffer, line.beyond);
+  if (warm_) {
+    buffer += ',';
+    append(buffer, line.temperature);
+  }
+  buffer += '\n';
+}
+
+std::vector<std::string> MotionLines::force_columns() const {
+  std::vector<std::string> columns = kForceColumns;
+  columns.emplace_back("beyond");
+  if (warm_) columns.emplace_back("temp");
+  return columns;
 }
 
 void write_force_line(std::string& buffer, const MotionLine& line, const Vec3& force) {

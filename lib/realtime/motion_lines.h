@@ -11,7 +11,8 @@
 namespace hapsim {
 
 // Reads press,t,x,y,z,ux,uy,uz[,contact] (a recording's columns, contact points known) or t,x,y,z
-// alone (positions of the tool's tip); in any order, others are passed over.
+// alone (positions of the tool's tip), each with temp or without; in any order, others are passed
+// over.
 class MotionLines : public MotionSource {
  public:
   // Reads up to the header. Error(kBadInput): a column is missing (nearest named).
@@ -22,18 +23,20 @@ class MotionLines : public MotionSource {
   void require_contact_points(const std::string& columns) const;
   const Metadata& metadata() const { return csv_.metadata(); }
   bool next(MotionLine& line) override;
+  // Of what write_force() writes: kForceColumns, beyond, and temp where it is read.
+  std::vector<std::string> force_columns() const;
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override;
   long line() const { return csv_.line(); }
   Vec3 force() const { return {value_[kFx], value_[kFy], value_[kFz]}; }  // of the last line [N]
 
  private:
-  enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kContact, kFx, kFy, kFz, kColumns };
+  enum Column { kPress, kT, kX, kY, kZ, kUx, kUy, kUz, kContact, kTemp, kFx, kFy, kFz, kColumns };
   CsvReader csv_;
   std::string name_;          // of the input
   std::vector<int> meaning_;  // column of the file -> Column, kColumns: passed over
   std::array<double, kColumns> value_{};
   std::vector<std::string_view> fields_;
-  bool known_ = false;
+  bool known_ = false, warm_ = false;  // contact points, temperatures
 };
 
 // One line press,t,x,y,z,ux,uy,uz,fx,fy,fz,contact of a force, with its newline, in place: numbers

@@ -67,7 +67,7 @@ void MotionRecords::write_force(std::string& buffer, const MotionLine& line,
                                 const Vec3& force) const {
   buffer.clear();
   put(buffer, static_cast<std::int32_t>(line.press));
-  put(buffer, static_cast<std::int32_t>(line.in_air ? 0 : 1));
+  put(buffer, static_cast<std::int32_t>(line.in_air ? 0 : 1 + 2 * line.beyond));
   put(buffer, line.t);
   for (const Vec3* v : {&line.point, &line.u, &force})
     for (int k = 0; k < 3; ++k) put(buffer, (*v)[k] == 0 ? 0.0 : (*v)[k]);  // no minus zero

@@ -10,6 +10,7 @@ namespace hapsim {
 //   tip in      32 bytes: t, x, y, z
 //   press in    64 bytes: press, contact (integers), t, x, y, z, ux, uy, uz
 //   force out   88 bytes: press, contact (integers), t, x, y, z, ux, uy, uz, fx, fy, fz
+// contact: 0 in the air; 1 in contact, and 2 for kBeyondDepth, 4 for kBeyondHeld beside it.
 class MotionRecords : public MotionSource {
  public:
   enum class Kind { kTip, kPress };

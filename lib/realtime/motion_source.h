@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct MotionLine {
   Vec3 point = Vec3::Zero();  // [m]
   Vec3 u = Vec3::Zero();      // [m]
   bool in_air = false;
+  double temperature = std::numeric_limits<double>::quiet_NaN();  // [degC]; NaN: not known
+  int beyond = 0;  // of what answers it: ToolLoop::beyond()
 };
 
 // What next() promises of a motion, one sample after the other.

@@ -137,7 +137,7 @@ refuse() { # CODE TEXT ARGUMENTS...
 refuse 2 'live mode' motion.csv "${common[@]}" --rate 1000
 refuse 2 'live mode' motion.csv "${common[@]}" --binary tip
 refuse 2 'batch mode' --live motion.csv "${common[@]}" --add-noise 1
-{ head -n 3 model.csv; echo 'sensor-lag,0,tau,0.1,s,,0,10,fixed'; } >lag.csv
-refuse 3 'sensor-lag' --live motion.csv --body body.ply --model lag.csv
+{ head -n 3 model.csv; printf 'layer,0,%s,,0,10,fixed\n' thickness,0.003,m ratio,2,1; } >layer.csv
+refuse 3 'hs-simulate --live --contacts' --live motion.csv --body body.ply --model layer.csv
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

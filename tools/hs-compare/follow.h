@@ -77,6 +77,7 @@ inline int run_follow(const Arguments& arguments) {
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
   lines.within(mesh.nodes);
+  options.heals = lines.metadata().find("recovery").value_or("") == "full";
   const PreparedBody body(mesh, model, options);
   WatchOptions watch_options;
   watch_options.test.rate = arguments[flag::rate];

@@ -42,7 +42,10 @@ int run_teleoperator(const Arguments& arguments) {
   PreparedBodyOptions options;
   options.tool_radius = arguments[flag::tool_radius];
   const PreparedBody body(load_body(arguments), model, options);
-  ForceLoop loop(body);
+  ToolLoopOptions hand;
+  hand.sensor = false;
+  hand.fitted_depth = fitted_depth(model);
+  ForceLoop loop(body, hand);
   UdpSocket socket(parse_address(arguments[flag::listen]));
   say(arguments, "hs-link", "listening at " + to_text(socket.address()));
   Teleoperator far(loop, draw_sender());

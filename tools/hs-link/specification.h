@@ -14,7 +14,9 @@ inline ToolSpec link_specification() {
   spec.input = "operator: motion (press,t,x,y,z,ux,uy,uz[,contact]), a line a sample";
   spec.description = {
       "Two processes. The teleoperator (--listen) presses a body, --body with --model, by the "
-      "motions that come and answers each with the force. The operator (--peer) sends its motion "
+      "motions that come and answers each with the force, with all effects of the model but those "
+      "of a force sensor: a hand feels the body itself. A tool that goes further than nine tenths "
+      "of the way through the body is held there. The operator (--peer) sends its motion "
       "at "
       "--rate by the clock and feels the newest force that has come back, late by what the network "
       "takes.",

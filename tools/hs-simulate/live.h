@@ -45,9 +45,11 @@ struct LiveInput {
     }
     auto lines = std::make_unique<MotionLines>(input);
     metadata = lines->metadata();
+    columns = lines->force_columns();
     source = std::move(lines);
   }
   bool remembers() const { return metadata.find("recovery").value_or("") == "none"; }
+  bool heals() const { return metadata.find("recovery").value_or("") == "full"; }
   ToolLoopOptions loop_options() const {
     ToolLoopOptions options;
     options.relaxed = source->has_contact_point() || !remembers();
@@ -57,7 +59,8 @@ struct LiveInput {
   Input input;
   bool binary = false;
   std::unique_ptr<MotionSource> source;
-  Metadata metadata;  // binary motion has none
+  Metadata metadata;                 // binary motion has none
+  std::vector<std::string> columns;  // of the answers; records have none
 };
 
 // Answers every line until the motion ends.
@@ -73,7 +76,7 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
   in.metadata.remove("force_noise");
   in.metadata.set("simulated", label);
   Output output(arguments.output());
-  if (!in.binary) CsvWriter(output.stream(), in.metadata, kForceColumns);
+  if (!in.binary) CsvWriter(output.stream(), in.metadata, in.columns);
   output.stream().flush();
   LiveReport report;
   answer_stream(
@@ -86,6 +89,8 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
           text +=
               fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
         say(arguments, "hs-simulate", text);
+        if (const std::string deep = report.depth_summary(); !deep.empty())
+          say(arguments, "hs-simulate", deep);
       });
   return 0;
 }
@@ -102,6 +107,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
     options.contacts = [&](const MaterialSpec& material) {
       return known_contacts(fine->places, material);
     };
+  options.heals = in.heals();
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
   in.source->within(mesh.nodes);
@@ -114,7 +120,9 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
         fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
                     "stiffness",
                     body.terms().size(), body.misfit()));
-  ForceLoop loop(body, in.loop_options());
+  ToolLoopOptions loop_options = in.loop_options();
+  loop_options.fitted_depth = fitted_depth(model);
+  ForceLoop loop(body, loop_options);
   return answer(arguments, in, effects_label(model), loop);
 }
 

@@ -23,10 +23,16 @@ inline ToolSpec simulate_specification() {
       "beforehand: its surface condensed to stiffnesses, put right to those of --contacts and "
       "interpolated in between. The header comes first, and comes back when the body is ready. "
       "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
-      "which contacts are found. At the positions of --contacts the forces are those of the batch "
-      "mode (to 1e-6 of the largest). Models of elastic, regions and viscoelastic effects run "
-      "live. SIGINT or SIGTERM ends the motion; what was answered until then, or before a bad row, "
-      "is written.",
+      "which contacts are found, with temp or without. Every effect runs live, those of the force "
+      "sensor too, and at the positions of --contacts the forces are those of the batch mode (to "
+      "1e-6 of the largest; where a step cannot be, hs-effects(7) says why). Effects that are in "
+      "the body (layer, inclusion, base, shift, anisotropic) need --contacts. Every touch of a tip "
+      "is a press of its own; lines before the first one are of press 0. SIGINT or SIGTERM ends "
+      "the motion; what was answered until then, or before a bad row, is written.",
+      "Forces deeper than half of the way through the body, or than the model was fitted to (its "
+      "metadata depth), are said to be so; presses through the body are an error. Live there is a "
+      "column beyond: 1 for such a depth; 2 where the tool is held at nine tenths of the way, ux, "
+      "uy, uz and the force being those of the tool as it is held; 3 both.",
       "A column contact is 0 where the tool is off the body, and the force zero; without it every "
       "row is in contact, and a displacement out of the body pulls.",
       "Rows of the viscoelastic effect with a region above 0 give each region Maxwell elements of "
@@ -38,8 +44,9 @@ inline ToolSpec simulate_specification() {
       "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
       "units. In, tip (32 bytes): t x y z; press (64 bytes): i press, i contact (0: in the air), t "
       "x "
-      "y z ux uy uz. Out (88 bytes): i press, i contact, t x y z ux uy uz fx fy fz. Give "
-      "--tool-radius.",
+      "y z ux uy uz. Out (88 bytes): i press, i contact (0 in the air, else 1 and twice what "
+      "beyond "
+      "would be), t x y z ux uy uz fx fy fz. Give --tool-radius.",
       "A model of hs-identify --acfm is springs and dashpots by position; between positions they "
       "are "
       "interpolated by inverse distances. It is answered by the same flags, in batch and live.",
