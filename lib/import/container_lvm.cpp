@@ -18,7 +18,7 @@ constexpr std::string_view kEndOfHeader = "***End_of_Header***";
 
 using Keys = std::map<std::string, std::vector<std::string>>;
 
-struct Segment {
+struct LvmSection {
   Keys keys;                 // of its header: a cell a channel
   std::vector<RawRow> rows;  // the first names the columns
 };
@@ -82,7 +82,7 @@ class LvmReader {
     }
   }
 
-  void add(const Segment& segment, int block) {
+  void add(const LvmSection& segment, int block) {
     if (segment.rows.empty()) return;
     std::vector<std::string> names = segment.rows[0].cells;
     while (!names.empty() && (names.back() == "Comment" || names.back().empty())) names.pop_back();
@@ -121,14 +121,14 @@ class LvmReader {
     }
   }
 
-  static bool number(const Segment& segment, const std::string& name, const NumberStyle& style,
+  static bool number(const LvmSection& segment, const std::string& name, const NumberStyle& style,
                      double& value) {
     const auto at = segment.keys.find(name);
     return at != segment.keys.end() && !at->second.empty() &&
            parse_number(plain_number(at->second[0], style), value);
   }
 
-  void set_units(const Segment& segment, const std::vector<std::string>& names, bool one_x) {
+  void set_units(const LvmSection& segment, const std::vector<std::string>& names, bool one_x) {
     const auto labels = segment.keys.find("Y_Unit_Label");
     const auto dimension = segment.keys.find("X_Dimension");
     const bool time = dimension == segment.keys.end() || dimension->second.empty() ||
@@ -147,7 +147,7 @@ class LvmReader {
   const std::string& name_;
   DecodedText decoded_;
   Keys file_;
-  std::vector<Segment> segments_;
+  std::vector<LvmSection> segments_;
   RawTable table_;
 };
 

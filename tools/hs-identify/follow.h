@@ -40,7 +40,8 @@ inline std::vector<Option> follow_flags() {
 }
 
 inline int run_follow(const Arguments& arguments) {
-  const std::vector<double> times = parse_relaxation_times(arguments.list(flag::times), flag::times.name);
+  const std::vector<double> times =
+      parse_relaxation_times(arguments.list(flag::times), flag::times.name);
   const TetMesh mesh = load_body(arguments);
   Input input(arguments.input());
   MotionLines lines(input, true);

@@ -83,7 +83,8 @@ int run_operator(const Arguments& arguments) {
   motion.require_contact_points("press,t,x,y,z,ux,uy,uz");
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, motion.metadata(), input.name());
-  const std::vector<double> times = parse_relaxation_times(arguments.list(flag::times), flag::times.name);
+  const std::vector<double> times =
+      parse_relaxation_times(arguments.list(flag::times), flag::times.name);
   const double nu = arguments[flag::nu], rate = arguments[flag::rate];
   const PreparedBody body(load_body(arguments), unit_model(nu), options);
   UnitResponse response(body, times);
