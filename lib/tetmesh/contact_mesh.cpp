@@ -135,6 +135,8 @@ ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, doub
     input.face_marker = std::move(imprint.marker);
     TetgenOptions options;
     options.time_limit = 10;
+    // On a busy machine the same trial must come through: another one is another mesh.
+    options.processor_time = true;
     try {
       return finish(run_tetgen(input, options, place(contact)), frame);
     } catch (const Error& error) {

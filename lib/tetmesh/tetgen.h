@@ -25,6 +25,7 @@ struct TetgenOptions {
   double max_volume = 0;     // of one tetrahedron [m^3]; 0: no bound
   bool preserve_surface = true;     // no new node on the surface
   double time_limit = 120;          // [s]
+  bool processor_time = false;      // the limit is on the child's work, whatever else runs
   std::function<void()> heartbeat;  // called some times a second while TetGen runs
 };
 

@@ -33,6 +33,8 @@ struct Head {
 
 // Exit status of a child that TetGen left by throwing its number n: kThrew + n.
 constexpr int kThrew = 10;
+// A child whose work is limited waits for a processor up to so many times that limit.
+constexpr double kMostWaiting = 60;
 constexpr auto kBeat = std::chrono::milliseconds(200);
 
 std::string switches(const TetgenInput& input, const TetgenOptions& options) {
@@ -121,13 +123,14 @@ bool send(int file, const tetgenio& out) {
 // All that happens in the child. Never returns, so nothing of the parent is destroyed twice.
 [[noreturn]] void run_child(const TetgenInput& input, const TetgenOptions& options, int pipe_end) {
   // The parent's handlers are not for us; a crash is expected and leaves no core.
-  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGPIPE, SIGTERM, SIGINT})
+  for (const int number :
+       {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGPIPE, SIGTERM, SIGINT, SIGXCPU})
     signal(number, SIG_DFL);
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   // Ends the child also when the parent was killed in the meantime.
-  const auto seconds = static_cast<rlim_t>(std::ceil(options.time_limit)) + 1;
-  const rlimit cpu{seconds, seconds};
+  const auto seconds = static_cast<rlim_t>(std::ceil(options.time_limit));
+  const rlimit cpu{seconds + (options.processor_time ? 0 : 1), seconds + 1};
   setrlimit(RLIMIT_CPU, &cpu);
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
@@ -157,8 +160,9 @@ class Reader {
   Reader(int file, const TetgenOptions& options)
       : file_(file),
         options_(options),
-        deadline_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                     std::chrono::duration<double>(options.time_limit))) {}
+        deadline_(Clock::now() +
+                  std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                      options.time_limit * (options.processor_time ? kMostWaiting : 1)))) {}
   bool timed_out() const { return timed_out_; }
 
   // False at the end of the stream and at the deadline.
@@ -273,7 +277,8 @@ TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& opt
   Reader reader(ends[0], options);
   const bool whole = receive(reader, answer);
   running.finish(!reader.timed_out());
-  if (reader.timed_out())
+  const bool worked_out = WIFSIGNALED(running.status) && WTERMSIG(running.status) == SIGXCPU;
+  if (reader.timed_out() || worked_out)
     answer.failure = fmt::format("TetGen did not finish in {:g} s", options.time_limit);
   else if (!WIFEXITED(running.status) || WEXITSTATUS(running.status) != 0)
     answer.failure = why(running.status);

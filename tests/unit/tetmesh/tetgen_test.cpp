@@ -2,6 +2,8 @@
 #include "tetmesh/tetgen.h"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -183,6 +185,29 @@ TEST(Tetgen, EndsInTime) {
   EXPECT_EQ(code, 3);
   EXPECT_NE(what.find("did not finish in 0.3 s"), std::string::npos) << what;
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+bool child_sleeps = false;
+
+// A child that is kept from working is waited for; one that works on is ended.
+TEST(Tetgen, EndsAfterSoMuchWork) {
+  TetgenOptions options;
+  options.time_limit = 1;
+  options.processor_time = true;
+  ASSERT_EQ(pthread_atfork(nullptr, nullptr,
+                           [] {
+                             if (child_sleeps) sleep(2);
+                           }),
+            0);
+  child_sleeps = true;
+  EXPECT_FALSE(run_tetgen(input_of(test::box({1, 1, 1}, 4)), options).mesh.tets.empty());
+  child_sleeps = false;
+  options.max_volume = 1e-9;
+  const auto [code, what] = error_of([&] {
+    run_tetgen(input_of(test::box({1, 1, 1}, 10)), options);
+  });
+  EXPECT_EQ(code, 3);
+  EXPECT_NE(what.find("did not finish in 1 s"), std::string::npos) << what;
 }
 
 }  // namespace
