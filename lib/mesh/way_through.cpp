@@ -3,10 +3,15 @@
 #include <algorithm>
 
 namespace hapsim {
+namespace {
+
+constexpr double kLeastStep = 0.01;  // share of the way gone
+
+}  // namespace
 
 double way_through(const SignedDistance& body, const Vec3& from, const Vec3& direction) noexcept {
   constexpr int kMost = 200;
-  constexpr double kLeastStep = 0.01, kFirst = 1e-5;  // share of the way gone; [m]
+  constexpr double kFirst = 1e-5;  // [m]
   double way = kFirst;
   int face = -1;
   for (int i = 0; i < kMost; ++i) {
@@ -19,7 +24,12 @@ double way_through(const SignedDistance& body, const Vec3& from, const Vec3& dir
 }
 
 void WayThrough::begin(const Vec3& point, const Vec3& normal) noexcept {
-  if (point == point_ && normal == normal_) return;
+  // A contact that slides asks at every sample.
+  const double near = kLeastStep * thickness_;
+  if (thickness_ > 0 && (point - point_).squaredNorm() <= near * near &&
+      normal.dot(normal_) > 1 - kLeastStep * kLeastStep) {
+    return;
+  }
   point_ = point;
   normal_ = normal;
   thickness_ = -1;

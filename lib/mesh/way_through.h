@@ -19,7 +19,7 @@ double way_through(const SignedDistance& body, const Vec3& from, const Vec3& dir
 class WayThrough {
  public:
   explicit WayThrough(const SignedDistance* body = nullptr) : body_(body) {}
-  // The tool touches there; `normal` outward.
+  // The tool touches there; `normal` outward. Nearly where it did, the same is taken for the same.
   void begin(const Vec3& point, const Vec3& normal) noexcept;
   // Displaced by u from there. The second length is asked for from kValidShare of the first on.
   double share(const Vec3& u) noexcept;

@@ -24,6 +24,9 @@ sensor-lag,0,delay,0.013,s,fixed
 sensor-bias,0,bx,0.02,N,fixed
 sensor-bias,0,by,-0.01,N,fixed
 sensor-bias,0,bz,0.05,N,fixed
+tare,0,bx1,0.01,N,derived
+tare,0,by1,0,N,derived
+tare,0,bz1,0,N,derived
 tare,0,bx2,0.03,N,derived
 tare,0,by2,0,N,derived
 tare,0,bz2,-0.04,N,derived

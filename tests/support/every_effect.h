@@ -87,7 +87,7 @@ inline double drawn(const ParameterCard& p, double about, Random& random) {
   if (p.fixed && p.upper - p.lower == 1) return std::round(random.uniform());
   const double way = 2 * random.uniform() - 1;
   const double value = p.logarithmic ? about * std::exp(1.2 * way) : about + 0.9 * p.scale * way;
-  return std::clamp(value, p.lower, p.upper);
+  return value > p.lower && value < p.upper ? value : about;
 }
 
 // An elastic body and the effect, of random values; `presses` of a motion.
