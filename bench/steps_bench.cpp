@@ -1,6 +1,6 @@
 // What a step of the real-time loop costs with each effect of the catalogue: a million steps each
 // by the clock, whose own 20 to 40 ns are in it, with the memory that they took. No effect is
-// named. Recorded in bench/results/steps.txt (bench/record.sh).
+// named.
 #include <fmt/format.h>
 
 #include <algorithm>
