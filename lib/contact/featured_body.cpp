@@ -16,19 +16,6 @@
 
 namespace hapsim {
 
-std::size_t feature_size(Feature kind) {
-  switch (kind) {
-    case Feature::kLayer:
-      return 2;
-    case Feature::kInclusion:
-      return 5;
-    case Feature::kTransverse:
-      return 4;
-    default:
-      return 3;
-  }
-}
-
 namespace {
 
 const BodyFeature* find_feature(const Material& material, Feature kind) {

@@ -1,0 +1,18 @@
+#include "material/body_features.h"
+
+namespace hapsim {
+
+std::size_t feature_size(Feature kind) {
+  switch (kind) {
+    case Feature::kLayer:
+      return 2;
+    case Feature::kInclusion:
+      return 5;
+    case Feature::kTransverse:
+      return 4;
+    default:
+      return 3;
+  }
+}
+
+}  // namespace hapsim
