@@ -15,7 +15,9 @@ struct ContactOnset {
 
 // Change point of one press: f = b for s <= s0, f = b + k (s - s0)^p beyond, by least squares over
 // the approach and the first 30 % of the force; p of {1, 1.25, 1.5, 2} by what fits best, so a
-// curved toe is not cut off. Without samples in the air (force at the first sample) b = 0 and s0 is
+// curved toe is not cut off. Where no power
+// fits to noise, as before a stiffening body, or the force rises in what would be air, the window
+// is halved until it does. Without samples in the air (force at the first sample) b = 0 and s0 is
 // extrapolated. travel [m] grows inwards, force [N] grows with it; rows in the order of time. Not
 // found when the force never leaves its noise.
 ContactOnset find_contact_onset(const std::vector<double>& travel,
