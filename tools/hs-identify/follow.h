@@ -9,6 +9,7 @@
 #include "common_options.h"
 #include "hs-identify/flags.h"
 #include "io/csv.h"
+#include "prepared_options.h"
 #include "realtime/motion_lines.h"
 #include "stream_options.h"
 #include "watch/identified_material.h"
@@ -46,10 +47,12 @@ inline int run_follow(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines lines(input, true);
   lines.require_contact_points("press,t,x,y,z,ux,uy,uz,fx,fy,fz");
-  PreparedBodyOptions options;
-  options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
+  std::shared_ptr<Progress> progress;
+  const PreparedBodyOptions options = prepared_options(
+      arguments, stream_radius(arguments, lines.metadata(), input.name()), progress);
   lines.within(mesh.nodes);
   const PreparedBody body(mesh, unit_model(arguments[flag::nu]), options);
+  progress.reset();
   UnitResponse response(body, times);
   OnlineIdentification identification(static_cast<int>(times.size()) + 1,
                                       arguments.given(flag::memory)

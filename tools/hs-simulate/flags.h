@@ -9,11 +9,11 @@ namespace flag {
 inline constexpr ForceFlag add_noise{"--add-noise"};
 inline constexpr IntegerFlag seed{"--seed"};
 inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
-    force_control{"--force-control"}, live{"--live"};
+    force_control{"--force-control"}, live{"--live"}, uncertainty{"--uncertainty"};
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
 inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
 inline constexpr FileFlag contacts{"--contacts"};
-inline constexpr NumberFlag rate{"--rate"};
+inline constexpr NumberFlag rate{"--rate"}, accuracy{"--accuracy"};
 }  // namespace flag
 
 }  // namespace hapsim
