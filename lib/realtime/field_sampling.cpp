@@ -58,9 +58,10 @@ FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, doub
   bonded_ = std::make_unique<SurfaceTree>(std::move(held));
   views_ = std::make_unique<PlaceViews>(surface, library_->bonded(), tool_radius, material_.field);
   std::vector<Vec3> first = known;
-  for (const Vec3& p : spread(draw(20 * kFirst, 1), kFirst)) first.push_back(p);
+  const std::size_t begin = std::min(kFirst, options_.most);
+  for (const Vec3& p : spread(draw(20 * kFirst, 1), begin)) first.push_back(p);
   add(first);
-  if (samples_.size() < kFirst / 4)
+  if (samples_.size() < begin / 4)
     fail_input("", "the tool can be laid on hardly any place of this body",
                "check the unit of the tool's radius, or bond less of the body");
   for (std::uint64_t round = 2;; ++round) {

@@ -1,5 +1,7 @@
 #include "realtime/prepared_body.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -19,7 +21,7 @@ namespace {
 // A new layout of fields, or another way to sample, gets a new number.
 constexpr double kFieldVersion = 1;
 // Places where the some thirty materials of regional relaxation are solved.
-constexpr std::size_t kRegionalPlaces = 120;
+constexpr std::size_t kRegionalPlaces = 40;
 constexpr std::size_t kBlock = 256;
 
 ContactLibraryOptions library_options(const PreparedBodyOptions& options) {
@@ -161,7 +163,7 @@ void PreparedBody::prepare_regional(const std::vector<RegionRelaxation>& regions
                                     const PreparedBodyOptions& options) {
   assert(terms_.empty());  // an effect's terms are common or regional
   const std::vector<FieldEntry>& entries = field_->entries();
-  const auto solve = [&](const MaterialSpec& material) {
+  const auto estimate = [&](const MaterialSpec& material) {
     const SampledMaterial solid = sampled(material);
     const std::unique_ptr<PlaceModel> model = sampling.model_of(solid, kRegionalPlaces);
     const PlaceViews views = sampling.views().with(solid.field);
@@ -174,6 +176,19 @@ void PreparedBody::prepare_regional(const std::vector<RegionRelaxation>& regions
       for (std::size_t i = first; i < last; ++i)
         K[i] = scale_at(material, entries[i].point) * estimates[i - first].K;
     });
+    return K;
+  };
+  // What the material does is smooth: it is taken from few places, about the field of the relaxed
+  // one, K = S K_few S' with S the map that takes the relaxed stiffness of few places to the
+  // field's.
+  std::vector<Eigen::Matrix3d> S = estimate(relaxed);
+  for (std::size_t i = 0; i < S.size(); ++i) {
+    const Eigen::Matrix3d few = S[i].llt().matrixL(), all = entries[i].K.llt().matrixL();
+    S[i] = all * few.inverse();
+  }
+  const auto solve = [&](const MaterialSpec& material) {
+    std::vector<Eigen::Matrix3d> K = estimate(material);
+    for (std::size_t i = 0; i < K.size(); ++i) K[i] = (S[i] * K[i] * S[i].transpose()).eval();
     if (options.contacts) {
       const std::vector<KnownStiffness> known = options.contacts(material);
       for (std::size_t k = 0; k < known.size(); ++k)

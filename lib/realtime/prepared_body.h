@@ -31,7 +31,7 @@ struct PreparedBodyOptions {
 
 // Reads nothing but the cache, and holds all that a loop reads: never changed after, so any number
 // of loops and threads may share one. Cost: 0.05 to 0.1 s of a processor for each sample, thirty
-// times that for up to 120 samples where regions relax each in its own way; nothing once the field
+// times that for 40 of them where regions relax each in its own way; nothing once the field
 // is in the cache.
 class PreparedBody {
  public:
