@@ -74,8 +74,6 @@ class ContactLibrary {
                                                     const Material& material,
                                                     const std::string& description,
                                                     ContactLevel level, bool keep) const;
-  // Names the body, its support, the tool and how contacts are meshed.
-  const ContentHash& content() const { return base_hash_; }
   const std::vector<std::uint8_t>& bonded() const { return bonded_; }  // one a face of surface()
 
   // What features do at each position, to first order.

@@ -69,10 +69,18 @@ double scale_at(const MaterialSpec& material, const Vec3& p) {
   return material.local ? local_modulus(material, p).value : material.modulus[0];
 }
 
-std::string key_of(const ContactLibrary& library, const SampledMaterial& material,
+// Of all that a field depends on.
+std::string key_of(const TetMesh& body, const SampledMaterial& material,
                    const std::vector<KnownStiffness>& known, const PreparedBodyOptions& options) {
-  ContentHash key = library.content();
+  ContentHash key;
   key.add(kFieldVersion);
+  std::vector<int> node;
+  const Surface surface = boundary_surface(body, &node);
+  for (const Vec3& p : surface.vertices) key.add(p.data(), 3 * sizeof(double));
+  for (const Triangle& f : surface.faces) key.add(f.data(), sizeof f);
+  for (const int n : node) key.add(&body.fixed[static_cast<std::size_t>(n)], 1);
+  for (const double value : {options.tool_radius, options.rim_edge, kGrowth, kCoarser})
+    key.add(value);
   key.add(material.solid.nu);
   for (const double modulus : material.solid.modulus) key.add(modulus);
   for (const BodyFeature& feature : material.solid.features) {
@@ -124,19 +132,18 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
                "have the contacts solved finely: hs-simulate --live --contacts data.csv");
   const ModelRelaxation relaxation = relaxation_of(model, material);
   terms_ = relaxation.common;
-  const auto library =
-      std::make_shared<const ContactLibrary>(body, options.tool_radius, library_options(options));
   const SampledMaterial solid = sampled(material);
   std::vector<KnownStiffness> known =
       options.contacts ? options.contacts(material) : std::vector<KnownStiffness>{};
   for (KnownStiffness& k : known) k.K /= scale_at(material, k.point);
   const std::string path =
-      options.cache.empty()
-          ? std::string()
-          : options.cache + "/" + key_of(*library, solid, known, options) + ".field";
+      options.cache.empty() ? std::string()
+                            : options.cache + "/" + key_of(body, solid, known, options) + ".field";
   field_ = load_field(path);
   std::unique_ptr<const FieldSampling> sampling;
   if (!field_ || !relaxation.regional.empty()) {
+    const auto library =
+        std::make_shared<const ContactLibrary>(body, options.tool_radius, library_options(options));
     std::vector<Vec3> places;
     for (const KnownStiffness& k : known) places.push_back(k.point);
     FieldSamplingOptions how{options.tolerance, options.most_samples, {}};
@@ -144,7 +151,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     sampling = std::make_unique<FieldSampling>(library, options.tool_radius, solid, places, how);
   }
   if (!field_) {
-    field_ = std::make_unique<StiffnessField>(library->surface(), *sampling, known,
+    field_ = std::make_unique<StiffnessField>(boundary_surface(body), *sampling, known,
                                               options.tool_radius, options.threads);
     store_field(path, *field_);
   }

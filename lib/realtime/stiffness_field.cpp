@@ -24,6 +24,8 @@ constexpr double kStraight = 0.004;  // relative change between entries that is 
 constexpr double kClosest = 0.3;     // entries are not closer than this, in tool radii
 constexpr std::size_t kBlock = 256;  // places estimated at a time
 
+constexpr std::size_t kNumbers = 14;  // of an entry in a file
+
 constexpr char kMagic[8] = {'h', 's', 'f', 'i', 'e', 'l', '0', '1'};
 
 int lattice_size(int steps) {
@@ -261,7 +263,16 @@ StiffnessField::StiffnessField(const std::string& bytes) {
   take.all(first_);
   take.all(steps_);
   take.all(lattice_);
-  take.all(entries_);
+  std::vector<double> numbers;
+  take.all(numbers);
+  for (std::size_t i = 0; i + kNumbers <= numbers.size(); i += kNumbers) {
+    FieldEntry entry;
+    entry.point = Eigen::Map<const Vec3>(&numbers[i]);
+    entry.K = Eigen::Map<const Eigen::Matrix3d>(&numbers[i + 3]);
+    entry.uncertainty = numbers[i + 12];
+    entry.sampled = numbers[i + 13] != 0;
+    entries_.push_back(entry);
+  }
   take.all(known_);
   std::uint64_t samples = 0;
   take.one(samples);
@@ -278,7 +289,14 @@ std::string StiffnessField::bytes() const {
   put_all(bytes, first_);
   put_all(bytes, steps_);
   put_all(bytes, lattice_);
-  put_all(bytes, entries_);
+  std::vector<double> numbers;
+  for (const FieldEntry& entry : entries_) {
+    numbers.insert(numbers.end(), entry.point.begin(), entry.point.end());
+    numbers.insert(numbers.end(), entry.K.data(), entry.K.data() + 9);
+    numbers.push_back(entry.uncertainty);
+    numbers.push_back(entry.sampled ? 1 : 0);
+  }
+  put_all(bytes, numbers);
   put_all(bytes, known_);
   put(bytes, static_cast<std::uint64_t>(samples_));
   put(bytes, expected_);
