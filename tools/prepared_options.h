@@ -2,12 +2,26 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "cli/tool.h"
 #include "contact/contact_cache.h"
 #include "realtime/prepared_body.h"
+#include "shared_flags.h"
 
 namespace hapsim {
+
+inline Option accuracy_option(const std::string& group) {
+  return {.flag = flag::accuracy,
+          .value = "SHARE",
+          .help = group +
+                  ": relative error of the force between samples of the contact stiffness at which "
+                  "no more are taken, root mean square over the surface.",
+          .group = group,
+          .default_text = "0.02",
+          .minimum = 0.002,
+          .maximum = 1};
+}
 
 // With the user's cache, so that a second start finds the field; samples are counted in `progress`,
 // which must outlive the preparation.
@@ -16,6 +30,7 @@ inline PreparedBodyOptions prepared_options(const Arguments& arguments, double t
   PreparedBodyOptions options;
   options.tool_radius = tool_radius;
   options.cache = default_cache_directory();
+  options.tolerance = arguments[flag::accuracy];
   options.progress = [&arguments, &progress](std::size_t most) -> std::function<void()> {
     progress = std::make_shared<Progress>(arguments, "samples of the contact stiffness", most);
     return [&progress] { progress->step(); };

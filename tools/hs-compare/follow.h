@@ -30,6 +30,7 @@ inline std::vector<Option> follow_flags() {
        .group = "Follow",
        .minimum = 1e-6,
        .maximum = 1},
+      accuracy_option("Follow"),
       {.flag = flag::rate,
        .value = "HZ",
        .help = "Follow: rows a second.",

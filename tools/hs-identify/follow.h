@@ -23,6 +23,7 @@ inline std::vector<Option> follow_flags() {
        .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
                "stream of rows, and writes a line of estimates every --every rows at once.",
        .group = "Follow"},
+      accuracy_option("Follow"),
       {.flag = flag::every,
        .value = "N",
        .help = "Follow: rows from one line of estimates to the next.",

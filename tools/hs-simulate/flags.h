@@ -13,7 +13,7 @@ inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
 inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
 inline constexpr FileFlag contacts{"--contacts"};
-inline constexpr NumberFlag rate{"--rate"}, accuracy{"--accuracy"};
+inline constexpr NumberFlag rate{"--rate"};
 }  // namespace flag
 
 }  // namespace hapsim

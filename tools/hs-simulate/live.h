@@ -116,7 +116,6 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   options.threads = places.threads;
   options.cache = places.cache;
   options.rim_edge = places.rim_edge;
-  options.tolerance = arguments[flag::accuracy];
   if (fine)
     options.contacts = [&](const MaterialSpec& material) {
       return known_contacts(fine->places, material);

@@ -3,6 +3,7 @@
 
 #include "common_options.h"
 #include "hs-simulate/flags.h"
+#include "prepared_options.h"
 
 namespace hapsim {
 
@@ -125,14 +126,7 @@ inline ToolSpec simulate_specification() {
                           .help = "Live: a recording whose contact positions are solved finely "
                                   "before the first line.",
                           .group = "Live"});
-  spec.options.push_back({.flag = flag::accuracy,
-                          .value = "SHARE",
-                          .help = "Live: relative error of the force between samples at which no "
-                                  "more are taken, root mean square over the surface.",
-                          .group = "Live",
-                          .default_text = "0.02",
-                          .minimum = 0.002,
-                          .maximum = 1});
+  spec.options.push_back(accuracy_option("Live"));
   spec.options.push_back({.flag = flag::uncertainty,
                           .help = "Live: the standard uncertainty of each force, in a column.",
                           .group = "Live"});
