@@ -12,10 +12,11 @@ namespace {
 
 constexpr std::size_t kMostSamples = 2000;
 constexpr double kMostPower = 2;
-constexpr double kWindow = 0.3;  // of the force, up to which the law of the contact is fitted
-constexpr double kLeastWindow = 1.0 / 128, kLeastRise = 30;  // of the noise: no window is smaller
-// Of the scatter: a straight rise has 4.3, a whole wave at most some 1.5, noise of n samples 4 /
-// sqrt n.
+// Shares of the force's rise up to which the law of the contact is fitted: the first window, the
+// last.
+constexpr double kWindow = 0.3, kLeastWindow = 1.0 / 128;
+constexpr double kLeastRise = 30;  // of the noise: no window is smaller
+// Of the scatter: a straight rise has 4.3, a whole wave at most some 1.5.
 constexpr double kRise = 3;
 constexpr double kNegligible = 0.003;  // of the window's force: what no noise asks for
 constexpr double kMisfit = 2;          // times noise and waves

@@ -22,7 +22,7 @@ namespace {
 constexpr double kFieldVersion = 1;
 // Places where the some thirty materials of regional relaxation are solved.
 constexpr std::size_t kRegionalPlaces = 40;
-constexpr std::size_t kBlock = 256;
+constexpr std::size_t kEntriesAtOnce = 256;
 
 ContactLibraryOptions library_options(const PreparedBodyOptions& options) {
   ContactLibraryOptions library;
@@ -175,14 +175,17 @@ void PreparedBody::prepare_regional(const std::vector<RegionRelaxation>& regions
     const std::unique_ptr<PlaceModel> model = sampling.model_of(solid, kRegionalPlaces);
     const PlaceViews views = sampling.views().with(solid.field);
     std::vector<Eigen::Matrix3d> K(entries.size());
-    in_parallel((entries.size() + kBlock - 1) / kBlock, options.threads, [&](std::size_t block) {
-      std::vector<PlaceView> seen;
-      const std::size_t first = block * kBlock, last = std::min(first + kBlock, entries.size());
-      for (std::size_t i = first; i < last; ++i) seen.push_back(views.at(entries[i].point));
-      const std::vector<PlaceEstimate> estimates = model->at(seen, false);
-      for (std::size_t i = first; i < last; ++i)
-        K[i] = scale_at(material, entries[i].point) * estimates[i - first].K;
-    });
+    in_parallel((entries.size() + kEntriesAtOnce - 1) / kEntriesAtOnce, options.threads,
+                [&](std::size_t block) {
+                  std::vector<PlaceView> seen;
+                  const std::size_t first = block * kEntriesAtOnce,
+                                    last = std::min(first + kEntriesAtOnce, entries.size());
+                  for (std::size_t i = first; i < last; ++i)
+                    seen.push_back(views.at(entries[i].point));
+                  const std::vector<PlaceEstimate> estimates = model->at(seen, false);
+                  for (std::size_t i = first; i < last; ++i)
+                    K[i] = scale_at(material, entries[i].point) * estimates[i - first].K;
+                });
     return K;
   };
   // What the material does is smooth: it is taken from few places, about the field of the relaxed

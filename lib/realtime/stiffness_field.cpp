@@ -120,13 +120,13 @@ class EntryTable {
 };
 
 template <class T>
-void put(std::string& bytes, const T& value) {
+void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 template <class T>
 void put_all(std::string& bytes, const std::vector<T>& values) {
-  put(bytes, static_cast<std::uint64_t>(values.size()));
+  append(bytes, static_cast<std::uint64_t>(values.size()));
   bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
@@ -298,8 +298,8 @@ std::string StiffnessField::bytes() const {
   }
   put_all(bytes, numbers);
   put_all(bytes, known_);
-  put(bytes, static_cast<std::uint64_t>(samples_));
-  put(bytes, expected_);
+  append(bytes, static_cast<std::uint64_t>(samples_));
+  append(bytes, expected_);
   return bytes + sum_of(bytes);
 }
 
