@@ -80,10 +80,6 @@ void MotionLines::write_force(std::string& buffer, const MotionLine& line,
     buffer += ',';
     append(buffer, line.temperature);
   }
-  if (uncertain_) {
-    buffer += ',';
-    append(buffer, line.uncertainty);
-  }
   buffer += '\n';
 }
 
@@ -91,7 +87,6 @@ std::vector<std::string> MotionLines::force_columns() const {
   std::vector<std::string> columns = kForceColumns;
   columns.emplace_back("beyond");
   if (warm_) columns.emplace_back("temp");
-  if (uncertain_) columns.emplace_back("uncertainty");
   return columns;
 }
 

@@ -15,7 +15,7 @@ PATH=$bin:$PATH ./device 0.03 0.025 0.04 --body none.ply --model model.csv --too
 
 # Killed in mid-stream: what was answered before is there, whole lines but perhaps the last.
 mkfifo motion
-"$bin/hs-simulate" --live --accuracy 0.3 "${common[@]}" -q <motion >forces.csv 2>err &
+"$bin/hs-simulate" --live "${common[@]}" -q <motion >forces.csv 2>err &
 simulate=$!
 exec {to}>motion
 printf 't,x,y,z\n' >&"$to"

@@ -11,7 +11,6 @@
 #include "common_options.h"
 #include "hs-simulate/flags.h"
 #include "model/model_edit.h"
-#include "prepared_options.h"
 #include "realtime/force_loop.h"
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
@@ -39,15 +38,12 @@ struct LiveInput {
       fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
     binary = arguments.given(flag::binary);
     if (binary) {
-      if (arguments.given(flag::uncertainty))
-        fail_usage("records have no place for --uncertainty", "leave out --binary, or it");
       source = std::make_unique<MotionRecords>(input, arguments[flag::binary] == "tip"
                                                           ? MotionRecords::Kind::kTip
                                                           : MotionRecords::Kind::kPress);
       return;
     }
     auto lines = std::make_unique<MotionLines>(input);
-    if (arguments.given(flag::uncertainty)) lines->tell_uncertainty();
     metadata = lines->metadata();
     columns = lines->force_columns();
     source = std::move(lines);
@@ -93,11 +89,6 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
           text +=
               fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
         say(arguments, "hs-simulate", text);
-        if (report.off > 0)
-          say(arguments, "hs-simulate",
-              fmt::format("{} of {} lines press where no contact mesh can be made, beside the "
-                          "support: their forces are extrapolated",
-                          report.off, report.latency.count()));
         if (const std::string deep = report.depth_summary(); !deep.empty())
           say(arguments, "hs-simulate", deep);
       });
@@ -107,15 +98,11 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
 inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   LiveInput in(arguments);
+  PreparedBodyOptions options;
+  options.tool_radius = stream_radius(arguments, in.metadata, arguments.input());
   std::shared_ptr<Progress> progress;
   const std::optional<Experiment> fine = fine_contacts(arguments, mesh, model, progress);
   progress.reset();
-  PreparedBodyOptions options = prepared_options(
-      arguments, stream_radius(arguments, in.metadata, arguments.input()), progress);
-  const ExperimentOptions places = experiment_options(arguments, progress);
-  options.threads = places.threads;
-  options.cache = places.cache;
-  options.rim_edge = places.rim_edge;
   if (fine)
     options.contacts = [&](const MaterialSpec& material) {
       return known_contacts(fine->places, material);
@@ -123,13 +110,11 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   options.heals = in.heals();
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
-  progress.reset();
   in.source->within(mesh.nodes);
   say(arguments, "hs-simulate",
-      fmt::format("ready in {:.2g} s: {} samples of the contact stiffness, between them {:.1f} % "
-                  "expected; {} contacts solved finely",
-                  1e-9 * static_cast<double>(monotonic_ns() - start), body.field().samples(),
-                  100 * body.field().expected_error(), fine ? fine->dataset.positions.size() : 0));
+      fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
+                  body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
+                  fine ? fine->dataset.positions.size() : 0));
   if (body.is_regional())
     say(arguments, "hs-simulate",
         fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
@@ -142,8 +127,6 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
 }
 
 inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
-  if (arguments.given(flag::uncertainty))
-    fail_usage("--uncertainty is of finite elements, and this model has none", "leave it out");
   if (arguments.given(flag::contacts))
     fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
   LiveInput in(arguments);
