@@ -49,7 +49,7 @@ near between.csv between-fe.csv 3%
   complain 'live differs from batch'
 printf 't,x,y,z\n0,0.03,0.025,0.041\n0.01,0.03,0.025,0.038\n' |
   "$bin/hs-simulate" --live --model acfm.csv --body body.ply -q >tip.csv 2>err || complain 'no tip'
-tail -1 tip.csv | grep -q '^1,0.01,0.03,0.025,0.04,.*,1$' || complain 'the contact was not found'
+tail -1 tip.csv | grep -q '^1,0.01,0.03,0.025,0.04,.*,1,0$' || complain 'the contact was not found'
 
 refuse() { # CODE TEXT TOOL ARGUMENTS...
   local code=$1 text=$2 tool=$3 got

@@ -23,6 +23,6 @@ for i in {1..400}; do printf '0.%03d,0.03,0.025,0.039\n' "$i"; done >&"$to"
 until_true 60 rows_in forces.csv 400
 { kill -KILL $simulate && wait $simulate; } 2>/dev/null
 exec {to}>&-
-[[ $(grep -Ec '^[0-9]+,0\.[0-9]+(,[^,]+){9},1$' forces.csv) == 400 ]] || complain 'lines were lost'
+[[ $(grep -Ec '^[0-9]+,0\.[0-9]+(,[^,]+){9},1,0$' forces.csv) == 400 ]] || complain 'lines were lost'
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }
