@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "containers/byte_order.h"
 #include "containers/ply_types.h"
 #include "io/number.h"
 
@@ -80,7 +81,7 @@ class BinarySource {
     return ply::with_type(type, [this](auto value) {
       std::memcpy(&value, bytes_.data() + at_, sizeof value);
       at_ += sizeof value;
-      if (swap_) ply::swap_bytes(value);
+      if (swap_) swap_bytes(value);
       return static_cast<double>(value);
     });
   }

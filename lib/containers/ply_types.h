@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 #include <limits>
-#include <utility>
 
 #include "containers/ply.h"
 
@@ -47,15 +45,6 @@ auto with_type(PlyType type, F&& f) {
     default:
       return f(double{});
   }
-}
-
-// Reverses the bytes of a value, between little and big endian.
-template <class T>
-void swap_bytes(T& value) {
-  unsigned char bytes[sizeof(T)];
-  std::memcpy(bytes, &value, sizeof(T));
-  for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
-  std::memcpy(&value, bytes, sizeof(T));
 }
 
 // The header; `body` is set to the first byte after it and `body_line` to its line.

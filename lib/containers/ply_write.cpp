@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "containers/byte_order.h"
 #include "containers/ply_types.h"
 #include "io/number.h"
 
@@ -46,7 +47,7 @@ class BodyWriter {
     }
     ply::with_type(type, [&](auto zero) {
       auto binary = static_cast<decltype(zero)>(value);
-      if (format_ == PlyFormat::kBinaryBig) ply::swap_bytes(binary);
+      if (format_ == PlyFormat::kBinaryBig) swap_bytes(binary);
       char bytes[sizeof binary];
       std::memcpy(bytes, &binary, sizeof binary);
       text_.append(bytes, sizeof binary);

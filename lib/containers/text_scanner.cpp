@@ -55,6 +55,15 @@ std::string_view TextScanner::line() {
   return found;
 }
 
+std::string_view TextScanner::bytes(const char* what, std::size_t count) {
+  if (count > rest_.size())
+    fail(fmt::format("the file is truncated: {} bytes of {} should follow, {} are left", count,
+                     what, rest_.size()));
+  const std::string_view found = rest_.substr(0, count);
+  rest_.remove_prefix(count);
+  return found;
+}
+
 double TextScanner::number(const char* what) {
   const std::string_view text = word();
   double value = 0;

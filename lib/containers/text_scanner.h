@@ -15,6 +15,9 @@ class TextScanner {
   std::string_view word();  // "" at the end
   std::string_view line();  // the rest of the line, without its newline
   double number(const char* what);
+  // So many bytes as they are, from where the last word or line ended; lines are not counted in
+  // them. `what` begins the message.
+  std::string_view bytes(const char* what, std::size_t count);
   // A whole number within [low, high]; `what` begins the message.
   long integer(const char* what, long low, long high);
   // A count of things that take at least `bytes` bytes each in what is left.

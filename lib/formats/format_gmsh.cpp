@@ -1,6 +1,6 @@
-// Gmsh 2.2 and 4.1, ASCII (Gmsh reference manual, "File formats"); types 4 and 11. Region: the
-// physical volume's number, or N when it is named region_N; fixed: node data `fixed`, or the
-// physical surface named fixed.
+// Gmsh 2.2, 4.1 and, read only, 1.0, ASCII (Gmsh reference manual, "File formats" and "Legacy
+// formats"); types 4 and 11. Region: the physical volume's number, or N when it is named region_N;
+// fixed: node data `fixed`, or the physical surface named fixed.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -40,8 +40,12 @@ class GmshReader {
         read_entities();
       else if (section == "$Nodes")
         four_ ? read_nodes4() : read_nodes2();
+      else if (section == "$NOD")
+        read_nodes2();
       else if (section == "$Elements")
         four_ ? read_elements4() : read_elements2();
+      else if (section == "$ELM")
+        read_elements1();
       else if (section == "$NodeData")
         read_node_data();
       else if (section.starts_with("$") && !section.starts_with("$End"))
@@ -55,20 +59,26 @@ class GmshReader {
   }
 
  private:
+  static std::string end_of(const std::string& section) {
+    const bool first = section == "$NOD" || section == "$ELM";  // of format 1.0
+    return (first ? "$END" : "$End") + section.substr(1);
+  }
+
   void expect_end(const std::string& section) {
     if (skipped_) {
       skipped_ = false;
       return;
     }
     const std::string_view end = scan_.word();
-    if (end != "$End" + section.substr(1))
-      scan_.fail(end.empty() ? "the file is truncated: $End" + section.substr(1) + " should follow"
-                             : "'" + std::string(end.substr(0, 40)) + "' stands where $End" +
-                                   section.substr(1) + " should");
+    const std::string wanted = end_of(section);
+    if (end != wanted)
+      scan_.fail(end.empty() ? "the file is truncated: " + wanted + " should follow"
+                             : "'" + std::string(end.substr(0, 40)) + "' stands where " + wanted +
+                                   " should");
   }
 
   void skip(const std::string& section) {
-    const std::string end = "$End" + section.substr(1);
+    const std::string end = end_of(section);
     while (!scan_.done())
       if (scan_.line() == end) {
         skipped_ = true;
@@ -203,6 +213,19 @@ class GmshReader {
     }
   }
 
+  void read_elements1() {
+    mesh_.format = "Gmsh 1";
+    const std::size_t count = scan_.count("the number of elements", 10);
+    for (std::size_t i = 0; i < count; ++i) {
+      scan_.integer("the number of an element", 0, kMost);
+      const long type = scan_.integer("the type of an element", 1, 1000);
+      const long physical = std::labs(scan_.integer("a physical number", -kMost, kMost));
+      scan_.integer("an elementary number", -kMost, kMost);
+      scan_.integer("the number of nodes", 1, 1000);
+      read_element(type, physical);
+    }
+  }
+
   void read_elements4() {
     const std::size_t blocks = scan_.count("the number of blocks", 4);
     scan_.count("the number of elements", 3);
@@ -266,8 +289,10 @@ class GmshReader {
 
 Content sniff(const std::string& bytes) {
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-  return std::string_view(bytes).substr(first).starts_with("$MeshFormat") ? Content::kTetrahedra
-                                                                          : Content::kNothing;
+  const std::string_view text = std::string_view(bytes).substr(first);
+  const bool ours = text.starts_with("$MeshFormat") || text.starts_with("$NOD\n") ||
+                    text.starts_with("$NOD\r") || text.starts_with("$NOD ");
+  return ours ? Content::kTetrahedra : Content::kNothing;
 }
 
 RawMesh read_mesh(const std::string& bytes, const std::string& where) {

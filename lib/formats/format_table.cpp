@@ -12,6 +12,7 @@ namespace hapsim {
 
 const Format& ply_format();
 const Format& vtu_format();
+const Format& vtk_format();
 const Format& gmsh_format();
 const Format& tetgen_format();
 const Format& abaqus_format();
@@ -19,14 +20,15 @@ const Format& febio_format();
 const Format& sofa_format();
 const Format& stl_format();
 const Format& off_format();
+const Format& obj_format();
 const Format& pcd_format();
 
 const std::vector<const Format*>& all_formats() {
   // Those that say what they are come before those that any rows of numbers could be.
   static const std::vector<const Format*> formats{
-      &ply_format(),    &vtu_format(),   &gmsh_format(), &tetgen_format(),
-      &abaqus_format(), &febio_format(), &sofa_format(), &stl_format(),
-      &off_format(),    &pcd_format(),   &rows_format(), &csv_format()};
+      &ply_format(),    &vtu_format(),   &vtk_format(),  &gmsh_format(), &tetgen_format(),
+      &abaqus_format(), &febio_format(), &sofa_format(), &stl_format(),  &off_format(),
+      &obj_format(),    &pcd_format(),   &rows_format(), &csv_format()};
   return formats;
 }
 

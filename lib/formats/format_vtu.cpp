@@ -14,16 +14,12 @@
 #include "formats/format.h"
 #include "formats/mesh_file.h"
 #include "formats/tetmesh_io.h"
+#include "formats/vtk_cells.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kTetra = 10, kQuadraticTetra = 24;
 constexpr const char* kMend = "write the mesh again";
-
-bool is_other_volume(double type) {
-  return (type >= 11 && type <= 16) || (type >= 25 && type <= 29) || type >= 32;
-}
 
 const VtuArray& needed(const std::vector<VtuArray>& arrays, const char* name, std::size_t count,
                        const std::string& where) {
@@ -65,9 +61,9 @@ void add_cells(const VtuPiece& piece, std::size_t first, const std::string& wher
       fail_input(where, fmt::format("the offset of cell {} is out of range", c), kMend);
     const auto at = static_cast<std::size_t>(begin);
     begin = end;
-    mesh.other_cells += is_other_volume(types[c]);
-    if (types[c] != kTetra && types[c] != kQuadraticTetra) continue;
-    const std::size_t width = types[c] == kTetra ? 4 : 10;
+    mesh.other_cells += vtk::is_other_volume(types[c]);
+    if (types[c] != vtk::kTetra && types[c] != vtk::kQuadraticTetra) continue;
+    const std::size_t width = types[c] == vtk::kTetra ? 4 : 10;
     if (count != static_cast<double>(width))
       fail_input(where, fmt::format("tetrahedron {} has {} nodes", c, count), kMend);
     int own[10];

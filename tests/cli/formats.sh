@@ -89,7 +89,7 @@ refused() { # CODE TEXT TOOL ARGUMENTS...
 }
 refused 3 'the file is empty' hs-simulate motion.csv --body /dev/null --model model.csv
 for body in data.csv surface.stl "$bin/hs-tetmesh"; do
-  refused 3 'not a PLY, VTU, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh' hs-simulate motion.csv --body "$body" --model model.csv
+  refused 3 'not a PLY, VTU, VTK, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh' hs-simulate motion.csv --body "$body" --model model.csv
 done
 
 # --- Outputs ----------------------------------------------------------------------------------------

@@ -41,8 +41,10 @@ ToolSpec specification() {
       "The tetrahedra are made by TetGen in a process of its own. The surface is checked: open "
       "edges, doubled vertices, flat triangles, several parts, inverted orientation and "
       "self-intersections are refused with their place, exit code 3.",
-      "A mesh of tetrahedra (PLY, VTU, Gmsh 2.2 and 4.1 in ASCII, decks of Abaqus and CalculiX, "
-      "models of FEBio from 2.0, XML scenes of SOFA with the mesh in themselves, TetGen's .node or "
+      "A mesh of tetrahedra (PLY, VTU, legacy VTK, Gmsh 1, 2.2 and 4.1 in ASCII, decks of Abaqus "
+      "and "
+      "CalculiX, models of FEBio from 2.0, XML scenes of SOFA with the mesh in themselves, "
+      "TetGen's .node or "
       ".ele with the other beside it) is not meshed again but checked, mended and written: nodes "
       "of no "
       "tetrahedron and doubled tetrahedra are dropped, inverted ones turned, and it says so. Its "

@@ -237,7 +237,7 @@ TEST(MeshFile, SaysTheLineOfWhatIsWrong) {
   refuse("$MeshFormat\n3 0 8\n$EndMeshFormat\n", "2.2 and 4.1 are read");
   refuse(head + "$Elements\n1\n1 5 0 1 1 1 1 1 1 1 1\n$EndElements\n", "only tetrahedra are read");
   refuse("<VTKFile type=\"PolyData\">", "no VTK unstructured grid but 'PolyData'");
-  refuse("hello", "not a PLY, VTU, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh");
+  refuse("hello", "not a PLY, VTU, VTK, Gmsh, TetGen, Abaqus, FEBio or SOFA mesh");
   std::string vtu = one_tet_vtu(true);
   vtu.replace(vtu.find("vtkZLib"), 7, "vtkLZMA");
   refuse(vtu, "zlib and plain are read");
