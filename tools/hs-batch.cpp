@@ -18,7 +18,8 @@ namespace flag {
 inline constexpr TextFlag out{"--out"}, bin{"--bin"};
 inline constexpr SwitchFlag prepare{"--prepare"}, wait{"--wait"};
 inline constexpr ChoiceFlag stages{"--stages"};
-inline constexpr FileFlag html{"--html"}, junit{"--junit"};
+inline constexpr FileFlag html{"--html"}, junit{"--junit"}, writes{"--writes"};
+inline constexpr TimeFlag step_time{"--step-time"};
 }  // namespace flag
 
 namespace {
@@ -48,6 +49,12 @@ ToolSpec specification() {
       "as a job array of Slurm (Makefile.pipeline does so with CLUSTER=slurm); any other engine "
       "that "
       "runs `make -C DIR -f batch.mk TARGET` on a shared file system does as well.",
+      "A manifest is taken for somebody else's words. Its names and options run nothing, files "
+      "that "
+      "its options write go to DIR/recordings/NAME/files and nowhere else (the steps run with "
+      "HAPSIM_WRITES, the names of what may be written), inputs are plain files, a step that does "
+      "not end is ended, and a text that a spreadsheet would take for a formula stands in the "
+      "summary behind an apostrophe.",
       "Exit code 1 when a recording failed or was not run. Each failed recording is told in a line "
       "of its own."};
   spec.options = {
@@ -64,6 +71,19 @@ ToolSpec specification() {
        .default_text = "report",
        .choices = {"model", "diagnosis", "report"}},
       {.flag = flag::bin, .value = "DIR", .help = "Where the other tools are, before the PATH."},
+      {.flag = flag::step_time,
+       .value = "S",
+       .help =
+           "In which each step has to end [s]; after that it has failed, and is tried again when "
+           "the batch is.",
+       .default_text = "21600",
+       .minimum = 1,
+       .maximum = 1e7},
+      {.flag = flag::writes,
+       .value = "DIR",
+       .help = "A folder where the manifest's options may write as well, and make a --library. "
+               "Otherwise they write only below DIR/recordings/NAME/files.",
+       .repeatable = true},
       {.flag = flag::wait,
        .help =
            "Read make's output from standard input until it ends, show progress, then write the "
@@ -90,8 +110,9 @@ ToolSpec specification() {
         {"effects", "as hs-identify --effects: elastic (when empty), 'elastic viscoelastic', auto"},
         {"options",
          "further flags of hs-identify, quoted as in a shell; files that flags read (--data, "
-         "--region) are inputs, and relative to the manifest's folder too; those that they write, "
-         "and a --library, are relative to the folder where make runs"},
+         "--region) are inputs, and relative to the manifest's folder too; those that they write "
+         "are made in DIR/recordings/NAME/files; a --library is relative to the folder where make "
+         "runs, and is there already or allowed by --writes"},
         {"common_options",
          "flags of hs-identify, hs-diagnose and hs-simulate alike: --rim-edge 0.2"},
         {"scan_unit", "unit of the scan, m when empty"},
@@ -187,6 +208,11 @@ int run(const Arguments& arguments) {
   BatchOptions options;
   options.folder = arguments[flag::out];
   while (options.folder.size() > 1 && options.folder.back() == '/') options.folder.pop_back();
+  options.writes = arguments.list(flag::writes);
+  options.step_time = arguments[flag::step_time];
+  for (const std::string& folder : options.writes)
+    if (folder.find('\n') != folder.npos)
+      fail_usage("the name of --writes has a line break", "rename the folder");
   options.report = arguments[flag::stages] == "report";
   options.diagnosis = arguments[flag::stages] != "model";
   Input input(arguments.input());

@@ -1,9 +1,12 @@
 #include "batch/chain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
 #include "batch/shell_words.h"
+#include "batch/written_files.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -23,6 +26,7 @@ class Planner {
   void add(const ManifestRow& row) {
     row_ = &row;
     chain_.clear();
+    common_writes_ = false;
     if (row.problem.empty()) {
       folder_ = "recordings/" + row.folder;
       const int data = row.raw.empty() ? -1 : add_data();
@@ -35,6 +39,7 @@ class Planner {
   }
 
  private:
+  std::string files_folder() const { return batch_.options.folder + "/" + folder_ + "/files"; }
   std::string path_of(int step) const { return batch_.options.folder + "/" + output(step); }
   const std::string& output(int step) const {
     return batch_.steps[static_cast<std::size_t>(step)].output;
@@ -46,7 +51,8 @@ class Planner {
     const auto found =
         std::find_if(kBatchStages.begin(), kBatchStages.end(),
                      [&](const BatchStage& s) { return s.step == std::string(stage); });
-    const Words& own = options_of(*row_, stage);
+    Words own = options_of(*row_, stage);
+    const bool writes = place_written_files(own, files_folder());
     const auto is_threads = [](const std::string& word) {
       return word == "--threads" || word.rfind("--threads=", 0) == 0;
     };
@@ -54,12 +60,13 @@ class Planner {
                       std::any_of(words.begin(), words.end(), is_threads);
     if (threads && !said) words.insert(words.end(), {"--threads", "1"});
     words.insert(words.end(), own.begin(), own.end());
-    BatchStep step{stage, folder_, folder_ + "/" + file, {}, {}, ""};
+    BatchStep step{stage, folder_, folder_ + "/" + file, {}, {}, false, ""};
     words.insert(words.begin(), found->tool);
     const bool report = step.name == "report";
     words.insert(words.end(),
                  {report ? "--html" : "-o", batch_.options.folder + "/" + step.output});
     if (report) words.insert(words.end(), {"-o", "/dev/null"});
+    step.writes_files = writes || common_writes_;
     step.command = shell_line(words);
     for (const std::string& path : given)
       if (!path.empty()) step.given.push_back(path);
@@ -119,7 +126,9 @@ class Planner {
     Words common{data_, "--body", body_};
     if (row.tool_radius > 0)
       common.insert(common.end(), {"--tool-radius", format_number(row.tool_radius)});
-    common.insert(common.end(), row.common.begin(), row.common.end());
+    Words shared = row.common;
+    common_writes_ = place_written_files(shared, files_folder());
+    common.insert(common.end(), shared.begin(), shared.end());
     const auto with = [&](Words more) {
       more.insert(more.begin(), common.begin(), common.end());
       return more;
@@ -144,6 +153,7 @@ class Planner {
   Batch& batch_;
   const ManifestRow* row_ = nullptr;
   std::string folder_, data_, body_;
+  bool common_writes_ = false;
   std::vector<int> chain_;
   std::map<std::string, std::size_t> bodies_;
   std::vector<std::vector<int>> steps_of_bodies_;
@@ -154,7 +164,15 @@ class Planner {
 Batch plan_batch(const Manifest& manifest, const BatchOptions& options) {
   Batch batch{manifest, options, {}, {}};
   Planner planner(batch);
-  for (const ManifestRow& row : batch.manifest.rows) planner.add(row);
+  for (ManifestRow& row : batch.manifest.rows) {
+    const std::string outside = written_outside(row);
+    if (row.problem.empty() && !outside.empty() && options.writes.empty())
+      row.problem = fmt::format(
+          "{}:{}: the options write outside the recording's own folder: {}; name a file without "
+          "folders above it, or allow hs-batch to with --writes",
+          manifest.name, row.line, outside);
+    planner.add(row);
+  }
   return batch;
 }
 

@@ -16,6 +16,7 @@ struct BatchStep {
   std::string output;              // "recordings/liver/model.csv"
   std::vector<std::string> made;   // inputs that earlier steps make
   std::vector<std::string> given;  // inputs that are the user's
+  bool writes_files = false;       // its options do, into FOLDER/files
   std::string command;             // a line for a shell in the folder where the batch was started
 };
 
@@ -23,6 +24,8 @@ struct BatchOptions {
   std::string folder = "batch";  // where everything is made
   bool diagnosis = true;
   bool report = true;
+  std::vector<std::string> writes;  // folders where the manifest's options may write as well
+  double step_time = 21600;         // in which each step has to end [s]
 };
 
 struct Batch {
@@ -35,7 +38,8 @@ struct Batch {
 };
 
 // Rows with the same scan, unit and options share their body. Where a row's options do not say
-// otherwise, each command runs with one thread: the batch is parallel over the recordings.
+// otherwise, each command runs with one thread: the batch is parallel over the recordings. A row
+// whose options name files outside the recording's own folder has a problem, unless `writes` does.
 Batch plan_batch(const Manifest& manifest, const BatchOptions& options);
 
 // The row's file of a step, seen from the folder where the batch was started; "" without that step.

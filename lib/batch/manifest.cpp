@@ -71,6 +71,10 @@ void require_file(const std::string& what, const std::string& path, const std::s
     fail_input(where, fmt::format("{} '{}': {}", what, path, std::strerror(errno)), mend);
   if (S_ISDIR(info.st_mode))
     fail_input(where, fmt::format("{} '{}' is a folder", what, path), "name a file");
+  // A pipe or a terminal would be waited for without end.
+  if (!S_ISREG(info.st_mode))
+    fail_input(where, fmt::format("{} '{}' is no file but a pipe, socket or device", what, path),
+               "write what comes from it to a file first");
   if (access(path.c_str(), R_OK) != 0)
     fail_input(where, fmt::format("{} '{}': {}", what, path, std::strerror(errno)),
                "make it readable");
@@ -150,6 +154,16 @@ const std::vector<std::string>& option_files_of(const ManifestRow& row, const st
   return row.option_files[number_of(step)];
 }
 
+namespace {
+
+bool ends_in_hash(const std::string& name) {
+  constexpr std::size_t kDigits = 16;
+  if (name.size() <= kDigits || name[name.size() - kDigits - 1] != '-') return false;
+  return name.find_first_not_of("0123456789abcdef", name.size() - kDigits) == name.npos;
+}
+
+}  // namespace
+
 std::string plain_name(const std::string& text) {
   constexpr std::size_t kLongest = 80;
   std::string plain;
@@ -164,7 +178,8 @@ std::string plain_name(const std::string& text) {
       plain += '-';
   }
   if (plain.size() > kLongest) plain.resize(kLongest);
-  return plain == text ? plain : fmt::format("{}-{:016x}", plain, hash);
+  // A name that looks as if it had a hash could be the name of another text.
+  return plain == text && !ends_in_hash(plain) ? plain : fmt::format("{}-{:016x}", plain, hash);
 }
 
 Manifest read_manifest(Input& input) {
@@ -180,7 +195,8 @@ Manifest read_manifest(Input& input) {
       extra.push_back(c);
       manifest.extra_header.push_back(table.header[c]);
     }
-  std::map<std::string, long> lines;  // of the names
+  std::map<std::string, long> lines;    // of the names
+  std::map<std::string, long> folders;  // whose hashes somebody could have made equal
   for (std::size_t r = 0; r < table.rows(); ++r) {
     ManifestRow row;
     row.line = table.line[r];
@@ -195,6 +211,9 @@ Manifest read_manifest(Input& input) {
             where,
             fmt::format("the name {} stands in line {} already", shown(row.name), first->second),
             "give each recording its own name");
+      if (const auto [other, fresh] = folders.emplace(row.folder, row.line); !fresh)
+        fail_input(where, fmt::format("its folder would be that of line {}", other->second),
+                   "give it another name");
       fill(row, table, r, where);
     } catch (const Error& error) {
       row.problem = error.what();

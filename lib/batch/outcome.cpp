@@ -11,6 +11,7 @@
 #include "batch/step_script.h"
 #include "effects/catalogue.h"
 #include "io/csv.h"
+#include "io/formula.h"
 
 namespace hapsim {
 namespace {
@@ -136,6 +137,7 @@ void write_summary(std::ostream& out, const Batch& batch,
     const bool taken = std::find(header.begin(), header.end(), name) != header.end();
     header.push_back(taken ? "manifest_" + name : name);
   }
+  for (std::string& name : header) name = without_formula(name);
   CsvWriter writer(out, {}, header);
   // Six digits: the last ones may differ from run to run, and equal results are to be equal bytes.
   const auto number = [](double v) {
@@ -165,6 +167,7 @@ void write_summary(std::ostream& out, const Batch& batch,
                                     o.message,
                                     o.command};
     fields.insert(fields.end(), row.extra.begin(), row.extra.end());
+    for (std::string& field : fields) field = without_formula(field);
     writer.row(fields);
   }
 }

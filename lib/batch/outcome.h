@@ -41,6 +41,7 @@ struct RecordingOutcome {
 std::vector<RecordingOutcome> read_outcomes(const Batch& batch);
 
 // One row a recording, in the manifest's order; no times, so that equal results are equal bytes.
+// Opened as a spreadsheet nothing in it is a formula (io/formula.h).
 void write_summary(std::ostream& out, const Batch& batch,
                    const std::vector<RecordingOutcome>& outcomes);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -69,9 +70,21 @@ shift 3
 for input; do [ -e "$batch/$input" ] || exit 0; done
 echo "step ${{folder##*/}}"
 log=$folder/$step.log
+# What the manifest's options may write: they are somebody else's words.
+HAPSIM_WRITES="$output
+$folder/block.ply
+$folder/files/
+/dev/null"{}
+export HAPSIM_WRITES
+limit={} begun=$(date +%s)
 trap stopped=yes HUP INT TERM
-sh "$folder/$step.sh" </dev/null >/dev/null 2>"$log.$$"
+timeout --foreground --kill-after=10 $limit sh "$folder/$step.sh" </dev/null >/dev/null 2>"$log.$$"
 code=$?
+# 124: it was ended for its time, 137: by force; the latter may also be want of memory.
+if [ $code = 124 ] || {{ [ $code = 137 ] && [ $(($(date +%s) - begun)) -ge $limit ]; }}; then
+  code=124
+  echo "$step had not ended after $limit s; is its input whole? else allow more by --step-time" >>"$log.$$"
+fi
 # An identification that is interrupted ends with 4, and leaves the best model so far.
 [ $code != 4 ] || case $(tail -n 1 "$log.$$") in *": the fit was interrupted"* | *": interrupted while"*) stopped=yes ;; esac
 # --help and the like among the options end well, and make nothing.
@@ -97,6 +110,14 @@ if [ $# -gt 0 ]; then exec make --no-print-directory -k -f batch.mk "$1"; fi
 awk -v count="${{SLURM_ARRAY_TASK_COUNT:-1}}" -v id="${{SLURM_ARRAY_TASK_ID:-1}}" \
   'NR % count == id % count' targets | xargs make --no-print-directory -k -f batch.mk
 )";
+
+// More lines of HAPSIM_WRITES, as words of the shell.
+std::string allowed_folders(const std::vector<std::string>& folders) {
+  std::string lines;
+  for (const std::string& folder : folders)
+    lines += shell_quoted("\n" + fs::absolute(folder).lexically_normal().string() + "/");
+  return lines;
+}
 
 // Removes what is to be made anew: the results and failures of the steps whose script is another
 // now, and of all that build on them. Before any script is written: a kill on the way then leaves
@@ -125,7 +146,7 @@ bool is_ahead(const fs::path& path) {
 
 void write_scripts(const Batch& batch, const std::vector<std::string>& scripts) {
   for (const BatchStep& step : batch.steps)
-    make_folder(fs::path(batch.options.folder) / step.folder);
+    make_folder(fs::path(batch.options.folder) / step.folder / (step.writes_files ? "files" : ""));
   remove_stale(batch, scripts);
   for (std::size_t s = 0; s < batch.steps.size(); ++s) {
     const fs::path path = script_path(batch, batch.steps[s]);
@@ -166,11 +187,12 @@ PrepareReport write_rules(const Batch& batch, const std::string& bin, const std:
   const std::string absolute = shell_quoted(fs::absolute(folder).lexically_normal().string());
   write_if_changed(
       folder / "step.sh",
-      fmt::format(kStepScript, absolute, shell_quoted(here),
-                  bin.empty()
-                      ? ""
-                      : "PATH=" + shell_quoted(fs::absolute(bin).lexically_normal().string()) +
-                            ":$PATH\n"));
+      fmt::format(
+          kStepScript, absolute, shell_quoted(here),
+          bin.empty()
+              ? ""
+              : "PATH=" + shell_quoted(fs::absolute(bin).lexically_normal().string()) + ":$PATH\n",
+          allowed_folders(batch.options.writes), std::ceil(batch.options.step_time)));
   write_if_changed(folder / "array.sh", fmt::format(kArrayScript, absolute));
   std::vector<std::string> scripts;
   for (const BatchStep& step : batch.steps) scripts.push_back(script_of(step, version));

@@ -19,8 +19,10 @@ struct PrepareReport {
 //   .../rules.mk        a recording's own steps, for a make of its own: one for all would begin
 //                       every recording before it went on with the first
 //   targets, array.sh   the recordings, and a task of a job array of Slurm that makes its share
-//   step.sh             runs one step: keeps what it says in STEP.log beside the output, and in
-//                       `failure` the step, exit code and line of a failure
+//   step.sh             runs one step, for at most BatchOptions::step_time, and lets it write in
+//   the
+//                       recording's own folder alone: keeps what it says in STEP.log beside the
+//                       output, and in `failure` the step, exit code and line of a failure
 //   .../STEP.sh         the step's command, and the size and time of the user's files that it
 //                       reads. Where that is another than before, or hapsim's version is, the
 //                       step's result is removed with all that builds on it, and is made again

@@ -17,7 +17,8 @@ std::string inputs_and_command(const BatchStep& step) {
       script += fmt::format("# {}: {} bytes, {}.{:09}\n", path, info.st_size, info.st_mtim.tv_sec,
                             info.st_mtim.tv_nsec);
   }
-  return script + step.command + "\n";
+  // In place of the shell, so that what ends the step by its time ends the tool.
+  return script + "exec " + step.command + "\n";
 }
 
 }  // namespace

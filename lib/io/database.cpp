@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "base/error.h"
+#include "io/number.h"
 
 namespace hapsim {
 
@@ -49,6 +51,21 @@ Cell column(sqlite3_stmt* statement, int at) {
   }
 }
 
+// What a file's schema says may run when it is asked or written: a file is somebody else's. No
+// trigger, no view, no function with effects out of a schema, nothing that writes past it.
+void take_no_orders(sqlite3* db) {
+  for (const int off : {SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,
+                        SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION})
+    sqlite3_db_config(db, off, 0, nullptr);
+  sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_exec(db, "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0", nullptr, nullptr, nullptr);
+}
+
+constexpr const char* kObjects =
+    "SELECT type, name, tbl_name, coalesce(sql, '') FROM sqlite_master "
+    // What ANALYZE writes.
+    "WHERE NOT (type = 'table' AND name LIKE 'sqlite\\_stat_' ESCAPE '\\')";
+
 }  // namespace
 
 std::string text_of(const Cell& cell) {
@@ -76,7 +93,15 @@ Database::Database(const std::string& path, const DatabaseFormat& format, Mode m
     fail(code);
   sqlite3_extended_result_codes(handle_->db, 1);
   sqlite3_busy_timeout(handle_->db, static_cast<int>(1000 * patience));
+  take_no_orders(handle_->db);
   check_format(mode);
+}
+
+Database::Database(const DatabaseFormat& format)
+    : handle_(std::make_unique<Handle>()), path_(":memory:"), format_(format), patience_(0) {
+  if (sqlite3_open_v2(":memory:", &handle_->db, SQLITE_OPEN_READWRITE, nullptr) != SQLITE_OK ||
+      sqlite3_exec(handle_->db, format_.schema.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
+    fail(SQLITE_NOMEM);
 }
 
 Database::~Database() = default;
@@ -108,8 +133,35 @@ void Database::check_format(Mode mode) {
         fmt::format("this {} has version {} of its format, and only version {} is known",
                     format_.what, version, format_.version),
         version > format_.version ? "use the newer hapsim that wrote it" : "name another file");
+  check_schema();
   const std::vector<Row> checked = query("PRAGMA quick_check(1)");
   if (checked.empty() || text_of(checked[0].at(0)) != "ok") fail(SQLITE_CORRUPT);
+}
+
+// Before anything that could evaluate an expression of it.
+void Database::check_schema() {
+  const auto objects = [](const std::vector<Row>& rows) {
+    std::set<std::string> lines;
+    for (const Row& row : rows) {
+      std::string line;
+      for (const Cell& cell : row) line += text_of(cell) + '\n';
+      lines.insert(line);
+    }
+    return lines;
+  };
+  // What the schema makes of an empty file, in memory.
+  Database model(format_);
+  const std::set<std::string> ours = objects(model.query(kObjects));
+  const std::set<std::string> theirs = objects(query(kObjects));
+  if (theirs == ours) return;
+  for (const std::string& object : theirs)
+    if (ours.count(object) == 0)
+      fail_input(
+          path_,
+          fmt::format("it holds a {} that no {} has: {}", object.substr(0, object.find('\n')),
+                      format_.what, shown(object.substr(object.find('\n') + 1))),
+          "somebody has put it there; restore the file from a copy");
+  fail(SQLITE_CORRUPT);
 }
 
 std::vector<Row> Database::query(const std::string& sql, const Row& values) {

@@ -27,8 +27,8 @@ double number_of(const Cell& cell);     // NaN for null and text
 // that can be copied, and what a killed process left half-written is undone when it is next opened.
 //
 // Error(kIo): cannot be opened, read or written; another process holds it for longer than
-// `patience` seconds. Error(kBadInput): no SQLite file, damaged, another program's, or of a newer
-// version.
+// `patience` seconds. Error(kBadInput): no SQLite file, damaged, another program's, of a newer
+// version, or with a trigger, view, index or table that the format does not have.
 class Database {
  public:
   enum class Mode { kRead, kWrite };  // kWrite makes a file that is absent
@@ -57,8 +57,10 @@ class Database {
   };
 
  private:
+  explicit Database(const DatabaseFormat& format);  // an empty one, in memory
   [[noreturn]] void fail(int code) const;
   void check_format(Mode mode);
+  void check_schema();
 
   struct Handle;
   std::unique_ptr<Handle> handle_;

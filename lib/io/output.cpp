@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "io/allowed_outputs.h"
 #include "io/stream.h"
 #include "io/system_error.h"
 #include "io/temp_files.h"
@@ -110,6 +111,7 @@ struct Output::Impl {
   }
 
   void open_file(const std::string& path) {
+    require_allowed_output(path);
     struct stat info = {};
     const bool exists = stat(path.c_str(), &info) == 0;
     if (path.back() == '/' || (exists && S_ISDIR(info.st_mode)))

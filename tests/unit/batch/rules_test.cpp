@@ -56,7 +56,7 @@ TEST_F(RulesTest, CommandsAreWrittenOnlyWhenTheyChange) {
   EXPECT_EQ(write_rules(batch_, "", "1").ready, 1U);
   const fs::path script = fs::path(folder_) / "out/recordings/x/model.sh";
   EXPECT_EQ(bytes("out/recordings/x/model.sh").rfind("# hapsim 1\n", 0), 0U);
-  EXPECT_NE(bytes("out/recordings/x/model.sh").find("\nhs-identify "), std::string::npos);
+  EXPECT_NE(bytes("out/recordings/x/model.sh").find("\nexec hs-identify "), std::string::npos);
   EXPECT_NE(
       bytes("out/recordings/x/rules.mk").find("recordings/x/model.csv: recordings/x/model.sh "),
       std::string::npos);
