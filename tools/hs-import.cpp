@@ -7,12 +7,12 @@
 #include "cli/tool.h"
 #include "formats/format_table.h"
 #include "import/block.h"
-#include "import/encoding.h"
 #include "import/implausible.h"
 #include "import/import_report.h"
 #include "io/number.h"
 #include "io/quantity.h"
 #include "shared_flags.h"
+#include "tables/encoding.h"
 
 namespace hapsim {
 namespace flag {

@@ -7,10 +7,10 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "import/column_synonyms.h"
-#include "import/fold.h"
-#include "import/header_words.h"
-#include "import/raw_rows.h"
 #include "io/number.h"
+#include "tables/fold.h"
+#include "tables/header_words.h"
+#include "tables/raw_rows.h"
 
 namespace hapsim {
 namespace {

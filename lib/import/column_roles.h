@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "import/column_name.h"
-#include "import/raw_table.h"
+#include "tables/column_name.h"
+#include "tables/raw_table.h"
 
 namespace hapsim {
 

@@ -1,6 +1,6 @@
 #include "import/column_synonyms.h"
 
-#include "import/header_words.h"
+#include "tables/header_words.h"
 
 namespace hapsim {
 

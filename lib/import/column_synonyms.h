@@ -1,4 +1,4 @@
-// What a column's name means, by the table of words (import/header_words.h).
+// What a column's name means, by the table of words (tables/header_words.h).
 #pragma once
 
 #include <string>

@@ -6,11 +6,11 @@
 
 #include "base/error.h"
 #include "import/assemble.h"
-#include "import/column_name.h"
 #include "import/column_roles.h"
 #include "import/implausible.h"
 #include "import/press_track.h"
 #include "import/side_by_side.h"
+#include "tables/column_name.h"
 
 namespace hapsim {
 namespace {

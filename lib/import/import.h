@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "import/raw_table.h"
 #include "import/samples.h"
 #include "recording/recording.h"
+#include "tables/raw_table.h"
 
 namespace hapsim {
 

@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "import/raw_rows.h"
 #include "io/csv.h"
 #include "io/number.h"
+#include "tables/raw_rows.h"
 
 namespace hapsim {
 namespace {

@@ -4,12 +4,12 @@
 #include <map>
 
 #include "base/error.h"
-#include "import/column_name.h"
 #include "import/column_roles.h"
 #include "import/column_synonyms.h"
-#include "import/header_words.h"
-#include "import/raw_rows.h"
 #include "io/number.h"
+#include "tables/column_name.h"
+#include "tables/header_words.h"
+#include "tables/raw_rows.h"
 
 namespace hapsim {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "import/raw_table.h"
+#include "tables/raw_table.h"
 
 namespace hapsim {
 

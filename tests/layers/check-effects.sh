@@ -10,8 +10,9 @@ mapfile -t names < <(sed -nE 's/^[ \t]*\.name = "([^"]+)".*/\1/p' "$root"/lib/ef
 ((${#names[@]})) || { echo "no card below $root/lib/effects has a .name"; exit 1; }
 # PLACE WORD: in files whose path begins so, the word is another than the effect of that name.
 export others="
+lib/tables/ tip
+lib/tables/ tare
 lib/import/ tip
-lib/import/ tare
 lib/import/ temperature
 lib/compare/ temperature
 lib/scan/ tip

@@ -26,7 +26,7 @@ CLI/: cli
 boost/math/: estimate
 sqlite3\.h: io
 pugixml\.hpp: containers
-matio\.h|hdf5\.h: import
+matio\.h|hdf5\.h: tables
 "
 
 breach() { # FILE LINE TEXT

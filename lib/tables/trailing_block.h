@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "import/raw_rows.h"
+#include "tables/raw_rows.h"
 
 namespace hapsim {
 

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "synthetic.h"
+#include "unit/import/synthetic.h"
 
 namespace hapsim::test {
 namespace {

@@ -1,12 +1,12 @@
-#include "import/column_name.h"
+#include "tables/column_name.h"
 
 #include <algorithm>
 #include <cctype>
 #include <initializer_list>
 
-#include "import/fold.h"
-#include "import/header_words.h"
 #include "io/number.h"
+#include "tables/fold.h"
+#include "tables/header_words.h"
 
 namespace hapsim {
 namespace {

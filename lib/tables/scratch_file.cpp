@@ -1,4 +1,4 @@
-#include "import/scratch_file.h"
+#include "tables/scratch_file.h"
 
 #include <unistd.h>
 

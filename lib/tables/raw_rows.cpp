@@ -1,12 +1,12 @@
-#include "import/raw_rows.h"
+#include "tables/raw_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <map>
 
-#include "import/fold.h"
-#include "import/number_style.h"
 #include "io/number.h"
+#include "tables/fold.h"
+#include "tables/number_style.h"
 
 namespace hapsim {
 

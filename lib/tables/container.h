@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "import/raw_table.h"
+#include "tables/raw_table.h"
 
 namespace hapsim {
 

@@ -1,4 +1,4 @@
-#include "import/encoding.h"
+#include "tables/encoding.h"
 
 #include <iconv.h>
 
@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
-#include "import/column_name.h"
-#include "import/header_words.h"
+#include "tables/column_name.h"
+#include "tables/header_words.h"
 
 namespace hapsim {
 namespace {

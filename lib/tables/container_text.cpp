@@ -2,16 +2,16 @@
 #include <map>
 
 #include "base/error.h"
-#include "import/column_name.h"
-#include "import/container.h"
-#include "import/fold.h"
-#include "import/header_words.h"
-#include "import/number_style.h"
-#include "import/raw_rows.h"
-#include "import/text_decode.h"
-#include "import/trailing_block.h"
-#include "import/unit_name.h"
 #include "io/number.h"
+#include "tables/column_name.h"
+#include "tables/container.h"
+#include "tables/fold.h"
+#include "tables/header_words.h"
+#include "tables/number_style.h"
+#include "tables/raw_rows.h"
+#include "tables/text_decode.h"
+#include "tables/trailing_block.h"
+#include "tables/unit_name.h"
 
 namespace hapsim {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "import/encoding.h"
+#include "tables/encoding.h"
 
 namespace hapsim {
 

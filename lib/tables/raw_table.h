@@ -33,7 +33,7 @@ struct TableOptions {
   std::string part;  // of a file of several tables: its topic, group or variable; "": the only one
 };
 
-// Reads a table, whatever the container (import/container.h). Error(kBadInput) with the line: no
+// Reads a table, whatever the container (tables/container.h). Error(kBadInput) with the line: no
 // table, no header, rows of the wrong length (up to ten are listed), decimal marks mixed or
 // doubtful; for what only one flag can tell the error names it.
 RawTable read_raw_table(Input& input, const TableOptions& options = {});

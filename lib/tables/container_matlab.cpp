@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "base/error.h"
-#include "import/container.h"
-#include "import/named_arrays.h"
-#include "import/scratch_file.h"
 #include "io/number.h"
+#include "tables/container.h"
+#include "tables/named_arrays.h"
+#include "tables/scratch_file.h"
 
 namespace hapsim {
 namespace {

@@ -1,9 +1,9 @@
-#include "import/trailing_block.h"
+#include "tables/trailing_block.h"
 
 #include <algorithm>
 #include <cctype>
 
-#include "import/number_style.h"
+#include "tables/number_style.h"
 
 namespace hapsim {
 namespace {

@@ -4,11 +4,11 @@
 #include <map>
 
 #include "base/error.h"
-#include "import/container.h"
-#include "import/number_style.h"
-#include "import/raw_rows.h"
-#include "import/text_decode.h"
 #include "io/number.h"
+#include "tables/container.h"
+#include "tables/number_style.h"
+#include "tables/raw_rows.h"
+#include "tables/text_decode.h"
 
 namespace hapsim {
 namespace {

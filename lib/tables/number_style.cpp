@@ -1,11 +1,11 @@
-#include "import/number_style.h"
+#include "tables/number_style.h"
 
 #include <algorithm>
 #include <cctype>
 
 #include "base/error.h"
-#include "import/fold.h"
 #include "io/number.h"
+#include "tables/fold.h"
 
 namespace hapsim {
 namespace {

@@ -1,11 +1,11 @@
-#include "import/unit_name.h"
+#include "tables/unit_name.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <optional>
 
-#include "import/fold.h"
+#include "tables/fold.h"
 
 namespace hapsim {
 namespace {

@@ -48,7 +48,7 @@ struct HeaderWord {
   const char* language;  // "en", "de", "fr", "es", "it", "pt", "zh", "ja"; "-": a symbol of all
   Word word;
   bool whole;           // the name is this and nothing else; else it holds this
-  const char* pattern;  // folded (import/fold.h), its words joined
+  const char* pattern;  // folded (tables/fold.h), its words joined
   int rank;             // of several columns the one with the lowest rank is meant
 };
 

@@ -1,4 +1,4 @@
-#include "import/text_decode.h"
+#include "tables/text_decode.h"
 
 #include "base/error.h"
 

@@ -18,7 +18,7 @@ struct DecodedText {
 
 // Text as UTF-8. `told` is a name of the above or "": then a mark decides, zeros in every second
 // byte (UTF-16), valid UTF-8, and last of GB18030, Shift-JIS, Big5, EUC-JP and Windows-1252 the one
-// under which most words of headers are known (import/header_words.h). Error(kUsage) for an unknown
+// under which most words of headers are known (tables/header_words.h). Error(kUsage) for an unknown
 // name, Error(kBadInput) at `name` for bytes that the encoding told cannot hold.
 DecodedText decode(const std::string& bytes, const std::string& told, const std::string& name);
 

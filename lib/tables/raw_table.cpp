@@ -1,8 +1,8 @@
-#include "import/raw_table.h"
+#include "tables/raw_table.h"
 
 #include <set>
 
-#include "import/container.h"
+#include "tables/container.h"
 
 namespace hapsim {
 

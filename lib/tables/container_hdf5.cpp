@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "base/error.h"
-#include "import/container.h"
-#include "import/named_arrays.h"
+#include "tables/container.h"
+#include "tables/named_arrays.h"
 
 namespace hapsim {
 namespace {

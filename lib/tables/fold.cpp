@@ -1,4 +1,4 @@
-#include "import/fold.h"
+#include "tables/fold.h"
 
 #include <array>
 #include <cctype>

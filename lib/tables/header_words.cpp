@@ -1,4 +1,4 @@
-#include "import/header_words.h"
+#include "tables/header_words.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "import/named_arrays.h"
+#include "tables/named_arrays.h"
 
 #include <algorithm>
 #include <map>

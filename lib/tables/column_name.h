@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "import/unit_name.h"
+#include "tables/unit_name.h"
 
 namespace hapsim {
 
