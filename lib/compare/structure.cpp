@@ -144,6 +144,8 @@ Hypothesis try_grouping(const Search& search, const Grouping& grouping) {
 
 // What nothing explains: larger than noise, and neighbouring samples of a press err alike.
 Observation what_is_left(const Search& search, double total) {
+  // Well beyond what an estimate of the noise errs by; and a correlation that white noise of 100
+  // samples has once in 20 (two standard errors of 1/10).
   constexpr double kBeyondNoise = 1.5, kAlike = 0.2;
   double square = 0, product = 0;
   for (std::size_t i = 0; i < search.measured.size(); ++i) {

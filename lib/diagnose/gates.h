@@ -18,23 +18,26 @@ struct Gates {
   int most_effects = 4;
 };
 
-// From here on an effect's size may speak for it: of the squared misfit, and of the error on unseen
-// positions.
+// From here on an effect's size may speak for it: most of the squared misfit, and on unseen
+// positions five times the fall that is asked where the presses' signs speak as well.
 inline constexpr double kMostOfIt = 0.5, kPlainFall = 0.1;
 
-// Rivals' errors that differ by less are alike.
+// Rivals' errors that differ by less are alike: variances that differ by 1.25^2 are told apart from
+// some 55 independent samples each on (the 95 % point of Fisher's F).
 inline constexpr double kAlike = 1.25;
 
-// Errors of less than this times the noise are noise alone.
+// Errors of less than this times the noise are noise alone: fifty samples give a deviation to a
+// tenth.
 inline constexpr double kLikeNoise = 1.1;
 
 // Where the winner leaves white noise and nothing else (fewer than kLikeWhite samples to an
 // independent one), the likelihood can be believed: a rival that is so much less likely (of the
-// criterion, by independent sample) is none, however alike the errors.
+// criterion, by independent sample) is none, however alike the errors: five times what is asked of
+// an effect, since nothing but the likelihood decides.
 inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
-// Fewer presses have too few signs to flip; sets of effects are then judged by an F test of this
-// level, all effects tried counted.
+// Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
+// of effects are then judged by an F test of this level, all effects tried counted.
 inline constexpr std::size_t kLeastPresses = 6;
 inline constexpr double kFewPressesLevel = 0.01;
 

@@ -32,7 +32,7 @@ class Layer : public Effect {
     add_feature(Feature::kLayer, values, card(), material);
   }
   std::string implausible(const Values& values, const std::vector<Vec3>&) const override {
-    constexpr double kSoftest = 0.05;
+    constexpr double kSoftest = 0.05;  // no skin of tissue is that soft on its body
     if (find_value(values, "ratio").value < kSoftest)
       return "a skin that soft carries nothing: something else makes the first depth easy";
     return "";

@@ -200,7 +200,7 @@ ConstrainedResult minimise_constrained(const std::vector<Unknown>& start,
   // What binds: rows of A y = b. The covariance lives in their null space.
   const Coordinates coordinates(start);
   std::vector<Eigen::VectorXd> binding;
-  constexpr double kNear = 1e-5;
+  constexpr double kNear = 1e-5;  // scales: an interior point ends a little before a bound
   for (Eigen::Index i = 0; i < m; ++i) {
     const auto u = static_cast<std::size_t>(i);
     const bool held = y[i] < coordinates.low(u) + kNear || y[i] > coordinates.high(u) - kNear;

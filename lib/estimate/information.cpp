@@ -8,7 +8,7 @@ namespace hapsim {
 double autocorrelation_time(const Eigen::VectorXd& residual,
                             const std::vector<Eigen::Index>& lengths) {
   constexpr Eigen::Index kMost = 400;
-  constexpr double kFaded = 0.05;
+  constexpr double kFaded = 0.05;  // what white noise of 400 samples has by chance (1/20)
   const double square = residual.squaredNorm();
   double time = 1;
   for (Eigen::Index lag = 1; lag < kMost && square > 0; ++lag) {

@@ -10,7 +10,8 @@
 namespace hapsim {
 namespace {
 
-constexpr double kReach = 10;  // scales, where there is no bound
+// Where there is no bound: so many scales, or factors for what is sought by its logarithm.
+constexpr double kReach = 10;
 constexpr double kFactor = 100;
 
 // The range of an unknown in internal coordinates.

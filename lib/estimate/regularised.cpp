@@ -92,6 +92,8 @@ FieldSolution with_weight(const FieldProblem& p, const Eigen::MatrixXd& G,
 }  // namespace
 
 FieldSolution solve_field(const FieldProblem& p, Penalty penalty) {
+  // Jumps well above kEdge (2 % of the modulus, for m is its logarithm) are left sharp. Of weights
+  // whose errors differ by less than the twentieth that kAlike allows, the smoothest is taken.
   constexpr double kEdge = 0.02, kAlike = 1.05;
   constexpr int kReweightings = 6, kWeights = 13;
   PenaltyMatrix matrix(p);

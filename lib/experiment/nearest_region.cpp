@@ -8,9 +8,9 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kNeighbours = 8;
-constexpr double kSame = 1e-4;   // [m]: contact points that close are one position
-constexpr double kReach = 1.5;   // of the farthest neighbour
+constexpr std::size_t kNeighbours = 8;  // a ring about the point; a plane needs three
+constexpr double kSame = 1e-4;          // [m]: contact points that close are one position
+constexpr double kReach = 1.5;          // of the farthest neighbour
 constexpr double kLevel = 0.05;  // pull of the slope towards none, of what the neighbours say of it
 
 struct Neighbour {

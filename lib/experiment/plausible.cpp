@@ -53,6 +53,8 @@ void require_presses(const Dataset& dataset) {
   if (along > 0 && along_centred >= 0)
     fail_input(name, "the forces point the wrong way",
                "forces are of the body on the tool: pressing down (uz < 0) gives fz > 0");
+  // An axis that moved by less than kMoved of the one that moved most says nothing. Stiffnesses of
+  // one body by axis differ by less than ten; mN taken for N make them differ by a thousand.
   constexpr double kMoved = 0.03, kLeast = 100;
   std::array<double, 3> ratio{};
   for (int k = 0; k < 3; ++k)

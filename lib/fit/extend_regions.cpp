@@ -70,7 +70,7 @@ std::optional<Model> with_boundary(const Model& fitted, const RegionBoundary& bo
 
 Model with_regions(const Fit& base, const Experiment& experiment, const Selection& selection,
                    const ExtendOptions& options) {
-  constexpr int kMost = 8;
+  constexpr int kMost = 8;  // groups tried; the criterion decides how many there are
   const auto samples = merged_places(location_samples(base.model, experiment, base.about, selection,
                                                       {options.noise, options.floor}));
   const RegionLabels labels = region_labels(samples, options.regions, kMost);

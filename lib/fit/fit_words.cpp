@@ -24,6 +24,8 @@ std::string setups_in_words(const Dataset& dataset) {
 }  // namespace
 
 std::vector<std::string> hardly_known(const Model& model) {
+  // A standard error of half the modulus lets zero lie within two; one of half of nu's range of
+  // 0 to 0.5 says nothing of it.
   constexpr double kHalf = 0.5, kHalfRange = 0.25;
   std::vector<std::string> names;
   for (const Parameter& p : model.parameters) {

@@ -183,7 +183,7 @@ TermChoice choose_terms(const Fit& base, const std::string& effect, int most,
 }
 
 std::vector<std::string> untold_times(const Model& model, const Dataset& dataset) {
-  constexpr double kTold = 1.0 / 3;
+  constexpr double kTold = 1.0 / 3;  // else zero lies within three standard errors
   double longest = 0;
   for (const Episode& e : dataset.episodes)
     if (!e.view.t.empty()) longest = std::max(longest, e.view.t.back());

@@ -7,7 +7,7 @@ namespace hapsim {
 namespace {
 
 constexpr double kChiSquare3 = 7.814727903;  // 95 % point of three degrees of freedom
-constexpr double kWalkFloor = 0.1;
+constexpr double kWalkFloor = 0.1;    // of the walk at rest: in fast motion it does not freeze
 constexpr double kShareStart = 0.5;   // of what is added, until it has shown its worth
 constexpr double kShareKnown = 2;     // observations that this is worth
 constexpr double kShareSpread = 0.3;  // to the next class of rates

@@ -19,7 +19,8 @@ struct FoundBall {
   double drop = 0;  // of chi^2
 };
 
-// Down to which depth of its centre a ball changes the gains by kSeen standard errors.
+// Down to which depth of its centre a ball changes the gains by kSeen standard errors: four, since
+// hundreds of places of a ball are asked, of which chance gives some three.
 struct Sight {
   double radius = 0, ratio = 1, depth = 0;  // [m]; depth 0: nowhere
 };

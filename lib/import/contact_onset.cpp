@@ -10,8 +10,8 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kMostSamples = 2000;
-constexpr double kMostPower = 2;
+constexpr std::size_t kMostSamples = 2000;  // of an approach; denser ones are thinned
+constexpr double kMostPower = 2;  // force over depth: 1 a punch, 1.5 a ball (Hertz), 2 a cone
 // Shares of the force's rise up to which the law of the contact is fitted: the first window, the
 // last.
 constexpr double kWindow = 0.3, kLeastWindow = 1.0 / 128;

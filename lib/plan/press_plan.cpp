@@ -19,7 +19,7 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kMorePlaces = 6;
+constexpr std::size_t kMorePlaces = 6;  // each is meshed and solved anew
 
 struct Candidates {
   Dataset dataset;
@@ -118,7 +118,7 @@ Model without_press_offsets(Model model) {
 
 // Information on the model's parameters in the recording, with a trace of what their bounds say.
 Eigen::MatrixXd known_information(const Model& model, const Experiment& e) {
-  constexpr double kVague = 100;
+  constexpr double kVague = 100;  // scales: what the data leave open stays finite, no more
   const Selection all = all_episodes(e.dataset);
   Signal signal = solved_forces(model, e, all, true);
   Weights(e.dataset, all, signal.f, e.noise.value, e.floor).whiten(signal.df);

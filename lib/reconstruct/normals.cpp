@@ -13,10 +13,12 @@
 namespace hapsim {
 namespace {
 
+// Thickness over width of a neighbourhood that looks flat: noise tilts its normal by 7 degrees at
+// most (the arc tangent).
 constexpr double kThinPlane = 0.125;
-constexpr int kLeastNear = 12;
-constexpr int kMostNear = 192;
-constexpr int kGraph = 10;
+constexpr int kLeastNear = 12;  // two rings about a point
+constexpr int kMostNear = 192;  // four doublings: coarser than that is no longer the surface
+constexpr int kGraph = 10;      // neighbours over which normals are turned alike
 
 LocalPlane plane_about(const PointCloud& cloud, const PointIndex& index, std::size_t i, int k) {
   std::vector<Vec3> near;

@@ -16,7 +16,7 @@ std::string at_line(const CsvTable& table, std::size_t row) {
 
 void check_limits(const CsvTable& table, std::size_t row, const Robot& robot,
                   const Eigen::VectorXd& q) {
-  constexpr double kSlack = 0.1;
+  constexpr double kSlack = 0.1;  // [rad], [m]: an encoder's offset; degrees are far beyond
   for (std::size_t j = 0; j < robot.joints().size(); ++j) {
     const RobotJoint& joint = robot.joints()[j];
     const double value = q[static_cast<Eigen::Index>(j)];

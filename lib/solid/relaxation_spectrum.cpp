@@ -44,7 +44,7 @@ std::vector<Interval> merged(std::vector<Interval> intervals) {
   std::sort(intervals.begin(), intervals.end());
   std::vector<Interval> result;
   for (const Interval& i : intervals) {
-    constexpr double kTouching = 1.02;
+    constexpr double kTouching = 1.02;  // times 2 % apart are one to any recording
     if (!result.empty() && i.first <= kTouching * result.back().second)
       result.back().second = std::max(result.back().second, i.second);
     else

@@ -9,11 +9,11 @@
 namespace hapsim {
 namespace {
 
-constexpr double kUsualShift = 0.005;  // [m]
-constexpr double kFarthest = 0.02;     // [m]
-constexpr double kGrid = 0.0025;       // [m]
-constexpr int kGridSteps = 3;          // to each side
-constexpr std::size_t kPolished = 3;
+constexpr double kUsualShift = 0.005;   // [m]: what is expected before the presses tell
+constexpr double kFarthest = 0.02;      // [m]: farther, the body is scanned and placed again
+constexpr double kGrid = 0.0025;        // [m]
+constexpr int kGridSteps = 3;           // to each side
+constexpr std::size_t kPolished = 3;    // valleys of the grid, no two beside each other
 constexpr std::size_t kSearched = 200;  // samples that the grid is tried on
 
 std::vector<WatchedSample> thinned(const std::vector<WatchedSample>& window) {
@@ -110,11 +110,11 @@ class ShiftResiduals {
   }
 
  private:
-  static constexpr double kStep = 2e-5;      // [m]
-  static constexpr double kLeastGap = 1e-5;  // [m]
-  static constexpr double kLeastShare = 1e-3;
-  static constexpr double kLeastFactor = 0.1;
-  static constexpr Eigen::Index kFirst = 5;  // of the presses' own
+  static constexpr double kStep = 2e-5;        // [m]
+  static constexpr double kLeastGap = 1e-5;    // [m]
+  static constexpr double kLeastShare = 1e-3;  // errors that are told as less divide by nothing
+  static constexpr double kLeastFactor = 0.1;  // a body as soft as that has not only moved
+  static constexpr Eigen::Index kFirst = 5;    // of the presses' own
 
   // Change of r by a step. A sample at which the tool comes free jumps in one direction or the
   // other: the smaller change of the two is the slope.
