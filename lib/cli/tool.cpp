@@ -1,8 +1,10 @@
 #include "cli/tool.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -133,8 +135,30 @@ void tell(const std::string& tool, const std::string& text) {
   std::fprintf(stderr, "%s: %s\n", tool.c_str(), text.c_str());
 }
 
+namespace {
+
+// OpenBLAS, which is loaded with the tool, takes memory for each thread from the start and asks for
+// it again without end where the address space has no more; its threads then hold up the end of the
+// process, too. Ends it at once where that is bound to happen.
+void require_address_space(const ToolSpec& spec) {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
+  const double threads = std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
+  const double needed = 256e6 + 64e6 * threads;
+  if (static_cast<double>(limit.rlim_cur) >= needed) return;
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "the address space is limited to %.0f MB, and at least %.0f MB are needed; raise "
+                "ulimit -v, or limit the memory by ulimit -m or a control group",
+                1e-6 * static_cast<double>(limit.rlim_cur), 1e-6 * needed);
+  _exit(report(spec, ExitCode::kNoConvergence, text));
+}
+
+}  // namespace
+
 int run_tool(const ToolSpec& spec, int argc, char** argv,
              const std::function<int(const Arguments&)>& run) {
+  require_address_space(spec);
   occupy_standard_streams();
   clean_up_on_signals();
   try {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "base/error.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t kLargest = 64u << 20;
 constexpr int kDeepest = 200;
+constexpr int kMostLinks = 10000;
 // TinyXML skips as many bytes as the first of a UTF-8 character promises, up to three of them
 // beyond the end of a text that is cut there.
 constexpr const char* kPadding = "\n\n\n\n";
@@ -49,18 +51,25 @@ class Complaints : public console_bridge::OutputHandler {
   std::string first_;
 };
 
-// The parser goes down one call a level: text that opens tags without end would exhaust the stack.
+// The parser goes down one call a level, and frees a chain of links one call a link: text that
+// opens tags without end, or a chain without end, would exhaust the stack.
 void check_text(const std::string& urdf, const std::string& name) {
   if (urdf.size() > kLargest) {
     fail_input(name, "the robot description is larger than 64 MB", "give a URDF file");
   }
-  int depth = 0;
+  int depth = 0, links = 0;
   for (std::size_t at = urdf.find('<'); at != std::string::npos; at = urdf.find('<', at + 1)) {
     if (urdf.compare(at, 4, "<!--") == 0) {
       at = std::min(urdf.find("-->", at), urdf.size() - 1);
       continue;
     }
     const char next = at + 1 < urdf.size() ? urdf[at + 1] : ' ';
+    for (const char* tag : {"<link", "<joint"})
+      links += urdf.compare(at, std::strlen(tag), tag) == 0;
+    if (links > 2 * kMostLinks) {
+      fail_input(name, fmt::format("it has more than {} links", kMostLinks),
+                 "give the robot's own description");
+    }
     const std::size_t end = urdf.find('>', at);
     if (next == '?' || next == '!') continue;
     if (next == '/') {

@@ -1,6 +1,7 @@
 #include <teem/nrrd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -29,6 +30,24 @@ std::string complaint() {
   const std::size_t colon = last.find(": ");
   if (colon != std::string::npos) last = last.substr(colon + 2);
   return last.empty() ? "it is no valid NRRD" : last;
+}
+
+// Before the library sees it: it would open the file that the field names, whichever that is. A
+// carriage return ends a line for it too.
+void refuse_other_files(const std::string& bytes, const std::string& name) {
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find_first_of("\r\n", at), bytes.size());
+    std::string field;
+    for (std::size_t i = at; i < end && bytes[i] != ':'; ++i)
+      if (bytes[i] != ' ' && bytes[i] != '\t')
+        field += static_cast<char>(std::tolower(static_cast<unsigned char>(bytes[i])));
+    if (field == "datafile")
+      fail_input(name, "header and voxels are in two files", "join them: unu save -f nrrd");
+    if (end + 1 < bytes.size() && bytes[end] == '\n' &&
+        (bytes[end + 1] == '\n' || bytes.compare(end + 1, 2, "\r\n") == 0))
+      return;  // an empty line ends the header
+    at = end + 1;
+  }
 }
 
 // Reads header, or header and voxels, from memory.
@@ -83,6 +102,7 @@ void take_world(const Nrrd& nrrd, const std::array<unsigned, 3>& axes, Volume& v
 }  // namespace
 
 Volume read_nrrd(const std::string& bytes, const std::string& name) {
+  refuse_other_files(bytes, name);
   std::unique_ptr<NrrdIoState, Nuke> state;
   const auto header = load(bytes, name, false, state);
   if (state->detachedHeader != 0) {

@@ -87,5 +87,29 @@ for planted in 'CREATE TRIGGER t AFTER INSERT ON entry BEGIN DELETE FROM entry; 
   [[ $? == 3 ]] && grep -q 'planted.db: it holds a .* that no model library has' err || complain "taken: $planted"
 done
 
+# Files that lead to another file, or have no end.
+echo secretsecretsecret >secret
+for field in 'data file' 'Data File' datafile ' data file'; do
+  printf 'NRRD0004\ntype: short\ndimension: 3\nencoding: raw\nendian: little\nsizes: 2 2 2\n%s: %s/secret\n\n' "$field" "$work" >v.nrrd
+  "$bin/hs-scan2ply" v.nrrd --threshold 1 -o p.ply 2>err
+  [[ $? == 3 && ! -e p.ply ]] && grep -q 'header and voxels are in two files' err || complain "read: $field"
+done
+awk 'BEGIN {
+  print "<robot name=\"r\"><link name=\"l0\"/>"
+  for (i = 0; i < 200000; ++i)
+    printf "<link name=\"l%d\"/><joint name=\"j%d\" type=\"continuous\"><parent link=\"l%d\"/><child link=\"l%d\"/><axis xyz=\"0 0 1\"/></joint>\n", i + 1, i, i, i + 1
+  print "</robot>" }' >long.urdf
+printf 'q1,d\n0,1\n' >joints.csv
+"$bin/hs-scan2ply" joints.csv --robot long.urdf -o p.ply 2>err
+[[ $? == 3 ]] && grep -q 'more than 10000 links' err || complain 'a robot without end'
+
+# Little memory is said (127: the loader's own word), or enough: never waited for.
+for limit in 60000 100000 150000 250000 400000; do
+  (ulimit -v $limit; exec timeout 60 "$bin/hs-identify" data.csv --body box.ply --rim-edge 0.3 --folds 0 -q -o m.csv) >log 2>err
+  code=$?
+  ((limit >= 200000 || code == 4 || code == 127)) || complain "exit code $code under ulimit -v $limit"
+  [[ $code != 124 && $code != 137 ]] || complain "without end under ulimit -v $limit"
+done
+
 ((failures == 0)) && echo 'hostile: passed'
 exit $((failures > 0))
