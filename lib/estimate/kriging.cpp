@@ -14,11 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double matern(double square) {
-  const double r = std::sqrt(5 * square);
-  return (1 + r + r * r / 3) * std::exp(-r);
-}
-
 // Squared distances between rows of a and b over columns [begin, end).
 MatrixXd squares(const MatrixXd& a, const MatrixXd& b, Index begin, Index end) {
   const auto A = a.middleCols(begin, end - begin), B = b.middleCols(begin, end - begin);
@@ -60,14 +55,19 @@ MatrixXd with_nugget(MatrixXd covariance, double nugget) {
 
 }  // namespace
 
-Kriging::Kriging(KrigingCoordinates places, const MatrixXd& values, const Kriging* like)
+double matern(double square) {
+  const double r = std::sqrt(5 * square);
+  return (1 + r + r * r / 3) * std::exp(-r);
+}
+
+Kriging::Kriging(KrigingCoordinates places, const MatrixXd& values, const KrigingScales* like)
     : places_(std::move(places)) {
   if (like != nullptr)
-    hyper_ = like->hyper_;
+    scales_ = *like;
   else
     choose(values);
   LeftOut left =
-      leave_out(with_nugget(between(places_.rows, places_.rows, hyper_), hyper_.nugget), values);
+      leave_out(with_nugget(between(places_.rows, places_.rows, scales_), scales_.nugget), values);
   if (left.inverse.size() == 0)
     fail_numerics("", "the covariance of the samples is not positive definite",
                   "give samples apart from each other");
@@ -78,17 +78,17 @@ Kriging::Kriging(KrigingCoordinates places, const MatrixXd& values, const Krigin
   left_out_ = -(left_out_variance_.asDiagonal() * weights_);
 }
 
-MatrixXd Kriging::between(const MatrixXd& a, const MatrixXd& b, const Hyper& hyper) const {
+MatrixXd Kriging::between(const MatrixXd& a, const MatrixXd& b, const KrigingScales& scales) const {
   MatrixXd all = MatrixXd::Zero(a.rows(), b.rows()), last;
   Index begin = 0;
   for (std::size_t g = 0; g < places_.group_end.size(); ++g) {
     last = squares(a, b, begin, places_.group_end[g]);
-    all += last / (hyper.length[g] * hyper.length[g]);
+    all += last / (scales.length[g] * scales.length[g]);
     begin = places_.group_end[g];
   }
-  const double l = hyper.length.back();
-  return (1 - hyper.second) * all.unaryExpr(&matern) +
-         hyper.second * (last / (l * l)).unaryExpr(&matern);
+  const double l = scales.length.back();
+  return (1 - scales.second) * all.unaryExpr(&matern) +
+         scales.second * (last / (l * l)).unaryExpr(&matern);
 }
 
 void Kriging::choose(const MatrixXd& values) {
@@ -110,16 +110,16 @@ void Kriging::choose(const MatrixXd& values) {
   x.push_back(x.back() - 0.7);
   x.push_back(std::log(1e-3));
   x.push_back(0);
-  const auto hyper_of = [&](const std::vector<double>& v) {
-    Hyper hyper;
-    for (std::size_t g = 0; g <= groups; ++g) hyper.length.push_back(std::exp(v[g]));
-    hyper.nugget = std::clamp(std::exp(v[groups + 1]), 1e-6, 10.0);
-    hyper.second = 1 / (1 + std::exp(-v[groups + 2]));
-    return hyper;
+  const auto scales_of = [&](const std::vector<double>& v) {
+    KrigingScales scales;
+    for (std::size_t g = 0; g <= groups; ++g) scales.length.push_back(std::exp(v[g]));
+    scales.nugget = std::clamp(std::exp(v[groups + 1]), 1e-6, 10.0);
+    scales.second = 1 / (1 + std::exp(-v[groups + 2]));
+    return scales;
   };
   const auto objective = [&](const std::vector<double>& v) {
-    const Hyper hyper = hyper_of(v);
-    return leave_out(with_nugget(between(rows, rows, hyper), hyper.nugget), chosen).objective;
+    const KrigingScales scales = scales_of(v);
+    return leave_out(with_nugget(between(rows, rows, scales), scales.nugget), chosen).objective;
   };
   double best = objective(x);
   std::vector<double> step(x.size(), 0.7);
@@ -136,11 +136,11 @@ void Kriging::choose(const MatrixXd& values) {
       }
       step[k] *= better ? 1.3 : 0.5;
     }
-  hyper_ = hyper_of(x);
+  scales_ = scales_of(x);
 }
 
 MatrixXd Kriging::covariance(const MatrixXd& rows) const {
-  return between(rows, places_.rows, hyper_);
+  return between(rows, places_.rows, scales_);
 }
 
 VectorXd Kriging::posterior_variance(const MatrixXd& covariance) const {
@@ -151,7 +151,7 @@ VectorXd Kriging::posterior_variance(const MatrixXd& covariance) const {
 
 MatrixXd Kriging::posterior_covariance(const MatrixXd& rows) const {
   const MatrixXd with = covariance(rows);
-  return between(rows, rows, hyper_) - with * inverse_ * with.transpose();
+  return between(rows, rows, scales_) - with * inverse_ * with.transpose();
 }
 
 }  // namespace hapsim

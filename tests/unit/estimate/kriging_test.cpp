@@ -44,7 +44,7 @@ TEST(Kriging, LeavesOutInClosedFormWhatBruteForceDoes) {
   const Kriging all(s.places, s.values);
   for (const Eigen::Index i : {0, 7, 39}) {
     const Sampled rest = without(s, i);
-    const Kriging others(rest.places, rest.values, &all);
+    const Kriging others(rest.places, rest.values, &all.scales());
     const Eigen::MatrixXd c = others.covariance(s.places.rows.row(i));
     EXPECT_LT((others.mean(c) - s.values.row(i) - all.left_out().row(i)).norm(), 1e-6);
     EXPECT_NEAR(others.posterior_variance(c)[0] + all.nugget(), all.left_out_variance()[i], 1e-6);
