@@ -15,6 +15,8 @@ inline constexpr ChoiceFlag method{"--method"}, unit{"--unit"};
 inline constexpr SwitchFlag repair{"--repair"}, no_repair{"--no-repair"}, no_base{"--no-base"},
     ascii{"--ascii"};
 inline constexpr LengthFlag base{"--base"}, base_depth{"--base-depth"}, edge{"--edge"};
+inline constexpr SwitchFlag window{"--window"};
+inline constexpr LengthFlag beyond{"--beyond"};
 inline constexpr TextFlag up{"--up"};
 inline constexpr IntegerFlag seed{"--seed"};
 inline constexpr FileFlag json{"--json"};
@@ -104,6 +106,19 @@ ToolSpec specification() {
        .group = "Bottom",
        .minimum = 0,
        .maximum = 10},
+      {.flag = flag::window,
+       .help = "The points are a window on a larger body, as touched points of an organ are: it "
+               "goes on beyond them (method height), smoothly, at heights a fifth of the points' "
+               "own range above or below them at most, by its thickness or half of the points' "
+               "width, whichever is less. The outline of the points goes with the body, and fits "
+               "allow for what nobody saw of it.",
+       .group = "Bottom"},
+      {.flag = flag::beyond,
+       .value = "M",
+       .help = "As --window, going on by so much [m].",
+       .group = "Bottom",
+       .minimum = 1e-6,
+       .maximum = 1},
       {.flag = flag::no_base,
        .help = "Leaves the underside of a body that was scanned from all round as it is; "
                "hs-tetmesh then needs --fixed.",
@@ -207,6 +222,8 @@ ReconstructOptions options_of(const Arguments& arguments) {
   }
   if (arguments.given(flag::base)) options.base = arguments[flag::base];
   if (arguments.given(flag::base_depth)) options.base_depth = arguments[flag::base_depth];
+  if (arguments[flag::window]) options.beyond = -1;
+  if (arguments.given(flag::beyond)) options.beyond = arguments[flag::beyond];
   if (arguments.given(flag::edge)) options.edge = arguments[flag::edge];
   options.no_base = arguments[flag::no_base];
   options.up = parse_up(arguments[flag::up]);

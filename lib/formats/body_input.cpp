@@ -74,6 +74,7 @@ BodyInput read_body_input(Input& input, double factor) {
   result.surface = parse_surface(bytes, input.name());
   for (Vec3& p : result.surface.vertices) p *= factor;
   result.base = base_of(ply_comments(bytes), factor);
+  result.window = window_of(ply_comments(bytes), factor);
   return result;
 }
 

@@ -7,12 +7,14 @@
 #include "formats/mesh_file.h"
 #include "io/stream.h"
 #include "mesh/support.h"
+#include "mesh/window.h"
 
 namespace hapsim {
 
 struct BodyInput {
   std::optional<MeshFile> mesh;  // there are tetrahedra already
   Surface surface;               // otherwise
+  std::vector<Vec3> window;      // "comment window" of a PLY (mesh/window.h)
   std::optional<Support> base;   // the bottom as "comment base_plane nx ny nz h" of a PLY tells it
 };
 

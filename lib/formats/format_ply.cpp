@@ -272,10 +272,12 @@ void write_points_ply(std::ostream& out, const PointCloud& cloud, bool ascii,
   write_ply(out, file);
 }
 
-void write_body_ply(std::ostream& out, const TetMesh& mesh, bool ascii) {
+void write_body_ply(std::ostream& out, const TetMesh& mesh, bool ascii,
+                    const std::vector<std::string>& comments) {
   PlyFile file;
   file.format = ascii ? PlyFormat::kAscii : PlyFormat::kBinaryLittle;
   file.comments = {"hapsim body, metres; fixed: 1 is bonded to the support"};
+  file.comments.insert(file.comments.end(), comments.begin(), comments.end());
   const std::size_t n = mesh.nodes.size(), width = mesh.order == 1 ? 4 : 10;
 
   PlyElement vertex{"vertex", n, {}};
@@ -319,7 +321,7 @@ const Format& ply_format() {
             write_surface_ply(out, surface, o.ascii, o.comments);
           },
       .write_mesh = [](std::ostream& out, const TetMesh& mesh,
-                       const WriteOptions& o) { write_body_ply(out, mesh, o.ascii); }};
+                       const WriteOptions& o) { write_body_ply(out, mesh, o.ascii, o.comments); }};
   return format;
 }
 

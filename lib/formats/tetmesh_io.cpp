@@ -8,7 +8,9 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "containers/ply.h"
 #include "formats/mesh_file.h"
+#include "mesh/window.h"
 
 namespace hapsim {
 namespace {
@@ -46,9 +48,10 @@ bool hold(const TetMesh& mesh, const std::vector<int>& corners) {
 
 }  // namespace
 
-TetMesh read_body(Input& input) {
+TetMesh read_body(Input& input, std::vector<Vec3>* window) {
   const std::string bytes = input.read_all();
   TetMesh mesh = parse_mesh(bytes, input.name(), false).mesh;
+  if (window != nullptr) *window = window_of(ply_comments(bytes));
   if (std::find(mesh.fixed.begin(), mesh.fixed.end(), 1) == mesh.fixed.end())
     fail_input(input.name(), "no node is fixed: the body would float",
                "mesh with hs-tetmesh --fixed bottom, or set the vertex property 'fixed'");

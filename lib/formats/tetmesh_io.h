@@ -2,6 +2,8 @@
 #pragma once
 
 #include <ostream>
+#include <string>
+#include <vector>
 
 #include "io/stream.h"
 #include "mesh/tetmesh.h"
@@ -11,8 +13,10 @@ namespace hapsim {
 // Body PLY: vertex (x y z, uchar fixed), face, tetrahedron (list of 4 or 10, int region).
 // Error(kBadInput): index out of range, inverted or degenerate tetrahedron (its number and place),
 // no tetrahedra, a part of the body that fixed nodes do not hold.
-TetMesh read_body(Input& input);
-void write_body_ply(std::ostream& out, const TetMesh& mesh, bool ascii = false);
+// `window`: the outline of what was seen of the body (mesh/window.h); empty: all of it.
+TetMesh read_body(Input& input, std::vector<Vec3>* window = nullptr);
+void write_body_ply(std::ostream& out, const TetMesh& mesh, bool ascii = false,
+                    const std::vector<std::string>& comments = {});
 void write_body_vtu(std::ostream& out, const TetMesh& mesh);
 
 }  // namespace hapsim

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "mesh/point_index.h"
-#include "reconstruct/plan_view.h"
+#include "reconstruct/plan_window.h"
 
 namespace hapsim {
 namespace {
@@ -95,6 +95,22 @@ void blur(Grid& grid, int rounds) {
   }
 }
 
+// Moves the zero line outwards by so much.
+void widen(Grid& grid, double beyond) {
+  std::vector<Vec3> inside;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i)
+      if (const Vec2 p = grid.place(i, j); grid.at(i, j) > 0) inside.emplace_back(p.x(), p.y(), 0);
+  if (inside.empty()) return;
+  const PointIndex index(inside);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const Vec2 p = grid.place(i, j);
+      const double off = index.nearest({p.x(), p.y(), 0}, 1).front().distance;
+      grid.at(i, j) = beyond + (off > 0 ? -off : std::max(0.0, grid.at(i, j)));
+    }
+}
+
 // Zero line of the grid, the longest, with positive values on its left (marching triangles: each
 // square cut along one diagonal leaves no ambiguous case).
 std::vector<Vec2> zero_line(const Grid& grid) {
@@ -174,10 +190,15 @@ std::vector<Vec2> resampled(const std::vector<Vec2>& line, double edge) {
 }  // namespace
 
 std::vector<Vec2> plan_outline(const std::vector<Vec3>& points, double reach, double edge) {
+  return outline_beyond(points, reach, edge, 0);
+}
+
+std::vector<Vec2> outline_beyond(const std::vector<Vec3>& points, double reach, double edge,
+                                 double beyond) {
   std::vector<Vec3> flat = points;
   for (Vec3& p : flat) p.z() = 0;
   const PointIndex index(flat);
-  Grid grid = grid_about(flat, 2 * reach, reach / 5);
+  Grid grid = grid_about(flat, 2 * reach + beyond, reach / 5);
 
   // All within reach of a point, then back by the same reach from what is outside.
   std::vector<char> inside(grid.value.size());
@@ -209,6 +230,7 @@ std::vector<Vec2> plan_outline(const std::vector<Vec3>& points, double reach, do
   for (std::size_t n = 0; n < body.size(); ++n) {
     if (body[n] != (grid.value[n] > 0)) grid.value[n] = body[n] ? grid.cell : -grid.cell;
   }
+  if (beyond > 0) widen(grid, beyond);
   blur(grid, 4);
   std::vector<Vec2> line = zero_line(grid);
   if (line.size() < 8) {

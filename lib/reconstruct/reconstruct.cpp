@@ -189,6 +189,12 @@ void choose_base(const ScanView& view, const ReconstructOptions& options, const 
   }
 }
 
+// How far a body goes on beyond the points.
+double beyond_points(const ScanView& view, const ReconstructOptions& options, double base) {
+  if (options.beyond >= 0) return options.beyond;
+  return std::min((view.low + view.high) / 2 - base, 0.5 * std::sqrt(view.area));
+}
+
 // Fails with kNoConvergence where the result is no body: our fault, not the input's.
 void require_body(const Surface& surface, const std::string& name) {
   try {
@@ -370,9 +376,14 @@ Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
   const ScanView view = view_scan(scan);
   choose_method(view, options, report);
   if (report.has_base) choose_base(view, options, name, report);
+  if (options.beyond != 0 && report.method != ReconstructMethod::kHeight)
+    fail_input(name, "only a patch goes on beyond its points, and these show the body's sides",
+               "leave --beyond out, or add --method height");
+  if (options.beyond != 0) report.beyond = beyond_points(view, options, report.base);
 
-  // The bottom and, for a patch, the walls come on top of what was scanned.
-  const double area = 1.4 * view.area;
+  // The bottom and, for a patch, the walls and what lies beyond come on top of what was scanned.
+  const double seen = view.area;
+  const double area = 1.4 * (seen + 4 * report.beyond * (std::sqrt(seen) + report.beyond));
   report.edge = options.edge > 0
                     ? options.edge
                     : std::max(std::sqrt(area / kFaces * 4 / std::sqrt(3.0)), 0.8 * view.spacing);
@@ -382,14 +393,17 @@ Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
   frame.base = report.base;
   frame.edge = report.edge;
   frame.spacing = view.spacing;
+  frame.beyond = report.beyond;
   frame.seed = options.seed;
   frame.step = options.step;
   const PointCloud even = even_points(scan, view.spacing, report.edge);
   require_surface_points(even.points, name);
   report.points = even.points.size();
   Surface surface = by_method(even, frame, options, name, report);
+  if (frame.beyond > 0) report.window = outline_of(even, frame);
   if (report.tilted) {
     for (Vec3& p : surface.vertices) p = turn.transpose() * p;
+    for (Vec3& p : report.window) p = turn.transpose() * p;
   }
   measure(surface, cloud.points, report);
   return surface;

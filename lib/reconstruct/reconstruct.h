@@ -33,7 +33,9 @@ struct ReconstructOptions {
   std::optional<double> base_depth;        // ... or its depth below the lowest point [m]
   std::optional<Vec3> up = Vec3::UnitZ();  // absent: z, or the mean normal when 60 degrees off it
   bool no_base = false;                    // points from all round: leave the underside as it is
-  double edge = 0;                         // wished edge length [m]; 0: from size and sampling
+  double beyond = 0;  // the body goes on by so much beyond the points [m]; 0: it ends with them;
+                      // negative: by its thickness there, half of the points' width at most
+  double edge = 0;    // wished edge length [m]; 0: from size and sampling
   std::uint64_t seed = 1;
   std::function<void()> step;  // called a few times on the way, for progress; may be empty
 };
@@ -46,18 +48,20 @@ struct ReconstructReport {
   bool has_base = true;  // a flat bottom at height `base` along `up`
   double base = 0;       // [m]
   std::string base_why;
-  double edge = 0;         // [m]
-  std::size_t points = 0;  // used, after thinning
-  bool sharp = false;      // sharp edges were restored
-  double rms = 0;          // of the given points to the surface [m]
-  double far_share = 0;    // points farther than three times that
+  double beyond = 0;         // [m]
+  std::vector<Vec3> window;  // outline of the points, where the body goes on beyond them
+  double edge = 0;           // [m]
+  std::size_t points = 0;    // used, after thinning
+  bool sharp = false;        // sharp edges were restored
+  double rms = 0;            // of the given points to the surface [m]
+  double far_share = 0;      // points farther than three times that
 };
 
 // Closed, outward, one part, without self-intersection; the bottom, where there is one, exactly
 // planar. Points without normals get them.
 // - height, for points of the upper side only: a regularised outline in plan view, heights by
 //   smoothed least squares with the smoothing chosen by cross-validation, upright side walls, flat
-//   bottom.
+//   bottom. `beyond`: the surface goes on smoothly as far as that, the walls stand there.
 // - the others, for points of the side too: triangles over the points, mirrored at the base plane
 //   (so that the walls run down to it and overhang may be), cut flat there; for points all round,
 //   cut flat just above the lowest, as a support; then remeshed evenly, fitted to the points, sharp

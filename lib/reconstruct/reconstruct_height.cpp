@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/median.h"
 #include "mesh/point_index.h"
 #include "reconstruct/clean_points.h"
-#include "reconstruct/plan_view.h"
+#include "reconstruct/plan_window.h"
 #include "reconstruct/reconstruct_parts.h"
 
 namespace hapsim {
@@ -25,11 +26,20 @@ double plan_reach(const std::vector<Vec3>& points) {
   return std::max(1.6 * usual, std::min(1.2 * quantile(sixth, 0.97), 4 * usual));
 }
 
+constexpr double kSlopesEnd = 0.2;  // of the points' height, above and below them
+
 }  // namespace
+
+std::vector<Vec3> outline_of(const PointCloud& cloud, const BodyFrame& frame) {
+  std::vector<Vec3> line;
+  for (const Vec2& p : plan_outline(cloud.points, plan_reach(cloud.points), frame.edge))
+    line.emplace_back(p.x(), p.y(), frame.base);
+  return line;
+}
 
 Surface reconstruct_height(const PointCloud& cloud, const BodyFrame& frame) {
   const std::vector<Vec2> outline =
-      plan_outline(cloud.points, plan_reach(cloud.points), frame.edge);
+      outline_beyond(cloud.points, plan_reach(cloud.points), frame.edge, frame.beyond);
   int rim = 0;
   const Surface plan = plan_mesh(outline, frame.edge, rim);
   const std::vector<double> height = fit_heights(plan, cloud.points);
@@ -37,9 +47,19 @@ Surface reconstruct_height(const PointCloud& cloud, const BodyFrame& frame) {
   const int n = static_cast<int>(plan.vertices.size());
   Surface body = plan;
   double rim_height = 0;
+  // What goes on beyond the points stays between them, more or less: slopes end somewhere.
+  double low = -std::numeric_limits<double>::infinity(), high = -low;
+  if (frame.beyond > 0) {
+    const auto [least, most] =
+        std::minmax_element(cloud.points.begin(), cloud.points.end(),
+                            [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+    const double more = kSlopesEnd * (most->z() - least->z());
+    low = least->z() - more;
+    high = most->z() + more;
+  }
   for (int v = 0; v < n; ++v) {
     // A body of no thickness cannot be meshed.
-    body.vertices[v].z() = std::max(height[v], frame.base + frame.edge / 4);
+    body.vertices[v].z() = std::max(std::clamp(height[v], low, high), frame.base + frame.edge / 4);
     if (v < rim) rim_height += (body.vertices[v].z() - frame.base) / rim;
   }
   for (const Vec3& p : plan.vertices) body.vertices.emplace_back(p.x(), p.y(), frame.base);

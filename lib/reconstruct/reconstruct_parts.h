@@ -31,6 +31,7 @@ struct BodyFrame {
   bool all_round = false;  // the underside was scanned: cut at the base, not mirrored there
   double base = 0;         // [m]
   double edge = 0;         // [m]
+  double beyond = 0;       // the body goes on beyond the points by this [m]
   double spacing = 0;      // of the points [m]
   std::uint64_t seed = 1;
   std::function<void()> step;
@@ -44,5 +45,7 @@ Surface reconstruct_closed(const PointCloud& cloud, const BodyFrame& frame,
                            ReconstructMethod method, bool& sharp);
 // Points of the upper surface.
 Surface reconstruct_height(const PointCloud& cloud, const BodyFrame& frame);
+// The outline of these points, counter-clockwise, at the height of the base.
+std::vector<Vec3> outline_of(const PointCloud& cloud, const BodyFrame& frame);
 
 }  // namespace hapsim

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/number.h"
+#include "mesh/window.h"
 
 namespace hapsim {
 namespace {
@@ -35,6 +36,12 @@ SurfaceRecord record_reconstruction(const Surface& surface, const ReconstructRep
                          : fmt::format("base z = {:.4g} m", report.base);
     base += " (" + report.base_why + ")";
   }
+  if (!report.window.empty()) {
+    record.comments.push_back(window_comment(report.window));
+    base += fmt::format(
+        "; the body goes on for {:.3g} mm beyond the points, where its shape is a guess",
+        1e3 * report.beyond);
+  }
   record.summary = fmt::format(
       "method {}: {}; {} points ({} after evening out) to {} vertices, {} faces of edge {:.2g} mm, "
       "{}; volume {:.4g} cm^3; {}; points lie {:.2g} mm rms off the surface, {:.1f} % farther than "
@@ -47,6 +54,7 @@ SurfaceRecord record_reconstruction(const Surface& surface, const ReconstructRep
                          {"edge", report.edge}, {"sharp_edges", report.sharp},
                          {"rms", report.rms},   {"far_share", report.far_share}};
   if (report.has_base) json["base"] = report.base;
+  if (report.beyond > 0) json["beyond"] = report.beyond;
   return finish(std::move(record), std::move(json), surface);
 }
 

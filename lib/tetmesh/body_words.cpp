@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 namespace hapsim {
 namespace {
@@ -26,6 +29,25 @@ std::string counts(const char* what, const Histogram& histogram) {
 }
 
 }  // namespace
+
+std::string weak_support_words(const TetMesh& mesh) {
+  constexpr double kSmall = 0.2;  // radius over the cube root of the body's volume
+  const auto held = std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
+  if (held == 0) return "";
+  double area = 0;
+  for (const Triangle& f : mesh.faces)
+    if (mesh.fixed[f[0]] && mesh.fixed[f[1]] && mesh.fixed[f[2]])
+      area +=
+          0.5 *
+          (mesh.nodes[f[1]] - mesh.nodes[f[0]]).cross(mesh.nodes[f[2]] - mesh.nodes[f[0]]).norm();
+  const double size = std::cbrt(volume(mesh));
+  if (std::sqrt(area / std::numbers::pi) > kSmall * size) return "";
+  return fmt::format(
+      "WARNING: {} nodes and {:.2g} cm^2 hold a body of {:.3g} mm: it will rock on so small a "
+      "base; "
+      "bond more of it (--fixed below:Z), or cut its bottom flat (hs-reconstruct --base)",
+      held, 1e4 * area, 1e3 * size);
+}
 
 std::string body_json(const TetMesh& mesh, const TetQuality& q, const BodyReport& report) {
   std::map<int, std::size_t> regions;

@@ -20,4 +20,9 @@ std::vector<std::string> body_lines(const TetMesh& mesh, const TetQuality& quali
 // the notes.
 std::string body_json(const TetMesh& mesh, const TetQuality& quality, const BodyReport& report);
 
+// What to know of a support too small to carry the body, as a bottom of a few triangles is: what is
+// bonded yields about as much as a disc of its area does, so it is weak where that disc is small
+// beside the body. "": it is sound, or nothing is bonded.
+std::string weak_support_words(const TetMesh& mesh);
+
 }  // namespace hapsim

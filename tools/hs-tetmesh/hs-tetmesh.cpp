@@ -280,7 +280,7 @@ BodyOptions read_options(const Arguments& arguments) {
 // All outputs are written before the first is put in its place, and before anything is said: a
 // reader of standard error that goes away costs no result.
 void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality& quality,
-               const BodyReport& report) {
+               const BodyReport& report, const std::vector<Vec3>& window) {
   std::vector<std::unique_ptr<Output>> outputs;
   const auto open = [&](const std::string& path) -> std::ostream& {
     outputs.push_back(std::make_unique<Output>(path));
@@ -299,7 +299,10 @@ void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality
   if (arguments.given(flag::json)) open(arguments[flag::json]) << body_json(mesh, quality, report);
   format_to_write(arguments.output(), Content::kTetrahedra)
       .write_mesh(open(arguments.output()), mesh,
-                  {.ascii = arguments[flag::ascii], .version = arguments[flag::gmsh_version]});
+                  {.ascii = arguments[flag::ascii],
+                   .comments = window.empty() ? std::vector<std::string>{}
+                                              : std::vector<std::string>{window_comment(window)},
+                   .version = arguments[flag::gmsh_version]});
   for (const auto& output : outputs) output->commit();
 }
 
@@ -340,12 +343,14 @@ int run(const Arguments& arguments) {
     options.heartbeat = [&progress] { progress.step(); };
     mesh = make_body_mesh(input.surface, options, where, &report);
   }
+  if (const std::string weak = weak_support_words(mesh); !weak.empty())
+    report.notes.push_back(weak);
   const TetQuality quality = tet_quality(mesh);
   if (quality.inverted > 0)
     fail_numerics(where, fmt::format("{} tetrahedra are inverted", quality.inverted),
                   "mesh with another --edge");
   write_contact_meshes(arguments, mesh, options);
-  write_all(arguments, mesh, quality, report);
+  write_all(arguments, mesh, quality, report, input.window);
   for (const std::string& line :
        body_lines(mesh, quality, report, arguments[flag::unit], arguments.verbose()))
     say(arguments, kName, line);

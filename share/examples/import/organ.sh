@@ -6,4 +6,4 @@ set -eu
 table=$1 radius=$2
 shift 2
 hs-import "$table" --tool sphere --tool-radius "$radius" "$@" --scan touched.csv -o data.csv
-hs-scan2ply touched.csv | hs-reconstruct | hs-tetmesh -o body.ply
+hs-scan2ply touched.csv | hs-reconstruct --window | hs-tetmesh -o body.ply
