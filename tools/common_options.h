@@ -77,9 +77,9 @@ inline Recording load_recording(const Arguments& arguments, const std::string& p
   return recording;
 }
 
-inline TetMesh load_body(const Arguments& arguments) {
+inline TetMesh load_body(const Arguments& arguments, std::vector<Vec3>* window = nullptr) {
   Input input(arguments[flag::body]);
-  return read_body(input);
+  return read_body(input, window);
 }
 
 // A model; says so when its fit was ended early.

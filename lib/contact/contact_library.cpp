@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "linalg/blas.h"
+#include "tetmesh/contact_unfit.h"
 
 namespace hapsim {
 namespace {
@@ -111,7 +112,13 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
         continue;
       }
       if (!bodies) bodies = take_bodies(positions[p], keep);
-      results[p * m + k] = tasks[k].solve(*bodies, p);
+      try {
+        results[p * m + k] = tasks[k].solve(*bodies, p);
+      } catch (const ContactUnfit& error) {
+        results[p * m + k].unfit = error.what();
+        bodies = nullptr;
+        break;
+      }
       cache_.store(hash.hex(), results[p * m + k]);
     }
     if (bodies && keep)
@@ -155,6 +162,10 @@ std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& po
   const auto solutions = solve_all(positions, tasks, false);
   std::vector<PreparedContact> prepared(positions.size());
   for (std::size_t p = 0; p < positions.size(); ++p) {
+    for (std::size_t k = 0; k < nus.size(); ++k)
+      if (const std::string& unfit = solutions[p * nus.size() + k].unfit; !unfit.empty())
+        prepared[p].unfit = unfit;
+    if (!prepared[p].unfit.empty()) continue;
     for (std::size_t k = 0; k < nus.size(); ++k) {
       const StiffnessSolution& s = solutions[p * nus.size() + k];
       prepared[p].stiffness.add(nus[k], s.K, s.dK_dnu);

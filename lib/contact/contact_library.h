@@ -37,6 +37,7 @@ struct PreparedContact {
   UnitStiffness coarse;           // of the coarser mesh
   double mesh_uncertainty = 0;    // relative, of the normal stiffness
   std::vector<float> plan_share;  // share of the strain energy by plan-view cell
+  std::string unfit;              // not "": why the tool cannot press there; nothing else is known
 };
 
 struct ContactLibraryOptions {
@@ -55,12 +56,13 @@ class ContactLibrary {
   ContactLibrary(const TetMesh& body, double tool_radius, const ContactLibraryOptions& options);
 
   // Prepares positions for Poisson's ratios in [nu_low, nu_high] (equal: that one only).
-  // Error(kBadInput) names the position that is off the surface or cannot be meshed.
+  // Error(kBadInput) names the position that is off the surface; one at which the tool's disc does
+  // not fit is marked so.
   std::vector<PreparedContact> prepare(const std::vector<Vec3>& positions, double nu_low,
                                        double nu_high) const;
   // One solution a position for an inhomogeneous material or one with features; a draft is
   // corrected to the homogeneous stiffnesses of `contacts` (of the same positions). `description`
-  // must determine `material.group_of` (it names the cache entry).
+  // must determine `material.group_of` (it names the cache entry). None may be unfit.
   std::vector<StiffnessSolution> solve(const std::vector<Vec3>& positions,
                                        const std::vector<PreparedContact>& contacts,
                                        const Material& material,

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "material/body_features.h"
@@ -42,6 +43,7 @@ struct StiffnessSolution {
   Eigen::Matrix3d coarse_change;  // K of the coarser mesh minus K [N/m]
   Eigen::Matrix3d coarse_dK_dnu;  // of the coarser mesh [N/m]
   Vec3 point, normal;             // of the contact on the surface
+  std::string unfit;              // why there is none (ContactUnfit); "": there is
   std::vector<float> plan_share;  // share of the strain energy by cell of the grid
 };
 

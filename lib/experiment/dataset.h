@@ -17,8 +17,6 @@ struct Episode {
   PressView view;         // normal, direction, past_depth are filled in by with_normals()
 };
 
-constexpr double kSamePlace = 1e-4;  // contact points nearer than this are one [m]
-
 // Which body was pressed (from 0, in the caller's list) with which tool.
 struct Setup {
   int body = 0;
@@ -32,6 +30,10 @@ struct Dataset {
   std::vector<Episode> episodes;
   std::vector<Setup> setups;  // distinct, in the order of the recording
   std::vector<int> setup_of;  // by position
+  // Relative error of a position's stiffness beyond that of all (Allowance::floor), by position;
+  // empty: none.
+  std::vector<double> doubt;
+  double floor_at(std::size_t position, double floor) const;  // of both together
   std::size_t rows() const { return recording.rows(); }
   int axes() const { return measured_axes(recording.f); }  // of the force that were measured
   std::size_t bodies() const;                              // distinct ones
@@ -46,6 +48,9 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
 // With normals by position, and what follows from them: each press's direction and the deepest
 // press before it at its place (none with `recovery: full`).
 Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals);
+
+// Of some positions alone, in ascending order; the rows and presses of the others are left out.
+Dataset at_positions(const Dataset& dataset, const std::vector<std::size_t>& positions);
 
 // The temperature to count from is the metadata `temp_ref`, else the mean.
 DataSummary summarise(const Dataset& dataset, double modulus);

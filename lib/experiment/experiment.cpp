@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "model/body_parameters.h"
@@ -34,6 +35,40 @@ void require_small_displacements(const std::vector<TetMesh>& bodies, const Datas
   }
 }
 
+// The nearest place of the same body and tool at which it fits.
+std::size_t nearest_fit(std::size_t p, const Places& places, const Dataset& dataset) {
+  std::size_t nearest = p;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t q = 0; q < places.size(); ++q) {
+    const double distance = (dataset.positions[q] - dataset.positions[p]).norm();
+    if (!places.unfit(q).empty() || dataset.setup_of[q] != dataset.setup_of[p] || distance >= least)
+      continue;
+    least = distance;
+    nearest = q;
+  }
+  return nearest;
+}
+
+// Leaves out what does not fit, or borrows for it.
+std::vector<UnfitPlace> settle_unfit(Places& places, Dataset& dataset, bool borrow) {
+  std::vector<UnfitPlace> unfit;
+  std::vector<std::size_t> fit, from;
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const std::string& why = places.unfit(p);
+    from.push_back(why.empty() ? p : nearest_fit(p, places, dataset));
+    if (why.empty()) {
+      fit.push_back(p);
+      continue;
+    }
+    unfit.push_back({dataset.positions[p], why});
+    if (from.back() == p) throw Error(ExitCode::kBadInput, dataset.recording.name, why, "");
+  }
+  if (unfit.empty()) return unfit;
+  if (!borrow) dataset = at_positions(dataset, fit);
+  places = places.chosen(borrow ? from : fit);
+  return unfit;
+}
+
 }  // namespace
 
 Experiment make_experiment(const TetMesh& body, Recording recording,
@@ -56,7 +91,7 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
   for (const Setup& s : dataset.setups)
     libraries.push_back(std::make_shared<ContactLibrary>(bodies[static_cast<std::size_t>(s.body)],
                                                          s.tool_radius, library));
-  const auto places = [&] {
+  Places places = [&] {
     try {
       return Places(libraries, dataset, options.nu_low, options.nu_high, options.kept);
     } catch (const Error& error) {  // names the contact, not the file in which it stands
@@ -64,6 +99,13 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
       throw Error(error.code(), dataset.recording.name, error.what(), "");
     }
   }();
+  std::vector<UnfitPlace> unfit = settle_unfit(places, dataset, options.borrow);
+  std::vector<std::vector<Vec3>> windows;
+  for (const Setup& s : dataset.setups) {
+    const auto b = static_cast<std::size_t>(s.body);
+    windows.push_back(b < options.windows.size() ? options.windows[b] : std::vector<Vec3>{});
+  }
+  dataset.doubt = places.beyond_windows(windows);
   Noise noise;
   if (options.noise > 0)
     noise = {options.noise, false};
@@ -81,8 +123,29 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
           noise,
           shape,
           depth,
+          std::move(unfit),
           floor,
           doubted_floor};
+}
+
+std::string unfit_words(const Experiment& experiment, bool borrowed) {
+  if (experiment.unfit.empty()) return "";
+  return fmt::format("WARNING: {} of {} places {}, for the tool does not fit on the body there: {}",
+                     experiment.unfit.size(),
+                     experiment.dataset.positions.size() + (borrowed ? 0 : experiment.unfit.size()),
+                     borrowed ? "are taken for their nearest neighbours" : "are left out",
+                     experiment.unfit.front().why);
+}
+
+Experiment at_positions(const Experiment& e, const std::vector<std::size_t>& positions) {
+  return {at_positions(e.dataset, positions),
+          e.places.chosen(positions),
+          e.noise,
+          e.shape,
+          e.depth,
+          {},
+          e.floor,
+          e.doubted_floor};
 }
 
 void set_poisson_range(const Model& model, ExperimentOptions& options) {

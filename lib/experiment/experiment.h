@@ -22,6 +22,12 @@ struct Allowance {
   double floor = 0;  // relative gain error by position: of mesh and geometry
 };
 
+// A place of a recording that the body cannot be pressed at by this tool.
+struct UnfitPlace {
+  Vec3 point = Vec3::Zero();  // [m]
+  std::string why;
+};
+
 // Complete when it is made and never changed after; any number of threads may read it.
 struct Experiment {
   Dataset dataset;  // with normals
@@ -29,6 +35,7 @@ struct Experiment {
   Noise noise;
   ShapeError shape;
   PressDepth depth;
+  std::vector<UnfitPlace> unfit;
   double floor = 0;          // Allowance::floor, as the meshes and the shape let expect it
   double doubted_floor = 0;  // the same, if distances of points from the surface are none of a
                              // move's
@@ -44,7 +51,13 @@ struct ExperimentOptions {
   double noise = 0;                    // [N]; 0: declared by the recording or measured from it
   double floor = -1;                   // relative; negative: from the meshes and the shape
   double nu_low = 0, nu_high = 0.499;  // the range of Poisson's ratio that will be asked
-  std::size_t kept = 32;               // solutions and the like kept in memory; see SetupPlaces
+  // By body: outline in plan view of what was seen of it (mesh/window.h), beyond which it is a
+  // guess; empty: all was seen.
+  std::vector<std::vector<Vec3>> windows;
+  // What becomes of places at which the tool's disc does not fit: left out with their presses, or
+  // taken for the nearest one at which it does.
+  bool borrow = false;
+  std::size_t kept = 32;  // solutions and the like kept in memory; see SetupPlaces
   std::function<std::function<void()>(std::size_t)> progress;  // from the count, a step function
 };
 
@@ -53,12 +66,17 @@ constexpr double kLeastFloor = 0.01;
 
 // Reads nothing; prepares (or finds in the cache) the stiffness at each position of the recording.
 // Error(kBadInput), with the recording's name: displacements beyond the size of the body or through
-// it, a contact off its surface or on what is bonded.
+// it, a contact off its surface; no place at which the tool fits.
 Experiment make_experiment(const TetMesh& body, Recording recording,
                            const ExperimentOptions& options);
 // Of several bodies or tools: Setup::body of the dataset numbers `bodies`.
 Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
                            const ExperimentOptions& options);
+
+// How many places were left out (or taken for others), and why; "": none.
+std::string unfit_words(const Experiment& experiment, bool borrowed = false);
+// Of some positions alone, in ascending order, as prepared.
+Experiment at_positions(const Experiment& experiment, const std::vector<std::size_t>& positions);
 
 // [nu, nu] when the model's Poisson's ratio is fixed, else its bounds.
 void set_poisson_range(const Model& model, ExperimentOptions& options);

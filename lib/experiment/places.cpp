@@ -1,6 +1,9 @@
 #include "experiment/places.h"
 
+#include <algorithm>
+
 #include "base/median.h"
+#include "mesh/window.h"
 
 namespace hapsim {
 
@@ -16,6 +19,21 @@ Places::Places(const std::vector<std::shared_ptr<const ContactLibrary>>& librari
   place_ = std::move(place);
   for (std::size_t s = 0; s < libraries.size(); ++s)
     setups_.push_back(SetupPlaces::prepare(libraries[s], positions[s], nu_low, nu_high, kept));
+}
+
+Places Places::chosen(const std::vector<std::size_t>& places) const {
+  std::vector<std::vector<std::size_t>> of_setup(setups_.size());
+  auto place = std::make_shared<std::vector<Linearisation::Place>>();
+  for (const std::size_t p : places) {
+    const Linearisation::Place& old = (*place_)[p];
+    place->push_back({old.setup, of_setup[old.setup].size()});
+    of_setup[old.setup].push_back(old.position);
+  }
+  Places result;
+  result.place_ = std::move(place);
+  for (std::size_t s = 0; s < setups_.size(); ++s)
+    result.setups_.push_back(setups_[s]->chosen(of_setup[s]));
+  return result;
 }
 
 Linearisation Places::solve(const MaterialSpec& material) const {
@@ -52,6 +70,27 @@ double Places::mesh_uncertainty() const {
   std::vector<double> values;
   for (std::size_t p = 0; p < size(); ++p) values.push_back(contact(p).mesh_uncertainty);
   return upper_median(std::move(values));
+}
+
+std::vector<double> Places::beyond_windows(const std::vector<std::vector<Vec3>>& windows) const {
+  std::vector<double> doubt;
+  if (std::all_of(windows.begin(), windows.end(), [](const auto& w) { return w.empty(); }))
+    return doubt;
+  std::vector<std::vector<char>> beyond;  // by setup and cell of its grid
+  for (std::size_t s = 0; s < setups_.size(); ++s) {
+    const PlanGrid& grid = setups_[s]->grid();
+    beyond.emplace_back(static_cast<std::size_t>(grid.columns) * grid.rows);
+    for (std::size_t c = 0; c < beyond[s].size() && !windows[s].empty(); ++c)
+      beyond[s][c] = !inside_window(windows[s], grid.centre(static_cast<int>(c)));
+  }
+  for (std::size_t p = 0; p < size(); ++p) {
+    const std::vector<float>& share = contact(p).plan_share;
+    double sum = 0;
+    for (std::size_t c = 0; c < share.size(); ++c)
+      if (beyond[(*place_)[p].setup][c]) sum += share[c];
+    doubt.push_back(kGuessed * sum);
+  }
+  return doubt;
 }
 
 RigidMove Places::move() const {

@@ -17,6 +17,9 @@ class Places {
   Places(const std::vector<std::shared_ptr<const ContactLibrary>>& libraries,
          const Dataset& dataset, double nu_low, double nu_high, std::size_t kept);
 
+  // Some of these places, in this order.
+  Places chosen(const std::vector<std::size_t>& places) const;
+
   // The stiffness about a material, as SetupLinearisation says. All that is dear is done here.
   Linearisation solve(const MaterialSpec& material) const;
   // What is needed to ask for a material of other regions or features than `known` was solved for.
@@ -29,11 +32,20 @@ class Places {
   const PreparedContact& contact(std::size_t position) const;
   const Vec3& position(std::size_t position) const;
   std::vector<Vec3> normals() const;
+  const std::string& unfit(std::size_t p) const { return contact(p).unfit; }
   double mesh_uncertainty() const;  // median over the positions, relative
+  // How uncertain each stiffness is because the body beyond a window is a guess: the share of the
+  // strain energy there, which is the relative change of the stiffness by the logarithm of the
+  // modulus there, times kGuessed. Empty where there is no window.
+  std::vector<double> beyond_windows(const std::vector<std::vector<Vec3>>& window_of_setup) const;
+  // Whether what lies beyond a window is there at all, and how thick: a standard deviation of the
+  // logarithm of its stiffness.
+  static constexpr double kGuessed = 0.5;
   // The move that the contact points' distances from the surface show; none of several setups.
   RigidMove move() const;
 
  private:
+  Places() = default;
   std::vector<std::shared_ptr<const SetupPlaces>> setups_;
   std::shared_ptr<const std::vector<Linearisation::Place>> place_;  // by position
 };

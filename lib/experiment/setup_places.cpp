@@ -1,5 +1,6 @@
 #include "experiment/setup_places.h"
 
+#include "base/error.h"
 #include "contact/contact_cache.h"
 #include "experiment/nearest_region.h"
 
@@ -55,12 +56,12 @@ bool same_regions(const MaterialSpec& a, const MaterialSpec& b) {
   return true;
 }
 
-SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library,
-                         const std::vector<Vec3>& positions, double nu_low, double nu_high,
+SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library, std::vector<Vec3> positions,
+                         std::vector<PreparedContact> contacts, double nu_low, double nu_high,
                          std::size_t kept)
     : library_(std::move(library)),
-      positions_(positions),
-      contacts_(library_->prepare(positions, nu_low, nu_high)),
+      positions_(std::move(positions)),
+      contacts_(std::move(contacts)),
       nu_low_(nu_low),
       nu_high_(nu_high),
       kept_(kept),
@@ -73,13 +74,30 @@ SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library,
 std::shared_ptr<const SetupPlaces> SetupPlaces::prepare(
     std::shared_ptr<const ContactLibrary> library, const std::vector<Vec3>& positions,
     double nu_low, double nu_high, std::size_t kept) {
+  std::vector<PreparedContact> contacts = library->prepare(positions, nu_low, nu_high);
   return std::shared_ptr<const SetupPlaces>(
-      new SetupPlaces(std::move(library), positions, nu_low, nu_high, kept));
+      new SetupPlaces(std::move(library), positions, std::move(contacts), nu_low, nu_high, kept));
 }
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::with_positions(
     const std::vector<Vec3>& positions) const {
-  return prepare(library_, positions, nu_low_, nu_high_, kept_);
+  auto places = prepare(library_, positions, nu_low_, nu_high_, kept_);
+  for (const PreparedContact& contact : places->contacts())
+    if (!contact.unfit.empty())
+      fail_numerics("where the body has moved", contact.unfit, "leave the place out");
+  return places;
+}
+
+std::shared_ptr<const SetupPlaces> SetupPlaces::chosen(
+    const std::vector<std::size_t>& places) const {
+  std::vector<Vec3> positions;
+  std::vector<PreparedContact> contacts;
+  for (const std::size_t p : places) {
+    positions.push_back(positions_[p]);
+    contacts.push_back(contacts_[p]);
+  }
+  return std::shared_ptr<const SetupPlaces>(new SetupPlaces(
+      library_, std::move(positions), std::move(contacts), nu_low_, nu_high_, kept_));
 }
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::before_move(const MaterialSpec& m) const {

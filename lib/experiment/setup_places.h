@@ -30,8 +30,11 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
                                                     const std::vector<Vec3>& positions,
                                                     double nu_low, double nu_high,
                                                     std::size_t kept);
-  // The same body pressed by the same tool at other positions.
+  // The same body pressed by the same tool at other positions. Error(kNoConvergence) where the tool
+  // does not fit.
   std::shared_ptr<const SetupPlaces> with_positions(const std::vector<Vec3>& positions) const;
+  // Some of these places, in this order; one may be there several times.
+  std::shared_ptr<const SetupPlaces> chosen(const std::vector<std::size_t>& places) const;
   // The body where it lay when it was scanned: its places under those pressed since it has moved.
   // Itself where the material has not moved.
   std::shared_ptr<const SetupPlaces> before_move(const MaterialSpec& material) const;
@@ -52,8 +55,9 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
   RigidMove move() const { return register_points(positions_, library_->surface()); }
 
  private:
-  SetupPlaces(std::shared_ptr<const ContactLibrary> library, const std::vector<Vec3>& positions,
-              double nu_low, double nu_high, std::size_t kept);
+  SetupPlaces(std::shared_ptr<const ContactLibrary> library, std::vector<Vec3> positions,
+              std::vector<PreparedContact> contacts, double nu_low, double nu_high,
+              std::size_t kept);
 
   std::shared_ptr<const ContactLibrary> library_;
   std::vector<Vec3> positions_;

@@ -71,7 +71,8 @@ Weights::Weights(const Dataset& dataset, const Selection& selection,
     block.rows = std::move(gains.rows);
     block.Q = svd.matrixU();
     const Eigen::VectorXd s = svd.singularValues();
-    block.shrink = 1 - (1 + (floor / noise * s.array()).square()).sqrt().inverse();
+    const double own = dataset.floor_at(static_cast<std::size_t>(gains.position), floor);
+    block.shrink = 1 - (1 + (own / noise * s.array()).square()).sqrt().inverse();
     blocks_.push_back(std::move(block));
   }
 }

@@ -45,7 +45,7 @@ std::vector<LocationSample> location_samples(const Model& model, const Experimen
     const double variance =
         std::max(noise * noise, (s.tt - s.ft * s.ft / s.ff) / std::max(1.0, s.n - 1));
     sample.gain = std::max(sample.gain, 1e-3);  // a modulus is positive
-    sample.error = std::sqrt(variance / s.ff + floor * floor * sample.gain * sample.gain);
+    sample.error = std::hypot(std::sqrt(variance / s.ff), dataset.floor_at(p, floor) * sample.gain);
     samples.push_back(sample);
   }
   return samples;

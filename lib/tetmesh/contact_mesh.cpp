@@ -13,6 +13,7 @@
 #include "mesh/support.h"
 #include "mesh/surface_tree.h"
 #include "tetmesh/contact_patch.h"
+#include "tetmesh/contact_unfit.h"
 #include "tetmesh/tetgen.h"
 
 namespace hapsim {
@@ -59,8 +60,9 @@ void check_reach(const ContactBase& base, const Vec3& contact, double radius) {
     const Vec3 q = nearest_in_triangle(nearest.point, base.surface.vertices[t[0]],
                                        base.surface.vertices[t[1]], base.surface.vertices[t[2]]);
     if ((q - nearest.point).norm() < radius)
-      fail_input(place(contact), "the tool's patch meets the bonded part of the surface",
-                 "leave out this contact, or bond less of the body (hs-tetmesh --fixed)");
+      throw ContactUnfit(ExitCode::kBadInput, place(contact),
+                         "the tool's patch meets the bonded part of the surface",
+                         "leave out this contact, or bond less of the body (hs-tetmesh --fixed)");
   }
 }
 
@@ -143,8 +145,9 @@ ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, doub
       last = error.what();
     }
   }
-  fail_input(place(contact), "cannot be meshed (" + last + ")",
-             "move the contact away from sharp edges, or mesh the body again with hs-tetmesh");
+  throw ContactUnfit(
+      ExitCode::kBadInput, place(contact), "cannot be meshed (" + last + ")",
+      "move the contact away from sharp edges, or mesh the body again with hs-tetmesh");
 }
 
 }  // namespace hapsim

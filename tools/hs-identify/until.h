@@ -1,7 +1,9 @@
 // hs-identify --until: the fit sees the beginning of each press and predicts the rest.
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "cli/tool.h"
 #include "experiment/experiment.h"
@@ -39,8 +41,13 @@ class RestOfPress {
   void tell(Fit& fitted, const Experiment& experiment) {
     if (!whole_) return;
     Model& model = fitted.model;
+    std::vector<std::size_t> kept;  // places at which the tool fits
+    for (std::size_t p = 0; p < whole_->positions.size(); ++p)
+      if (std::none_of(experiment.unfit.begin(), experiment.unfit.end(),
+                       [&](const UnfitPlace& u) { return u.point == whole_->positions[p]; }))
+        kept.push_back(p);
     const LaterError error = later_error(
-        fitted, with_normals(std::move(*whole_), experiment.places.normals()), seconds_);
+        fitted, with_normals(at_positions(*whole_, kept), experiment.places.normals()), seconds_);
     whole_.reset();
     model.metadata.set("until", format_number(seconds_));
     model.metadata.set("heldout_later", format_number(error.rmse));

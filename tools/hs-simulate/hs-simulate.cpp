@@ -194,9 +194,12 @@ int run(const Arguments& arguments) {
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
+  options.borrow = true;              // every row has its force
   const Experiment w =
       make_experiment(body, load_recording(arguments, arguments.input(), false), options);
   progress.reset();
+  if (const std::string unfit = unfit_words(w, true); !unfit.empty())
+    say(arguments, "hs-simulate", unfit);
   const Selection all = all_episodes(w.dataset);
   say_beyond(arguments, w.depth, model, w.dataset.recording);
   write_forces(arguments, model, w.dataset, all, contact_mesh_forces(arguments, model, w, all),
