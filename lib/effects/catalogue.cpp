@@ -42,6 +42,11 @@ const Effect& map_effect() {
   return effect;
 }
 
+const Effect& field_effect() {
+  static const Effect& effect = effect_with([](const EffectCard& card) { return card.is_field; });
+  return effect;
+}
+
 const Effect& maxwell_effect() {
   static const Effect& effect = effect_with([](const EffectCard& card) { return card.maxwell; });
   return effect;

@@ -17,6 +17,8 @@ const Effect* find_effect(const std::string& name);
 const Effect& body_effect();
 // The effect that maps the body's modulus (EffectCard::is_map).
 const Effect& map_effect();
+// The one that is a smooth field over the body (EffectCard::is_field).
+const Effect& field_effect();
 // The effect of Maxwell elements (EffectCard::maxwell).
 const Effect& maxwell_effect();
 

@@ -13,6 +13,8 @@
 
 namespace hapsim {
 
+constexpr double kSamePlace = 1e-4;  // contact points nearer than this are one [m]
+
 // In the order in which a press passes through them: the tool's motion, then the force.
 enum class Stage { kMotion, kBody, kSupport, kContact, kSensor };
 
@@ -56,6 +58,9 @@ struct EffectCard {
   bool local = false;          // may act at few positions only, of which the others tell nothing
   bool like_shape = false;     // a wrong shape of the body looks like it
   bool is_map = false;         // a map over the body, made from what each place asks for
+  // A smooth field over the body. Parameters whose names end in 1 are a set a place, learned in
+  // every fit from what each place asks for; the others are common to all.
+  bool is_field = false;
   // The body itself, which every model has and which is neither tried nor removed: its parameters
   // that are Young's modulus (a row a region) and Poisson's ratio.
   std::string modulus, poissons_ratio;
@@ -100,6 +105,7 @@ struct PressView {
   Eigen::MatrixXd du;           // 3 n x parameters, derivative of u; no columns: u is as recorded
   std::vector<char> in_air;     // 1: no contact
   std::vector<double> temperature;  // [degC]; empty without
+  Vec3 point = Vec3::Zero();        // of contact, on the undeformed surface [m]
   Vec3 normal = Vec3::UnitZ();      // outward, at the contact
   Vec3 direction = -Vec3::UnitZ();  // unit, of the deepest displacement of the press
   double past_depth = 0;            // deepest |u| of earlier presses here that is not healed [m]

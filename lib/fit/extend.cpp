@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "fit/extend_regions.h"
+#include "fit/learned_field.h"
 #include "model/body_parameters.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -98,9 +100,8 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
 
   Model base = fitted;
   // What the new effect contains gives way to it.
-  std::erase_if(base.parameters, [&](const Parameter& p) {
-    return std::find(card.contains.begin(), card.contains.end(), p.effect) != card.contains.end();
-  });
+  for (const std::string& other : card.contains)
+    if (base.has(other)) remove_effect(base, other);
   int terms = card.terms       ? options.terms
               : card.per_press ? static_cast<int>(dataset.episodes.size())
                                : 1;
@@ -164,6 +165,10 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
   }
   if (effect.needs_positions && dataset.positions.size() < 4)
     return "too few contact positions: press at four places or more";
+  if (effect.is_field && dataset.positions.size() < kLeastPlaces)
+    return fmt::format(
+        "too few contact positions to learn a field from: press at {} places or more",
+        kLeastPlaces);
   if (effect.needs_temperature) {
     if (dataset.recording.temp.empty())
       return "the recording has no column temp: record the body's temperature";

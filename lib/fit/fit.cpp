@@ -13,6 +13,7 @@
 #include "estimate/multi_start.h"
 #include "estimate/profile.h"
 #include "fit/extend.h"
+#include "fit/learned_field.h"
 #include "fit/maxwell_terms.h"
 #include "fit/move_limits.h"
 #include "fit/press_offsets.h"
@@ -77,6 +78,8 @@ std::string label(const Parameter& p) {
   return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
 }
 
+constexpr int kFieldRounds = 4;  // of a field and what is fitted beside it
+constexpr double kFieldSettled = 1e-3;
 constexpr double kLeastReach = 0.02;  // a trust region so small has found what there is
 
 // The parameters held at a bound are no part of it.
@@ -124,6 +127,7 @@ class Fitting {
         options_(options),
         measured_(measured_forces(dataset_, selection)),
         has_offsets_(offset_effect(start) != nullptr),
+        learns_field_(learns_field(start)),
         progress_{options.skip, options.starts},
         from_many_(options.starts > 1) {
     result_.model = start;
@@ -138,15 +142,34 @@ class Fitting {
   }
 
   Fit run() {
-    if (is_linearised_ && options_.rounds > 0)
-      minimise_in_rounds();
+    if (learns_field_)
+      minimise_with_field();
     else
-      minimise_within(1);
+      minimise_all();
     finish();
     return std::move(result_);
   }
 
  private:
+  void minimise_all() {
+    if (is_linearised_ && options_.rounds > 0)
+      minimise_in_rounds();
+    else
+      minimise_within(1);
+  }
+
+  // The field that the places ask for beside all else, and all else beside that field, in turn.
+  void minimise_with_field() {
+    double before = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < kFieldRounds && !result_.stopped; ++round) {
+      learn_field(result_.model, experiment_, result_.about, selection_, options_.noise,
+                  options_.keep_scales || round > 0);
+      minimise_all();
+      if (before - solution_.sum_of_squares < kFieldSettled * before) break;
+      before = solution_.sum_of_squares;
+    }
+  }
+
   // Residuals over the noise, and their derivatives, of the model with these values.
   ResidualFunction residuals_of(Model model) const {
     return [this, model = std::move(model)](const Eigen::VectorXd& x, Eigen::VectorXd& r,
@@ -185,6 +208,10 @@ class Fitting {
     solution_ = std::move(solution);
     set_values(result_.model, solution_.x);
     result_.stopped = solution_.stopped;
+    if (options_.keep)
+      options_.keep(result_.model,
+                    options_.noise * std::sqrt(solution_.sum_of_squares /
+                                               static_cast<double>(measured_.size())));
   }
 
   // From many starts, once: later rounds improve on the valley found.
@@ -320,8 +347,10 @@ class Fitting {
       // A gain error of each position, carried through to the parameters (sandwich).
       for (const GainBlock& block : gain_directions(dataset_, selection_, signal.f)) {
         const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
+        const double floor =
+            dataset_.floor_at(static_cast<std::size_t>(block.position), options_.floor);
         const Eigen::MatrixXd through = solution_.covariance * (rows.transpose() * block.Z) *
-                                        (options_.floor / (options_.noise * options_.noise));
+                                        (floor / (options_.noise * options_.noise));
         covariance += through * through.transpose();
       }
     }
@@ -342,7 +371,7 @@ class Fitting {
   const Selection& selection_;
   const FitOptions& options_;
   const Eigen::VectorXd measured_;
-  const bool has_offsets_;
+  const bool has_offsets_, learns_field_;
   bool is_linearised_ = false;
   FitProgress progress_;
   LeastSquaresOptions search_;

@@ -35,9 +35,14 @@ struct FitOptions {
   int rounds = kFullRounds;
   double settled = 1e-6;
   bool keep_apart = true;  // relaxation times that coincide are moved apart (keep_terms_apart())
+  // The lengths and nuggets of a field that the start has learned hold; false: learned anew.
+  bool keep_scales = false;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
   // Asked again and again; false ends the fit with what there is. May be empty.
   std::function<bool(const FitProgress&)> watch;
+  // Told every model that the fit has come to, and its error [N]: what is there if it has to end at
+  // once. May be empty.
+  std::function<void(const Model&, double rmse)> keep;
 };
 
 struct Fit {

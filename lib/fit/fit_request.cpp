@@ -104,6 +104,7 @@ ForceError held_out_error(const FitRequest& request, const Model& fitted,
   FitOptions quick = fit_options;
   quick.exact_regions = false;
   quick.starts = 1;
+  quick.keep = nullptr;
   FitRequest refit = request;
   refit.start = fitted;
   refit.add.clear();

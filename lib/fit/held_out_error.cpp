@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fit/fit.h"
+#include "fit/learned_field.h"
 #include "fit/press_offsets.h"
 
 namespace hapsim {
@@ -40,12 +41,16 @@ HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment
   result.error.axes = dataset.axes();
   FitOptions about = options;
   about.rounds = 0;
+  about.keep_scales = false;
+  about.keep = nullptr;
   double squares = 0, components = 0;
   for (const Selection& held_out : folds.held_out) {
     Selection training;
     for (const int e : all_episodes(dataset))
       if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
-    const Starts starts = builder(training);
+    Starts starts = builder(training);
+    // What a field has learned of the places left out is not to be known.
+    for (Model& start : starts.models) forget_field(start);
     const Fit fitted = fit_best(starts.models, experiment, training, about, starts.known);
     Eigen::VectorXd r =
         measured_forces(dataset, held_out) - model_forces(fitted, experiment, held_out, false).f;

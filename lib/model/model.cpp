@@ -38,6 +38,11 @@ std::vector<int> Model::free_parameters() const {
 
 namespace {
 
+// Whether an effect has a row of it by term, press or place: these are told apart by numbers.
+bool is_numbered(const EffectCard& card, const ParameterCard& p) {
+  return card.terms || card.per_press || (card.is_field && p.name.back() == '1');
+}
+
 // "tau12" -> "tau" and 12; 0 when there is no number.
 std::pair<std::string, int> split_term(const std::string& name) {
   std::size_t end = name.size();
@@ -51,7 +56,7 @@ std::pair<std::string, int> split_term(const std::string& name) {
 const ParameterCard* parameter_card(const Effect& effect, const std::string& name) {
   for (const ParameterCard& p : effect.card().parameters) {
     if (p.name == name) return &p;
-    if (!effect.card().terms && !effect.card().per_press) continue;
+    if (!is_numbered(effect.card(), p)) continue;
     const auto [stem, term] = split_term(name);
     if (term > 0 && split_term(p.name).first == stem) return &p;
   }
@@ -65,15 +70,17 @@ std::vector<Parameter> effect_rows(const Effect& effect, int terms,
     for (const ParameterCard& card : effect.card().parameters) {
       Parameter p;
       p.effect = effect.card().name;
-      const bool numbered = effect.card().terms || effect.card().per_press;
+      const bool numbered = is_numbered(effect.card(), card);
+      if (k > 0 && !numbered) continue;
       p.name = numbered ? split_term(card.name).first + std::to_string(k + 1) : card.name;
       p.value = rows.size() < values.size() ? values[rows.size()] : card.identity;
       p.unit = card.unit;
       p.lower = card.lower;
       p.upper = card.upper;
-      p.state = effect.card().per_press ? ParameterState::kDerived
-                : card.fixed            ? ParameterState::kFixed
-                                        : ParameterState::kFree;
+      p.state = effect.card().per_press || (effect.card().is_field && numbered)
+                    ? ParameterState::kDerived
+                : card.fixed ? ParameterState::kFixed
+                             : ParameterState::kFree;
       rows.push_back(p);
     }
   return rows;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -72,12 +73,30 @@ void check_row(const Parameter& p, const std::string& where) {
                "change the value or the bounds");
 }
 
+// A field has all rows of each of its places.
+void require_whole_places(const Model& model, const Effect& effect, const std::string& name) {
+  std::map<std::string, std::set<const ParameterCard*>> seen;  // by the number in the name
+  std::size_t of_place = 0;
+  for (const ParameterCard& card : effect.card().parameters) of_place += card.name.back() == '1';
+  for (const Parameter& p : model.parameters) {
+    const std::size_t digits = p.name.find_last_not_of("0123456789") + 1;
+    if (p.effect == effect.card().name && digits < p.name.size())
+      seen[p.name.substr(digits)].insert(parameter_card(effect, p.name));
+  }
+  for (const auto& [number, rows] : seen)
+    if (rows.size() != of_place)
+      fail_input(
+          name, fmt::format("effect {} lacks rows of its place {}", effect.card().name, number),
+          fmt::format("each place has {} rows: add them, or remove all of this place", of_place));
+}
+
 // Rows may stand in any order, but effects with terms take theirs term by term, in their card's
 // order.
 void arrange_terms(Model& model) {
   for (const std::string& name : model.effects()) {
     const Effect& effect = require_effect(name);
-    if (!effect.card().terms && !effect.card().per_press) continue;
+    const EffectCard& card = effect.card();
+    if (!card.terms && !card.per_press && !card.is_field) continue;
     const auto key = [&](const Parameter& p) {
       const std::size_t digits = p.name.find_last_not_of("0123456789") + 1;
       const int term = digits < p.name.size() ? std::stoi(p.name.substr(digits)) : 0;
@@ -162,6 +181,9 @@ Model read_model(Input& input) {
                                   card.lower, card.upper, ParameterState::kFixed});
     }
   }
+  for (const std::string& name : model.effects())
+    if (const Effect& effect = require_effect(name); effect.card().is_field)
+      require_whole_places(model, effect, table.name);
   arrange_terms(model);
   return model;
 }
