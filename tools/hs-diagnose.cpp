@@ -133,20 +133,27 @@ void write_plan(const Arguments& arguments, const Diagnosis& d, const Experiment
 
 int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-diagnose");
-  const TetMesh body = load_body(arguments);
+  std::vector<Vec3> window;
+  const TetMesh body = load_body(arguments, &window);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
+  options.windows = {window};
   options.draft = true;  // many materials are tried; the one that is added is identified finely
   set_poisson_range(model, options);
   Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), true));
   require_presses(dataset);
   const Experiment w = make_experiment({body}, std::move(dataset), options);
   progress.reset();
+  if (const std::string unfit = unfit_words(w); !unfit.empty())
+    say(arguments, "hs-diagnose", unfit);
   DiagnoseOptions diagnose_options;
   diagnose_options.folds = static_cast<int>(arguments[flag::folds]);
   diagnose_options.flips = static_cast<int>(arguments[flag::flips]);
   diagnose_options.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
+  progress = std::make_shared<Progress>(arguments, "trying", 0);
+  diagnose_options.progress = [&](const std::string& what) { progress->show(what); };
   const Diagnosis d = diagnose(model, w, w.allowance(), diagnose_options);
+  progress.reset();
 
   const DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
   Output output(arguments.output());

@@ -10,6 +10,7 @@
 #include "diagnose/offset_test.h"
 #include "effects/catalogue.h"
 #include "estimate/probability.h"
+#include "fit/learned_field.h"
 #include "fit/press_offsets.h"
 
 namespace hapsim {
@@ -19,7 +20,7 @@ constexpr double kMuchLess = 0.9;  // of two errors
 
 // Parameters that the data have to pay for: free ones and offsets solved for press by press.
 double parameter_count(const Model& model) {
-  auto count = static_cast<double>(model.free_parameters().size());
+  double count = static_cast<double>(model.free_parameters().size()) + field_freedom(model);
   if (const Effect* effect = offset_effect(model))
     for (const Parameter& p : model.parameters) count += p.effect == effect->card().name;
   return count;
@@ -30,7 +31,7 @@ double parameter_count(const Model& model) {
 Eigen::MatrixXd new_columns(const Effect& effect, const Fit& fitted, const Baseline& base,
                             const TrialGround& g) {
   const Selection all = all_episodes(g.dataset);
-  if (effect.card().is_map) {
+  if (effect.card().is_map || effect.card().is_field) {
     const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
     Eigen::MatrixXd columns =
         Eigen::MatrixXd::Zero(f.size(), static_cast<Eigen::Index>(g.dataset.positions.size()));
@@ -131,7 +132,7 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
   const std::vector<Model> starts =
       with_effect(base.fitted, card.name, g.experiment, all, trial_extend_options(g));
   try {
-    if (!card.per_press && !card.is_map && !is_excited(starts, effect, base, g)) {
+    if (!card.per_press && !card.is_map && !card.is_field && !is_excited(starts, effect, base, g)) {
       lack = "nothing in these presses depends on it; record " + card.separated_by;
       return std::nullopt;
     }
@@ -165,7 +166,10 @@ void hold_out(Candidate& candidate, const TrialGround& g, const Folds& folds) {
 
 void prefer_sites(Candidate& candidate, const Baseline& base, const TrialGround& g,
                   const Folds& folds) {
-  if (!candidate.effect->card().is_map || folds.held_out.empty()) return;
+  // A field that is learned foretells such places better.
+  if (!candidate.effect->card().is_map || folds.held_out.empty() ||
+      lacking_for(field_effect().card(), g.dataset).empty())
+    return;
   ExtendOptions options = trial_extend_options(g);
   options.regions = kEverySite;
   Candidate sites = candidate;

@@ -48,6 +48,7 @@ FitOptions trial_fit_options(const TrialGround& g, int rounds) {
                      g.dataset.positions.size() <= kMostSolvedPositions};
   options.rounds = rounds;
   options.settled = 1e-3;
+  options.keep_scales = true;
   options.keep_apart = false;  // a term that coincides with another explains nothing
   return options;
 }

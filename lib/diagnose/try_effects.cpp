@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
 
 #include "diagnose/departures.h"
 #include "diagnose/held_out.h"
@@ -52,6 +56,78 @@ double left_by_laws(const Fit& fitted, const TrialGround& g) {
 // Worth refining: candidates whose first fit errs by less than this factor over the best one's, and
 // by less than the baseline.
 constexpr double kPromising = 2.5, kBetter = 0.99;
+
+// Where there are more places than that, so many of them tell whether finite elements are worth
+// solving for an effect at all of them.
+constexpr std::size_t kManyPlaces = 60, kScreened = 24;
+
+// Places spread over all: each the farthest from those before it.
+std::vector<std::size_t> spread_places(const std::vector<Vec3>& positions, std::size_t count) {
+  std::vector<std::size_t> chosen{0};
+  std::vector<double> distance(positions.size(), std::numeric_limits<double>::infinity());
+  while (chosen.size() < count) {
+    for (std::size_t p = 0; p < positions.size(); ++p)
+      distance[p] = std::min(distance[p], (positions[p] - positions[chosen.back()]).norm());
+    chosen.push_back(static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                              distance.begin()));
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+// The places about one.
+std::vector<std::size_t> nearest_places(const std::vector<Vec3>& positions, const Vec3& about,
+                                        std::size_t count) {
+  std::vector<std::size_t> order(positions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return (positions[a] - about).squaredNorm() < (positions[b] - about).squaredNorm();
+  });
+  order.resize(count);
+  std::sort(order.begin(), order.end());
+  return order;
+}
+
+// Some places of a ground, with the baseline fitted there.
+struct Screen {
+  Experiment experiment;
+  TrialGround ground;
+  Baseline base;
+  Screen(const Baseline& all, const TrialGround& g, const std::vector<std::size_t>& places)
+      : experiment(at_positions(g.experiment, places)),
+        ground(experiment, g.allowance),
+        base(make_baseline(all.fitted.model, ground, {})) {}
+  Screen(const Screen&) = delete;
+  Screen& operator=(const Screen&) = delete;
+};
+
+// Screens for effects that finite elements are solved for, made when they are first asked for:
+// what acts everywhere is sought everywhere, what is local about the place that departs most.
+class Screens {
+ public:
+  Screens(const Baseline& base, const TrialGround& g, const Departures& departures)
+      : base_(base), g_(g), where_(departures.where) {}
+  // The error that the effect leaves on its screen over that of the baseline there; nothing where
+  // it cannot be tried.
+  std::optional<double> left_by(const Effect& effect, std::string& lack) {
+    std::unique_ptr<Screen>& screen = effect.card().local ? local_ : everywhere_;
+    const auto& positions = g_.dataset.positions;
+    if (!screen)
+      screen = std::make_unique<Screen>(base_, g_,
+                                        effect.card().local
+                                            ? nearest_places(positions, where_, kScreened)
+                                            : spread_places(positions, kScreened));
+    const auto tried = try_effect(effect, screen->base, screen->ground, lack);
+    if (!tried) return std::nullopt;
+    return tried->fitted.error.pooled / screen->base.fitted.error.pooled;
+  }
+
+ private:
+  const Baseline& base_;
+  const TrialGround& g_;
+  Vec3 where_;
+  std::unique_ptr<Screen> everywhere_, local_;
+};
 
 // The best estimates first: what they become, not what they promised, decides what else is worth
 // the solutions.
@@ -121,6 +197,27 @@ double held_out_fall(const Finding& f) {
   return f.held_out_now.pooled > 0 ? 1 - f.held_out_after.pooled / f.held_out_now.pooled : 0;
 }
 
+namespace {
+
+Finding not_testable(const Effect& effect, const std::string& lack) {
+  Finding finding;
+  finding.effect = effect.card().name;
+  finding.verdict = Verdict::kNotTestable;
+  finding.evidence = lack;
+  finding.next_measurement = lack;
+  return finding;
+}
+
+// Effects that need no finite elements first: with what they leave, some places tell which others
+// are worth them.
+std::vector<const Effect*> cheap_first(std::vector<const Effect*> effects) {
+  std::stable_partition(effects.begin(), effects.end(),
+                        [](const Effect* e) { return !e->card().solved; });
+  return effects;
+}
+
+}  // namespace
+
 Finding ruled_out(const Effect& effect, const Baseline& base) {
   Finding finding;
   finding.effect = effect.card().name;
@@ -135,24 +232,39 @@ Finding ruled_out(const Effect& effect, const Baseline& base) {
 Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
-  const bool departs = stiffness_departures(base.fitted, g).anywhere();
-  for (const Effect* effect : untried(base.fitted.model)) {
+  const Departures departures = stiffness_departures(base.fitted, g);
+  const bool departs = departures.anywhere();
+  const bool screens_first = g.dataset.positions.size() > kManyPlaces;
+  Screens screens(base, g, departures);
+  double least = base.fitted.error.pooled;
+  const std::vector<const Effect*> effects = untried(base.fitted.model);
+  for (const Effect* effect : screens_first ? cheap_first(effects) : effects) {
     if (options.progress) options.progress(effect->card().name);
     if (effect->card().solved && !departs && lacking_for(effect->card(), g.dataset).empty()) {
       round.ruled_out.push_back(ruled_out(*effect, base));
       continue;
     }
     std::string lack;
+    if (effect->card().solved && screens_first && lacking_for(effect->card(), g.dataset).empty()) {
+      const std::optional<double> left = screens.left_by(*effect, lack);
+      if (!left) {
+        round.untestable.push_back(not_testable(*effect, lack));
+        continue;
+      }
+      if (*left > kBetter || *left * base.fitted.error.pooled > kPromising * least) {
+        round.ruled_out.push_back(ruled_out(*effect, base));
+        round.ruled_out.back().evidence =
+            fmt::format("on {} of the {} places it leaves {:.0f} % of the error", kScreened,
+                        g.dataset.positions.size(), 100 * *left);
+        continue;
+      }
+    }
     if (auto candidate = try_effect(*effect, base, g, lack)) {
+      if (!effect->card().per_press) least = std::min(least, candidate->fitted.error.pooled);
       round.candidates.push_back(std::move(*candidate));
       continue;
     }
-    Finding finding;
-    finding.effect = effect->card().name;
-    finding.verdict = Verdict::kNotTestable;
-    finding.evidence = lack;
-    finding.next_measurement = lack;
-    round.untestable.push_back(finding);
+    round.untestable.push_back(not_testable(*effect, lack));
   }
   refine_promising(round.candidates, base, g, options);
   const Yardstick yardstick = make_yardstick(base, round.candidates, g);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/learned_field.h"
 #include "model/model_edit.h"
 
 namespace hapsim {
@@ -18,10 +19,24 @@ std::string with_error(double value, double error, const std::string& unit) {
   return unit == "1" ? number : number + " " + unit;
 }
 
+// Where a field is stiffest and softest, of the places that it was learned from.
+std::string extremes_of(const PlaceField& field) {
+  std::vector<double> log_factor;
+  for (const Vec3& p : field.place) log_factor.push_back(field.at(p)[0]);
+  const auto at = [&](auto which) {
+    const Vec3& p = field.place[static_cast<std::size_t>(which - log_factor.begin())];
+    return fmt::format("({:.0f}, {:.0f}) mm", 1e3 * p.x(), 1e3 * p.y());
+  };
+  const auto [softest, stiffest] = std::minmax_element(log_factor.begin(), log_factor.end());
+  return fmt::format("stiffest near {}; softest near {}; ratio {:.2g}", at(stiffest), at(softest),
+                     std::exp(*stiffest - *softest));
+}
+
 }  // namespace
 
 std::string describe_where(const Candidate& candidate) {
   const EffectCard& card = candidate.effect->card();
+  if (card.is_field) return extremes_of(place_field(candidate.fitted.model));
   if (!card.is_map) return card.signature;
   const MaterialSpec material = material_of(candidate.fitted.model);
   const auto stiffest = std::max_element(material.modulus.begin(), material.modulus.end());
@@ -58,6 +73,12 @@ std::string describe_evidence(const Candidate& candidate, const Measured& measur
                         *std::min_element(material.modulus.begin(), material.modulus.end()),
                         *std::max_element(material.modulus.begin(), material.modulus.end()));
     return text;
+  }
+  if (card.is_field) {
+    const PlaceField field = place_field(candidate.fitted.model);
+    return text +
+           fmt::format("; {} places, alike over {:.2g} mm", field.place.size(),
+                       1e3 * (field.factor.share > 0.5 ? field.factor.fine : field.factor.range));
   }
   const ParameterCard& first = card.parameters.front();
   const ParameterState shown = first.fixed ? ParameterState::kFixed : ParameterState::kFree;

@@ -12,6 +12,7 @@
 #include "fit/fit_record.h"
 #include "fit/fit_request.h"
 #include "fit/fit_words.h"
+#include "fit/learned_field.h"
 #include "fit/location_fit.h"
 #include "hs-identify/acfm.h"
 #include "hs-identify/boundary.h"
@@ -35,7 +36,7 @@ namespace {
 Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& plan,
                                  const TetMesh& body, ExperimentOptions options,
                                  const FitOptions& fit_options, const Experiment& w,
-                                 double force_rms) {
+                                 double force_rms, SearchWatch& watch) {
   options.draft = true;
   options.progress = nullptr;
   const Experiment draft = make_experiment({body}, w.dataset, options);
@@ -44,7 +45,11 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
   improve_options.diagnose.folds = static_cast<int>(arguments[flag::folds]);
   improve_options.diagnose.seed = fit_options.seed;
   improve_options.progress = [&](const std::string& what) {
+    watch.show(what);
     if (arguments.verbose()) say(arguments, "hs-identify", what);
+  };
+  improve_options.diagnose.progress = [&](const std::string& what) {
+    watch.show("diagnosing: " + what);
   };
   Model start = plan.start;
   if (start.parameters.empty()) {
@@ -122,8 +127,11 @@ int run(const Arguments& arguments) {
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(plan, options);
+  options.windows = given.windows;
   const Experiment w = make_experiment(given.bodies, std::move(given.dataset), options);
   progress.reset();
+  if (const std::string unfit = unfit_words(w); !unfit.empty())
+    say(arguments, "hs-identify", unfit);
   FitOptions fit_options{w.noise.value, w.floor, true};
   fit_options.starts = search.starts;
   fit_options.seed = search.seed;
@@ -135,6 +143,7 @@ int run(const Arguments& arguments) {
   const Selection all = all_episodes(w.dataset);
   SearchWatch watch(arguments);
   fit_options.watch = watch.watch();
+  fit_options.keep = watch.keep();
   FitOptions final_options = fit_options;
   final_options.skip = search.done;
   if (arguments[flag::profile] && fit_options.robust != RobustLoss::kNone)
@@ -148,7 +157,7 @@ int run(const Arguments& arguments) {
   Fit result;
   if (plan.automatic) {
     const Improvement improvement =
-        improve_step_by_step(arguments, plan, body, options, fit_options, w, force_rms);
+        improve_step_by_step(arguments, plan, body, options, fit_options, w, force_rms, watch);
     result = improvement.steps.back().fitted;
     unseen = improvement.steps.back().held_out;
     cut_short = improvement.stopped ? "the model was improved" : "";
@@ -157,6 +166,9 @@ int run(const Arguments& arguments) {
     Starts starts = build_starts(plan, w, all, fit_options, extend);
     require_enough_data(starts.models.front(), w.dataset, all);
     if (library && plan.start.parameters.empty()) library->add_start(starts.models);
+    const std::string& field = field_effect().card().name;
+    if (arguments.given(flag::field) && !starts.models.front().has(field))
+      fail_usage("--field is of " + field + ", which this model has not", "add --add " + field);
     result = fit_best(starts.models, w, all, final_options, starts.known);
     if (arguments.given(flag::boundary) && result.converged)
       result = with_refined_boundaries(arguments, result, w, body, fit_options);
@@ -189,6 +201,11 @@ int run(const Arguments& arguments) {
     Output locations(arguments[flag::locations]);
     write_locations(locations.stream(), fit_locations(model, w, fit_options));
     locations.commit();
+  }
+  if (arguments.given(flag::field) && cut_short.empty() && learns_field(model)) {
+    Output field(arguments[flag::field]);
+    write_field(field.stream(), place_field(model), w.places.setup(0)->surface());
+    field.commit();
   }
   if (arguments.given(flag::image) && cut_short.empty())
     write_asked_image(arguments, result, w, body);

@@ -21,8 +21,9 @@ namespace hapsim {
 
 struct GivenRecordings {
   std::vector<TetMesh> bodies;
-  std::vector<Setup> setup_of_row;  // Setup::body numbers `bodies`
-  Dataset dataset;                  // all as one
+  std::vector<std::vector<Vec3>> windows;  // of the bodies (ExperimentOptions::windows)
+  std::vector<Setup> setup_of_row;         // Setup::body numbers `bodies`
+  Dataset dataset;                         // all as one
 };
 
 inline std::vector<Option> recording_flags() {
@@ -69,7 +70,8 @@ inline GivenRecordings load_recordings(const Arguments& arguments) {
     if (k < read.size()) continue;
     read.push_back(path);
     Input input(path);
-    given.bodies.push_back(read_body(input));
+    given.windows.emplace_back();
+    given.bodies.push_back(read_body(input, &given.windows.back()));
   }
   std::vector<Recording> recordings;
   for (std::size_t k = 0; k < paths.size(); ++k) {

@@ -3,8 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <memory>
+#include <mutex>
+#include <sstream>
+#include <thread>
 
 #include "base/error.h"
 #include "cli/tool.h"
@@ -52,24 +60,95 @@ inline SearchState search_asked(const Arguments& arguments, const Model& start) 
   return *state;
 }
 
+// Writes the best model so far and ends the process where a signal has asked for that and nothing
+// has come of it within a second, for what is computed then cannot be left earlier.
+class LastResort {
+ public:
+  // `write` takes the text of a model to its file.
+  LastResort(const Interrupt& interrupt, std::function<void(const std::string&)> write)
+      : interrupt_(interrupt), write_(std::move(write)), thread_([this] { wait(); }) {}
+  ~LastResort() {
+    ended_.store(true);
+    thread_.join();
+  }
+  LastResort(const LastResort&) = delete;
+  LastResort& operator=(const LastResort&) = delete;
+  void seen() { seen_.store(true); }  // the signal: the process ends by itself
+  void keep(Model model, double rmse) {
+    const std::lock_guard lock(mutex_);
+    if (rmse >= least_) return;
+    least_ = rmse;
+    best_ = std::move(model);
+  }
+
+ private:
+  void wait() {
+    using namespace std::chrono_literals;
+    constexpr int kPatience = 14;  // of 50 ms
+    for (int asked = 0; !ended_.load(); std::this_thread::sleep_for(50ms)) {
+      if (!interrupt_.asked() || seen_.load() || ++asked < kPatience) continue;
+      const std::lock_guard lock(mutex_);
+      if (ended_.load() || std::isinf(least_)) continue;
+      try {
+        mark_interrupted(best_, "while the model was improved");
+        std::ostringstream text;
+        write_model(text, best_);
+        write_(text.str());
+        std::_Exit(static_cast<int>(ExitCode::kNoConvergence));
+      } catch (const std::exception& error) {
+        std::fputs(error.what(), stderr);
+        std::_Exit(static_cast<int>(ExitCode::kIo));
+      }
+    }
+  }
+
+  const Interrupt& interrupt_;
+  std::function<void(const std::string&)> write_;
+  std::mutex mutex_;
+  Model best_;
+  double least_ = std::numeric_limits<double>::infinity();
+  std::atomic<bool> ended_{false}, seen_{false};
+  std::thread thread_;
+};
+
 // Watches the fits until end(); before and after, a signal ends the process as it always does.
 class SearchWatch {
  public:
   explicit SearchWatch(const Arguments& arguments)
       : interrupt_(std::make_unique<Interrupt>()),
-        progress_(std::make_unique<Progress>(arguments, "fit", 0)) {}
+        progress_(std::make_unique<Progress>(arguments, "fit", 0)),
+        last_resort_(
+            std::make_unique<LastResort>(*interrupt_, [&arguments](const std::string& model) {
+              Output output(arguments.output());
+              output.stream() << model;
+              output.commit();
+              say(arguments, "hs-identify",
+                  "interrupted while the model was improved; the best so far is written: go on "
+                  "from it with --model");
+            })) {}
+  std::function<void(const Model&, double)> keep() {
+    return [this](const Model& model, double rmse) {
+      if (last_resort_) last_resort_->keep(model, rmse);
+    };
+  }
+  // Another thing than a fit is under way.
+  void show(const std::string& what) {
+    if (progress_) progress_->show(what);
+  }
   std::function<bool(const FitProgress&)> watch() {
     return [this](const FitProgress& p) {
       const std::string error = std::isnan(p.rmse) ? "" : fmt::format("error {:.4g} N", p.rmse);
       if (progress_)
         progress_->show(
             p.starts > 1 ? fmt::format("start {} of {}, {}", p.start + 1, p.starts, error) : error);
+      if (interrupted() && last_resort_) last_resort_->seen();
       return !interrupted();
     };
   }
   bool interrupted() const { return interrupt_ && interrupt_->asked(); }
   bool end() {  // whether it was interrupted
     const bool asked = interrupted();
+    last_resort_.reset();
     interrupt_.reset();
     progress_.reset();
     return asked;
@@ -78,6 +157,7 @@ class SearchWatch {
  private:
   std::unique_ptr<Interrupt> interrupt_;
   std::unique_ptr<Progress> progress_;
+  std::unique_ptr<LastResort> last_resort_;
 };
 
 }  // namespace hapsim

@@ -147,6 +147,12 @@ inline ToolSpec identify_specification() {
            "position by itself, the model's other parameters held; input of hs-cluster.",
        .group = "Output",
        .writes = kTableExtensions},
+      {.flag = flag::field,
+       .value = "FILE",
+       .help = "Writes the field of learned-place (CSV): the factor of the stiffness with its 95 % "
+               "band and the power of the depth, at the pressed places and all over the body.",
+       .group = "Output",
+       .writes = kTableExtensions},
       image_flag(),
       {.flag = flag::robust,
        .value = "LOSS",
