@@ -57,6 +57,8 @@ void check_reach(const ContactBase& base, const Vec3& contact, double radius) {
   for (std::size_t f = 0; f < base.surface.faces.size(); ++f) {
     if (!base.fixed_face[f]) continue;
     const Triangle& t = base.surface.faces[f];
+    // A face that looks the other way is the far side of a thin body, not what the tool touches.
+    if (face_normal(base.surface, static_cast<int>(f)).normalized().dot(normal) < -0.5) continue;
     const Vec3 q = nearest_in_triangle(nearest.point, base.surface.vertices[t[0]],
                                        base.surface.vertices[t[1]], base.surface.vertices[t[2]]);
     if ((q - nearest.point).norm() < radius)

@@ -178,6 +178,17 @@ TEST(ContactMesh, RefusesWhatCannotBe) {
   EXPECT_NE(what.find("covers the whole body"), std::string::npos) << what;
 }
 
+// The bonded far side of a layer lies within the tool's radius, and not under it.
+TEST(ContactMesh, ADiscMayBeWiderThanALayerIsThick) {
+  constexpr double kThick = 2.35e-3, kWide = 2.85e-3;
+  const ContactBase base = make_contact_base(make_body_mesh(test::box({0.03, 0.03, kThick}), {}));
+  const ContactMesh contact = make_contact_mesh(base, {0.015, 0.015, kThick}, kWide, kWide / 6);
+  expect_sound(contact, base);
+  EXPECT_NEAR(contact.patch_area / (M_PI * kWide * kWide), 1, 0.01);
+  EXPECT_GT(contact.normal.z(), 0.999);
+  for (const int n : contact.patch_nodes) EXPECT_NEAR(contact.mesh.nodes[n].z(), kThick, 1e-9);
+}
+
 class Independent : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Independent, EveryPositionCanBeMeshed) {
