@@ -13,6 +13,7 @@
 #include "mesh/tetmesh.h"
 #include "model/search_state.h"
 #include "recording/recording.h"
+#include "recording/tools_together.h"
 #include "shared_flags.h"
 
 namespace hapsim {
@@ -75,6 +76,12 @@ inline Recording load_recording(const Arguments& arguments, const std::string& p
     recording.metadata.set("tool_radius", arguments.text(flag::tool_radius));
   recording.tool_radius();  // fails now when it is missing
   return recording;
+}
+
+// For who takes each tool's press by itself.
+inline void say_together(const Arguments& arguments, const std::string& tool,
+                         const Recording& recording) {
+  if (const std::string text = tools_together(recording); !text.empty()) say(arguments, tool, text);
 }
 
 inline TetMesh load_body(const Arguments& arguments, std::vector<Vec3>* window = nullptr) {

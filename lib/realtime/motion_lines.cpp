@@ -22,7 +22,8 @@ void append(std::string& buffer, double value) {
 
 }  // namespace
 
-MotionLines::MotionLines(Input& input, bool forces) : csv_(input), name_(input.name()) {
+MotionLines::MotionLines(CsvReader csv, std::string name, bool forces)
+    : csv_(std::move(csv)), name_(std::move(name)) {
   const auto& header = csv_.header();
   std::array<bool, kColumns> present{};
   for (const std::string& name : header) {
@@ -30,6 +31,7 @@ MotionLines::MotionLines(Input& input, bool forces) : csv_(input), name_(input.n
     const auto found = std::find(kNames.begin(), known, name);
     meaning_.push_back(found == known ? kColumns : static_cast<int>(found - kNames.begin()));
     if (found != known) present[static_cast<std::size_t>(meaning_.back())] = true;
+    if (name == "tool_id") id_column_ = static_cast<int>(meaning_.size()) - 1;
   }
   known_ = present[kUx] || present[kUy] || present[kUz] || present[kPress];
   warm_ = present[kTemp];
@@ -37,12 +39,25 @@ MotionLines::MotionLines(Input& input, bool forces) : csv_(input), name_(input.n
     const bool force = k >= kFx;
     const bool needed = force ? forces : known_ ? k != kContact && k != kTemp : k >= kT && k <= kZ;
     if (needed && !present[k])
-      fail_missing_column(input.name(), kNames[k], header, {kNames.begin(), kNames.end()});
+      fail_missing_column(name_, kNames[k], header, {kNames.begin(), kNames.end()});
   }
 }
 
 void MotionLines::require_contact_points(const std::string& columns) const {
   if (!known_) fail_input(name_, "there are no contact points", "give " + columns);
+}
+
+std::size_t MotionLines::tool_of(std::string_view id) {
+  const auto found = std::find(ids_.begin(), ids_.end(), id);
+  if (found != ids_.end()) return static_cast<std::size_t>(found - ids_.begin());
+  if (ids_.size() == most_tools_)
+    fail_input(csv_.where(), "tool_id " + shown(id) + " is one tool more than there may be",
+               most_tools_ == 1 ? "send the lines of one tool; hs-simulate --live takes several"
+                                : "send the lines of up to four");
+  ids_.emplace_back(id);
+  checks_.push_back(check_);  // as within() has made it
+  presses_.push_back(0);
+  return ids_.size() - 1;
 }
 
 bool MotionLines::next(MotionLine& line) {
@@ -55,6 +70,7 @@ bool MotionLines::next(MotionLine& line) {
                "write a finite number");
   }
   line.has_contact_point = known_;
+  if (id_column_ >= 0) tool_ = tool_of(fields_[static_cast<std::size_t>(id_column_)]);
   line.t = value_[kT];
   line.point = {value_[kX], value_[kY], value_[kZ]};
   line.u = {value_[kUx], value_[kUy], value_[kUz]};
@@ -66,7 +82,12 @@ bool MotionLines::next(MotionLine& line) {
                  "number the contact episodes 1, 2, 3");
     line.press = static_cast<int>(value_[kPress]);
   }
-  check_.check(line, [this] { return csv_.where(); });
+  if (id_column_ >= 0) {
+    presses_[tool_] = !line.in_air && !line.u.isZero() ? 1 : 0;
+    alone_ = std::count(presses_.begin(), presses_.end(), 1) <= 1;
+  }
+  MotionCheck& check = id_column_ < 0 ? check_ : checks_[tool_];
+  check.check(line, [this] { return csv_.where(); });
   return true;
 }
 

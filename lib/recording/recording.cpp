@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "io/csv.h"
+#include "recording/tools_together.h"
 
 namespace hapsim {
 
@@ -30,9 +31,11 @@ std::optional<double> Recording::force_noise() const {
 
 std::vector<Press> Recording::presses() const {
   std::vector<Press> result;
-  std::map<int, std::size_t> index;
+  std::map<std::pair<int, std::string>, std::size_t> index;
+  const std::vector<std::string>* tool = tool_ids(*this);
   for (std::size_t row = 0; row < rows(); ++row) {
-    const auto [found, is_new] = index.try_emplace(press[row], result.size());
+    const auto [found, is_new] = index.try_emplace(
+        {press[row], tool == nullptr ? std::string() : (*tool)[row]}, result.size());
     if (is_new) result.push_back({press[row], {}});
     result[found->second].rows.push_back(static_cast<int>(row));
   }

@@ -78,7 +78,7 @@ class Simulation {
     const bool goes_on = recording_.metadata.find("recovery").value_or("") == "none";
     std::vector<Vec3> before;
     int number = 0;
-    for (const Press& press : recording_.presses()) {
+    for (const Press& press : common_presses(recording_)) {
       const ToolSteps steps = tool_steps(recording_, press);
       std::vector<Vec3> points;
       for (const std::size_t row : steps.rows.front()) points.push_back(recording_.position[row]);

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 
 #include "base/error.h"
+#include "recording/tools_together.h"
 
 namespace hapsim {
 
@@ -12,12 +13,19 @@ std::string recording_line(const Recording& r, std::size_t row) {
   return fmt::format("{}:{}", r.name, r.line[row]);
 }
 
+std::vector<Press> common_presses(const Recording& r) {
+  std::vector<Press> result;
+  std::map<int, std::size_t> index;
+  for (std::size_t row = 0; row < r.rows(); ++row) {
+    const auto [found, is_new] = index.try_emplace(r.press[row], result.size());
+    if (is_new) result.push_back({r.press[row], {}});
+    result[found->second].rows.push_back(static_cast<int>(row));
+  }
+  return result;
+}
+
 ToolSteps tool_steps(const Recording& r, const Press& press) {
-  const auto found = std::find(r.extra_header.begin(), r.extra_header.end(), "tool_id");
-  const std::vector<std::string>* tool =
-      found == r.extra_header.end()
-          ? nullptr
-          : &r.extra[static_cast<std::size_t>(found - r.extra_header.begin())];
+  const std::vector<std::string>* tool = tool_ids(r);
   ToolSteps steps;
   for (const int i : press.rows) {
     const auto row = static_cast<std::size_t>(i);

@@ -15,6 +15,9 @@ struct ToolSteps {
   std::size_t tools() const { return rows.front().size(); }
 };
 
+// Rows of one press number, of all tools, in order of first appearance.
+std::vector<Press> common_presses(const Recording& r);
+
 // The steps of `press`: rows that follow one another with the same time and different values of the
 // column `tool_id` are one; without that column each row is one. fail_input (exit code 3) at a step
 // with other tools, or contacts more than 0.1 mm from those of the first.

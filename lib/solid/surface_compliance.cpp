@@ -26,8 +26,19 @@ NodeSystem make_system(const TetMesh& mesh) {
   return system;
 }
 
-std::vector<int> free_surface_nodes(const TetMesh& mesh, const NodeSystem& system) {
-  std::vector<int> nodes = surface_nodes(mesh);
+std::vector<int> corner_nodes(const TetMesh& mesh) {
+  std::vector<int> nodes;
+  for (const Triangle& f : mesh.faces.empty() ? boundary_faces(mesh) : mesh.faces)
+    nodes.insert(nodes.end(), f.begin(), f.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  return nodes;
+}
+
+std::vector<int> free_surface_nodes(const TetMesh& mesh, const NodeSystem& system,
+                                    SurfaceNodes kept) {
+  std::vector<int> nodes =
+      kept == SurfaceNodes::kCorners ? corner_nodes(mesh) : surface_nodes(mesh);
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(), [&](int n) { return !system.is_free(n); }),
               nodes.end());
   return nodes;
@@ -72,11 +83,11 @@ std::vector<int> surface_nodes(const TetMesh& mesh) {
   return nodes;
 }
 
-SurfaceCompliance::SurfaceCompliance(const TetMesh& mesh, Dilatation dilatation)
+SurfaceCompliance::SurfaceCompliance(const TetMesh& mesh, Dilatation dilatation, SurfaceNodes kept)
     : mesh_(mesh),
       dilatation_(dilatation),
       system_(make_system(mesh)),
-      nodes_(free_surface_nodes(mesh, system_)),
+      nodes_(free_surface_nodes(mesh, system_, kept)),
       index_(index_over(nodes_, mesh.nodes.size())),
       schur_(system_.matrix(), kept_blocks(system_, index_)) {
   assert(dilatation != Dilatation::kPatch);

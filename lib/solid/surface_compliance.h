@@ -14,13 +14,18 @@ namespace hapsim {
 // Nodes of the boundary faces, ascending; of second order with the middles of their edges.
 std::vector<int> surface_nodes(const TetMesh& mesh);
 
+enum class SurfaceNodes { kAll, kCorners };
+
 // A linear elastic body held at its fixed nodes, free elsewhere. One factorisation gives the
 // displacement of every free surface node for a force on every other, u_s = C f_s.
 class SurfaceCompliance {
  public:
   // The mesh must outlive it. Cost: the analysis of the sparsity, once. Error(kBadInput) when all
   // its nodes are fixed.
-  explicit SurfaceCompliance(const TetMesh& mesh, Dilatation dilatation = Dilatation::kPointwise);
+  // `kept`: kCorners leaves the middles of edges free and out of nodes().
+  explicit SurfaceCompliance(const TetMesh& mesh, Dilatation dilatation = Dilatation::kPointwise)
+      : SurfaceCompliance(mesh, dilatation, SurfaceNodes::kAll) {}
+  SurfaceCompliance(const TetMesh& mesh, Dilatation dilatation, SurfaceNodes kept);
 
   // Assembles and condenses for one pair of Lame's constants an element [Pa]; no new analysis.
   // `threads` of the dense part (one such call at a time where it is not 1).

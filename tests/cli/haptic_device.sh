@@ -9,9 +9,41 @@ printf 'effect,region,parameter,value,unit\nelastic,0,E,20000,Pa\nelastic,0,nu,0
 common=(--body body.ply --model model.csv --tool-radius 0.004)
 "${CXX:-c++}" -std=c++17 -Wall -Wextra -Werror "$example/device_none.cpp" -o device 2>err || complain 'not compiled'
 PATH=$bin:$PATH ./device 0.03 0.025 0.04 "${common[@]}" >out 2>err || complain 'the device failed'
-grep -Eq '^largest force along z 0\.[1-9]' out || complain 'no force was felt'
+grep -Eq '^largest force along z 0\.[1-9].*, torque about z [0-9.e-]*[1-9][0-9.e-]* N m, 0 late' out || complain "no force was felt: $(cat out)"
 PATH=$bin:$PATH ./device 0.03 0.025 0.04 --body none.ply --model model.csv --tool-radius 0.004 >out 2>err
 (($? == 4)) || complain 'a stream that ended is not noticed'
+
+# A stream that is late: what is felt is the newest force, said to be old, and fades; later it goes on.
+cat >late.cpp <<'END'
+#include <cstdio>
+
+#include "hapsim_stream.h"
+
+int main(int, char** argv) {
+  HapsimStream hapsim({argv + 1, argv + 7}, 2);
+  LateForce late(0.01, 0.05);
+  std::vector<HapsimPose> poses(2);
+  poses[0].tip = {0.02, 0.025, 0.041}, poses[1].tip = {0.04, 0.025, 0.041};
+  bool fresh = hapsim.exchange(0, poses, 10);
+  poses[0].tip[2] = poses[1].tip[2] = 0.039;
+  fresh = fresh && hapsim.exchange(0.001, poses, 10);
+  const double felt = hapsim.feel()[0].force[2] * late.factor(0.001, fresh);
+  kill(hapsim.child(), SIGSTOP);
+  int old = 0;
+  double faded = felt;
+  for (int i = 2; i < 300; ++i) {
+    const bool now = hapsim.exchange(0.001 * i, poses, 0.0002);
+    old += now ? 0 : 1;
+    faded = hapsim.feel()[1].force[2] * late.factor(0.001 * i, now);
+  }
+  kill(hapsim.child(), SIGCONT);
+  const bool again = hapsim.exchange(0.3, poses, 30);
+  std::printf("%d %g %d %g %d\n", fresh, felt, old, faded, again);
+}
+END
+"${CXX:-c++}" -std=c++17 -Wall -Wextra -Werror -I "$example" late.cpp -o late 2>err || complain "not compiled: $(cat err)"
+PATH=$bin:$PATH ./late "${common[@]}" >out 2>err || complain 'the late stream failed'
+awk '$1 == 1 && $2 > 0.1 && $3 == 298 && $4 == 0 && $5 == 1 { ok = 1 } END { exit !ok }' out || complain "a late stream: $(cat out)"
 
 # Killed in mid-stream: what was answered before is there, whole lines but perhaps the last.
 mkfifo motion

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <memory>
 #include <vector>
 
 #include "base/error.h"
@@ -46,11 +47,16 @@ inline int run_follow(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines lines(input, true);
   lines.require_contact_points("press,t,x,y,z,ux,uy,uz,fx,fy,fz");
+  lines.allow_tools();
   PreparedBodyOptions options;
   options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
   lines.within(mesh.nodes);
   const PreparedBody body(mesh, unit_model(arguments[flag::nu]), options);
-  UnitResponse response(body, times);
+  struct Followed {  // a tool
+    UnitResponse response;
+    int press;
+  };
+  std::vector<std::unique_ptr<Followed>> tools;
   OnlineIdentification identification(static_cast<int>(times.size()) + 1,
                                       arguments.given(flag::memory)
                                           ? static_cast<double>(arguments[flag::memory])
@@ -61,7 +67,6 @@ inline int run_follow(const Arguments& arguments) {
   MotionLine line;
   long rows = 0;
   const long every = arguments[flag::every];
-  int press = 0;
   const auto tell = [&] {
     csv.row(estimate_row(line.t, rows, identification.estimate()));
     output.stream().flush();
@@ -70,10 +75,16 @@ inline int run_follow(const Arguments& arguments) {
       arguments, "hs-identify", input,
       [&] {
         while (lines.next(line)) {
-          if (rows == 0 || line.press != press) response.begin(line.point);
-          press = line.press;
+          const std::size_t k = lines.tool();
+          const bool is_new = k == tools.size();
+          if (is_new) tools.push_back(std::make_unique<Followed>(UnitResponse(body, times), 0));
+          UnitResponse& response = tools[k]->response;
+          if (is_new || line.press != tools[k]->press) response.begin(line.point);
+          tools[k]->press = line.press;
           response.press(line.t, line.u, line.in_air);
-          if (!line.in_air) identification.add(response.unit_forces(), lines.force());
+          // Where another tool presses too, the surface is not where this one's contact has it.
+          if (!line.in_air && lines.is_alone())
+            identification.add(response.unit_forces(), lines.force());
           if (++rows % every == 0) tell();
         }
         if (rows == 0 && !input.ended_by_signal())

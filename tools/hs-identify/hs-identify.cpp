@@ -120,6 +120,7 @@ int run(const Arguments& arguments) {
   const SearchState search = search_asked(arguments, plan.start);
   GivenRecordings given = load_recordings(arguments);
   require_fit_for(arguments, plan, given.dataset);
+  say_together(arguments, "hs-identify", given.dataset.recording);
   RestOfPress rest(arguments, given);
   const TetMesh& body = given.bodies.front();
   const std::unique_ptr<LibraryUse> library =

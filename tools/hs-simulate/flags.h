@@ -7,7 +7,7 @@ namespace hapsim {
 
 namespace flag {
 inline constexpr ForceFlag add_noise{"--add-noise"};
-inline constexpr IntegerFlag seed{"--seed"};
+inline constexpr IntegerFlag seed{"--seed"}, tools{"--tools"};
 inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
     force_control{"--force-control"}, live{"--live"};
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};

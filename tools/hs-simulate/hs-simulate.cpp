@@ -101,6 +101,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
                "leave out --vtu, or give all of them the terms of region 0");
   dataset = with_normals(std::move(dataset), body.normals());
   say_beyond(arguments, press_depth({mesh}, dataset), model, dataset.recording);
+  say_together(arguments, "hs-simulate", dataset.recording);
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
   write_forces(arguments, model, dataset, all,
@@ -184,7 +185,7 @@ int run(const Arguments& arguments) {
     if (acfm) return run_live_acfm(arguments, *acfm);
     return run_live_mode(arguments, model);
   }
-  for (const AnyFlag& flag : AnyFlags{flag::rate, flag::contacts, flag::binary})
+  for (const AnyFlag& flag : AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools})
     if (arguments.given(flag))
       fail_usage(flag + " is of the live mode", "add --live, or leave it out");
   if (acfm) return run_acfm(arguments, *acfm);
@@ -202,6 +203,7 @@ int run(const Arguments& arguments) {
     say(arguments, "hs-simulate", unfit);
   const Selection all = all_episodes(w.dataset);
   say_beyond(arguments, w.depth, model, w.dataset.recording);
+  say_together(arguments, "hs-simulate", w.dataset.recording);
   write_forces(arguments, model, w.dataset, all, contact_mesh_forces(arguments, model, w, all),
                w.places.mesh_uncertainty());
   say(arguments, "hs-simulate",

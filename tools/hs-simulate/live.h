@@ -13,9 +13,12 @@
 #include "model/model_edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/live_session.h"
+#include "realtime/live_tools.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
 #include "realtime/real_time.h"
+#include "realtime/tool_lines.h"
+#include "realtime/tool_records.h"
 #include "stream_options.h"
 
 namespace hapsim {
@@ -31,41 +34,70 @@ inline std::optional<Experiment> fine_contacts(const Arguments& arguments, const
                          options);
 }
 
-// Where the motion comes from.
+// Where the motion comes from: of one tool that keeps its orientation `source`, else `several`.
 struct LiveInput {
   explicit LiveInput(const Arguments& arguments) : input(arguments.input()) {
     if (arguments.given(flag::add_noise))
       fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
     binary = arguments.given(flag::binary);
+    if (binary && arguments.given(flag::tools))
+      fail_usage("--tools is of lines", "records say themselves of how many tools they are");
     if (binary) {
-      source = std::make_unique<MotionRecords>(input, arguments[flag::binary] == "tip"
-                                                          ? MotionRecords::Kind::kTip
-                                                          : MotionRecords::Kind::kPress);
+      const std::string kind = arguments[flag::binary];
+      if (kind == "extended") {
+        auto records = std::make_unique<ToolRecords>(input);
+        header = records->header();
+        several = std::move(records);
+      } else {
+        source = std::make_unique<MotionRecords>(
+            input, kind == "tip" ? MotionRecords::Kind::kTip : MotionRecords::Kind::kPress);
+      }
       return;
     }
-    auto lines = std::make_unique<MotionLines>(input);
+    CsvReader csv(input);
+    if (ToolLines::serves(csv.header())) {
+      const std::size_t tools =
+          arguments.given(flag::tools) ? static_cast<std::size_t>(arguments[flag::tools]) : 0;
+      auto lines = std::make_unique<ToolLines>(std::move(csv), input.name(), tools);
+      metadata = lines->metadata();
+      columns = lines->columns();
+      several = std::move(lines);
+      return;
+    }
+    if (arguments.given(flag::tools) && arguments[flag::tools] > 1)
+      fail_input(input.name(), "there are several tools, and no column tool_id",
+                 "say of each line which tool it is of");
+    auto lines = std::make_unique<MotionLines>(std::move(csv), input.name(), false);
     metadata = lines->metadata();
     columns = lines->force_columns();
     source = std::move(lines);
+  }
+  bool has_contact_point() const {
+    return source ? source->has_contact_point() : several->has_contact_point();
+  }
+  void within(const std::vector<Vec3>& nodes) {
+    source ? source->within(nodes) : several->within(nodes);
   }
   bool remembers() const { return metadata.find("recovery").value_or("") == "none"; }
   bool heals() const { return metadata.find("recovery").value_or("") == "full"; }
   ToolLoopOptions loop_options() const {
     ToolLoopOptions options;
-    options.relaxed = source->has_contact_point() || !remembers();
+    options.relaxed = has_contact_point() || !remembers();
     return options;
   }
 
   Input input;
   bool binary = false;
   std::unique_ptr<MotionSource> source;
+  std::unique_ptr<ToolSource> several;
   Metadata metadata;                 // binary motion has none
   std::vector<std::string> columns;  // of the answers; records have none
+  std::string header;                // of the answers: extended records have one
 };
 
-// Answers every line until the motion ends.
-inline int answer(const Arguments& arguments, LiveInput& in, const std::string& label,
-                  ToolLoop& loop) {
+// Answers everything until the motion ends: `run` reads, answers and writes.
+template <class Run>
+int answer_by(const Arguments& arguments, LiveInput& in, const std::string& label, const Run& run) {
   LiveOptions live;
   if (arguments.has(flag::rate)) live.rate = arguments[flag::rate];
   live.remembers = in.remembers();
@@ -77,11 +109,11 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
   in.metadata.set("simulated", label);
   Output output(arguments.output());
   if (!in.binary) CsvWriter(output.stream(), in.metadata, in.columns);
+  output.stream() << in.header;
   output.stream().flush();
   LiveReport report;
   answer_stream(
-      arguments, "hs-simulate", in.input,
-      [&] { run_live(*in.source, output.stream(), loop, live, report); },
+      arguments, "hs-simulate", in.input, [&] { run(output.stream(), live, report); },
       [&] {
         output.commit();
         std::string text = report.latency.summary();
@@ -93,6 +125,35 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
           say(arguments, "hs-simulate", deep);
       });
   return 0;
+}
+
+inline int answer(const Arguments& arguments, LiveInput& in, const std::string& label,
+                  ToolLoop& loop) {
+  return answer_by(arguments, in, label,
+                   [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
+                     run_live(*in.source, out, loop, live, report);
+                   });
+}
+
+// Several tools, or one that turns.
+inline int answer_several(const Arguments& arguments, LiveInput& in, const TetMesh& mesh,
+                          const Model& model, const PreparedBody& body,
+                          const ToolLoopOptions& options) {
+  std::optional<ToolCoupling> coupling;
+  if (in.several->tools() > 1) {
+    const std::int64_t start = monotonic_ns();
+    coupling.emplace(mesh, model, body.tool_radius());
+    say(arguments, "hs-simulate",
+        fmt::format("what one tool does under another: {} corners of the surface condensed in "
+                    "{:.1f} ms, in {} order",
+                    coupling->corners(), 1e-6 * static_cast<double>(monotonic_ns() - start),
+                    coupling->second_order() ? "second" : "first"));
+  }
+  SeveralTools tools(body, coupling ? &*coupling : nullptr, in.several->tools(), options);
+  return answer_by(arguments, in, effects_label(model),
+                   [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
+                     run_live_tools(*in.several, out, tools, live, report);
+                   });
 }
 
 inline int run_live_mode(const Arguments& arguments, const Model& model) {
@@ -110,7 +171,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   options.heals = in.heals();
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
-  in.source->within(mesh.nodes);
+  in.within(mesh.nodes);
   say(arguments, "hs-simulate",
       fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
                   body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
@@ -122,6 +183,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
                     body.terms().size(), body.misfit()));
   ToolLoopOptions loop_options = in.loop_options();
   loop_options.fitted_depth = fitted_depth(model);
+  if (in.several) return answer_several(arguments, in, mesh, model, body, loop_options);
   ForceLoop loop(body, loop_options);
   return answer(arguments, in, effects_label(model), loop);
 }
@@ -130,13 +192,17 @@ inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
   if (arguments.given(flag::contacts))
     fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
   LiveInput in(arguments);
+  if (in.several)
+    fail_input(in.input.name(), "it is of several tools, or of one that turns",
+               "an analytical model knows one tool that does not turn; leave out tool_id, thx, thy "
+               "and thz");
   std::optional<SignedDistance> surface;
   if (arguments.given(flag::body)) {
     const TetMesh mesh = load_body(arguments);
     surface.emplace(boundary_surface(mesh), "body");
-    in.source->within(mesh.nodes);
+    in.within(mesh.nodes);
   }
-  if (!surface && !in.source->has_contact_point())
+  if (!surface && !in.has_contact_point())
     fail_input(in.input.name(),
                "its columns are those of a moving tip, whose contacts only a body shows",
                "give --body body.ply, or the columns press,t,x,y,z,ux,uy,uz");

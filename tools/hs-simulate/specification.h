@@ -47,6 +47,31 @@ inline ToolSpec simulate_specification() {
       "y z ux uy uz. Out (88 bytes): i press, i contact (0 in the air, else 1 and twice what "
       "beyond "
       "would be), t x y z ux uy uz fx fy fz. Give --tool-radius.",
+      "Live, up to four tools press one body at once with a column tool_id, lines of one time, one "
+      "a tool, being one step: pressing with one moves the surface under the others. Say with "
+      "--tools, or in metadata tools, how many there are, so that a step is answered as soon as "
+      "its "
+      "last line is there; else it is when the next begins. Two tools nearer than twice the radius "
+      "have 64 added to beyond. Columns thx, thy, thz are the tool's rotation vector in the body's "
+      "frame [rad] (with contact points: since it touched); a flat tool's patch turns with it, and "
+      "tqx, tqy, tqz is the torque on the tool about its tip, the middle of the patch [N m]. Of "
+      "tips, "
+      "touches of all tools are counted together, and before its first a tool has press 0, -1, "
+      "...; "
+      "so each tool's lines are presses of their own to every tool that reads them. Contact laws "
+      "and the sensor change forces alone; torques are those of the linear body and relax as it "
+      "does.",
+      "Records of --binary extended are versioned, and of one or more tools with orientation, "
+      "torque "
+      "and what a force is beyond. Both directions begin with a header of 32 bytes: 8 bytes "
+      "hapsimIO, i version, i bytes of a record, i tools, i kind (0: tips, 1: presses), 8 bytes of "
+      "0. Who asks gives the newest version that it knows; the answer says the one that is spoken "
+      "(2), and how large its records are. What a record has beyond its version is passed over. In "
+      "(16 + 80 tools bytes): t, temp (NaN: not known); of each tool i press, i contact, x y z, ux "
+      "uy uz, thx thy thz. Out (16 + 144 tools bytes): t, temp; of each tool i press, i contact, i "
+      "beyond, i 0, x y z, ux uy uz, thx thy thz, fx fy fz, tqx tqy tqz, and the standard "
+      "uncertainty of the force (NaN: not known). Without it the records are the ones before, so "
+      "older programs go on.",
       "A model of hs-identify --acfm is springs and dashpots by position; between positions they "
       "are "
       "interpolated by inverse distances. It is answered by the same flags, in batch and live.",
@@ -128,9 +153,16 @@ inline ToolSpec simulate_specification() {
   spec.options.push_back({.flag = flag::binary,
                           .value = "KIND",
                           .help = "Live: records instead of lines in and out; tip positions or "
-                                  "presses come in.",
+                                  "presses come in, or records of a version and size that they "
+                                  "say.",
                           .group = "Live",
-                          .choices = {"tip", "press"}});
+                          .choices = {"tip", "press", "extended"}});
+  spec.options.push_back({.flag = flag::tools,
+                          .value = "N",
+                          .help = "Live: how many tools the lines are of, one each at every time.",
+                          .group = "Live",
+                          .minimum = 1,
+                          .maximum = 4});
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",

@@ -1,7 +1,9 @@
 // A haptic device driven by hapsim, through CHAI3D 3.2 (https://www.chai3d.org): its first device
 // presses the body. usage: device_chai3d X Y Z SCALE hs-simulate-arguments...
 //   X Y Z [m]: where in the body's frame the middle of the device's workspace is; SCALE: how much
-//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware.
+//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware. A force
+//   that is late is felt for 10 ms on, and fades out within 50: the device is never left with an old
+//   one, and its loop never waits longer than 2 ms.
 #include <chai3d.h>
 
 #include <atomic>
@@ -33,27 +35,40 @@ int main(int argc, char** argv) {
   }
   device->calibrate();
   const double strongest = device->getSpecifications().m_maxLinearForce;
+  const double stiffest = device->getSpecifications().m_maxAngularTorque;
   std::signal(SIGINT, [](int) { stopped = true; });
   int code = 0;
   try {
     HapsimStream hapsim(std::vector<std::string>(argv + 5, argv + argc));
+    LateForce late(0.01, 0.05);
     const auto start = std::chrono::steady_clock::now();
     while (!stopped) {  // CHAI3D's devices pace the loop
-      chai3d::cVector3d p;
+      chai3d::cVector3d p, axis;
+      chai3d::cMatrix3d orientation;
       device->getPosition(p);
+      device->getRotation(orientation);
+      double angle = 0;
+      orientation.toAxisAngle(axis, angle);
       const double t =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      const auto f = hapsim.force(
-          t, {middle[0] + scale * p.x(), middle[1] + scale * p.y(), middle[2] + scale * p.z()});
-      chai3d::cVector3d force(f[0], f[1], f[2]);
+      HapsimPose pose;
+      pose.tip = {middle[0] + scale * p.x(), middle[1] + scale * p.y(), middle[2] + scale * p.z()};
+      pose.turn = {angle * axis.x(), angle * axis.y(), angle * axis.z()};
+      const double factor = late.factor(t, hapsim.exchange(t, {pose}, 0.002));
+      const HapsimFeel& feel = hapsim.feel()[0];
+      chai3d::cVector3d force(feel.force[0], feel.force[1], feel.force[2]);
+      chai3d::cVector3d torque(feel.torque[0], feel.torque[1], feel.torque[2]);
+      force.mul(factor);
+      torque.mul(factor / scale);  // the same work: turns are not scaled
       if (force.length() > strongest) force.mul(strongest / force.length());
-      device->setForce(force);
+      if (torque.length() > stiffest) torque.mul(stiffest / torque.length());
+      device->setForceAndTorque(force, torque);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     code = 4;
   }
-  device->setForce(chai3d::cVector3d(0, 0, 0));
+  device->setForceAndTorque(chai3d::cVector3d(0, 0, 0), chai3d::cVector3d(0, 0, 0));
   device->close();
   return code;
 }

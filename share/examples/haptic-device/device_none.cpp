@@ -16,14 +16,22 @@ int main(int argc, char** argv) {
   const double x = std::atof(argv[1]), y = std::atof(argv[2]), z = std::atof(argv[3]);
   try {
     HapsimStream hapsim(std::vector<std::string>(argv + 4, argv + argc));
-    double largest = 0;
+    double largest = 0, twist = 0;
+    long late = 0;
     for (int i = 0; i < 2000; ++i) {
       const double t = 1e-3 * i;
-      const auto f = hapsim.force(t, {x + 1e-3 * std::sin(5 * t), y + 1e-3 * std::cos(5 * t),
-                                      z + 1e-3 - 3e-3 * std::pow(std::sin(3 * t), 2)});
-      largest = std::fmax(largest, f[2]);
+      HapsimPose pose;
+      pose.tip = {x + 1e-3 * std::sin(5 * t), y + 1e-3 * std::cos(5 * t),
+                  z + 1e-3 - 3e-3 * std::pow(std::sin(3 * t), 2)};
+      pose.turn = {0, 0, 0.1 * std::sin(2 * t)};
+      // Without a clock nothing is in a hurry; a driver takes about the period of its loop.
+      if (!hapsim.exchange(t, {pose}, 10)) ++late;
+      const HapsimFeel& feel = hapsim.feel()[0];
+      largest = std::fmax(largest, feel.force[2]);
+      twist = std::fmax(twist, std::fabs(feel.torque[2]));
     }
-    std::printf("largest force along z %.4g N\n", largest);
+    std::printf("largest force along z %.4g N, torque about z %.4g N m, %ld late\n", largest, twist,
+                late);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 4;

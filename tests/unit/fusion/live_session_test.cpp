@@ -13,8 +13,10 @@
 #include "fusion/fused_loop.h"
 #include "io/stream.h"
 #include "realtime/force_loop.h"
+#include "realtime/live_tools.h"
 #include "realtime/motion_lines.h"
 #include "realtime/motion_records.h"
+#include "realtime/tool_lines.h"
 #include "support/allocations.h"
 #include "support/synthetic.h"
 
@@ -84,6 +86,36 @@ void answer(MotionSource& source, ToolLoop& loop, double rate = 0) {
   out.commit();
   counting.expect_nothing();
 }
+
+// The same of several tools.
+class CountingTools : public ToolSource {
+ public:
+  explicit CountingTools(ToolSource& source) : source_(source) {}
+  std::size_t tools() const override { return source_.tools(); }
+  bool has_contact_point() const override { return source_.has_contact_point(); }
+  bool next(ToolStep& step) override {
+    if (++count_ == kFirst) allocations_ = allocations, locks_ = locks;
+    if (count_ == kSamples) allocations_ = allocations - allocations_, locks_ = locks - locks_;
+    return source_.next(step);
+  }
+  void write(std::string& buffer, const ToolStep& step,
+             std::span<const ToolFeel> feel) const override {
+    source_.write(buffer, step, feel);
+    together_ += !feel[0].in_air && !feel[1].in_air ? 1 : 0;
+  }
+  void expect_nothing() const {
+    EXPECT_GE(count_, kSamples);
+    EXPECT_GT(together_, kSamples / 10);
+    EXPECT_EQ(allocations_, 0);
+    EXPECT_EQ(locks_, 0);
+  }
+
+ private:
+  ToolSource& source_;
+  int count_ = 0;
+  long allocations_ = 0, locks_ = 0;
+  mutable int together_ = 0;
+};
 
 TetMesh mesh() {
   return test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1);
@@ -176,6 +208,29 @@ TEST(LiveSession, TakesNoMemoryAndNoLock) {
     MotionRecords source(input, MotionRecords::Kind::kTip);
     ForceLoop loop(body);
     answer(source, loop);
+  }
+}
+
+TEST(LiveSession, SeveralToolsTakeNoMemoryAndNoLock) {
+  const Model model = relaxing();
+  const PreparedBody body(mesh(), model, tool());
+  const ToolCoupling coupling(mesh(), model, 0.004);
+  std::string text = "t,tool_id,x,y,z,thx,thy,thz\n";
+  for (int i = 0; i < kSamples; ++i)
+    for (int k = 0; k < 2; ++k)
+      text += fmt::format("{},tool{},{},0.04,{},0,0,{}\n", 1e-3 * i, k, 0.034 + 0.012 * k,
+                          0.039 + 0.0025 * std::sin(7e-3 * i + 0.4 * k), 0.1 * std::sin(1e-3 * i));
+  for (const std::size_t count : {0, 2}) {
+    Input input = Input::from_bytes(text, kName);
+    ToolLines source(CsvReader(input), kName, count);
+    CountingTools counting(source);
+    SeveralTools tools(body, &coupling, source.tools());
+    Output out("/dev/null");
+    LiveReport report;
+    run_live_tools(counting, out.stream(), tools, {}, report);
+    out.commit();
+    counting.expect_nothing();
+    EXPECT_EQ(report.latency.count(), kSamples);
   }
 }
 
