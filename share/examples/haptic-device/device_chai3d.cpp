@@ -1,9 +1,9 @@
 // A haptic device driven by hapsim, through CHAI3D 3.2 (https://www.chai3d.org): its first device
 // presses the body. usage: device_chai3d X Y Z SCALE hs-simulate-arguments...
 //   X Y Z [m]: where in the body's frame the middle of the device's workspace is; SCALE: how much
-//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware. A force
-//   that is late is felt for 10 ms on, and fades out within 50: the device is never left with an old
-//   one, and its loop never waits longer than 2 ms.
+//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware. A
+//   force that is late is felt for 10 ms on, and fades out within 50: the device is never left with
+//   an old one, and its loop never waits longer than 2 ms.
 #include <chai3d.h>
 
 #include <atomic>

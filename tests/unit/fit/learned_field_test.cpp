@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/error.h"
 #include "effects/catalogue.h"
 #include "fit/fit.h"
 #include "io/stream.h"
