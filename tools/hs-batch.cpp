@@ -77,7 +77,7 @@ ToolSpec specification() {
            "In which each step has to end [s]; after that it has failed, and is tried again when "
            "the batch is.",
        .default_text = "21600",
-       .minimum = 1,
+       .minimum = 0.1,
        .maximum = 1e7},
       {.flag = flag::writes,
        .value = "DIR",

@@ -100,7 +100,8 @@ printf 'press,x,y,z,ux,uy,uz,fx,fy,fz\n1,0.03,0.025,0.04,0,0,-0.001,0,0,1\n' >ta
 content() {
   case $(head -c 80 "$1" | tr -d '\0' | head -n 1) in
   ply*) echo ply ;; 'solid'* | 'binary STL'*) echo stl ;; '<?xml'*) echo vtu ;; '$MeshFormat'*) echo msh ;;
-  '** hapsim'*) echo inp ;; *) grep -q '^x,y,z' "$1" && echo csv || echo xyz ;;
+  '** hapsim'*) echo inp ;; *)
+    if grep -q '^x,y,z' "$1"; then echo csv; elif grep -q '^v ' "$1"; then echo obj; else echo xyz; fi ;;
   esac
 }
 written() { # EXTENSION TOOL ARGUMENTS...: written as that, and read back by it

@@ -19,12 +19,14 @@ namespace {
 
 constexpr double kDepth = 2e-3;
 
-// A smooth change of stiffness by a factor of four over the block, with a power of the depth.
+// A smooth change of stiffness by a factor of four over the block, with a power of the depth whose
+// mean over the places is 0: what all places share is the law's part, not the field's.
 double log_factor(const Vec3& p) {
   return 0.7 * std::sin(70 * p.x()) * std::cos(60 * p.y());
 }
 double power(const Vec3& p) {
-  return 0.4 * std::cos(50 * p.x() + 20 * p.y());
+  constexpr double kMean = -0.2262;
+  return 0.4 * std::cos(50 * p.x() + 20 * p.y()) - kMean;
 }
 
 Recording many_presses() {
