@@ -29,7 +29,7 @@ organ() {
   local flags=$1
   # shellcheck disable=SC2086
   step 60 hs-import "$2" --unit mm $flags --scan touched.csv -o data.csv || return 1
-  step 60 hs-scan2ply touched.csv -o points.ply && step 120 hs-reconstruct points.ply -o surface.ply &&
+  step 60 hs-scan2ply touched.csv -o points.ply && step 120 hs-reconstruct points.ply --window -o surface.ply &&
     step 120 hs-tetmesh surface.ply -o body.ply && fit_and_diagnose
 }
 

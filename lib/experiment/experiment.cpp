@@ -49,6 +49,19 @@ std::size_t nearest_fit(std::size_t p, const Places& places, const Dataset& data
   return nearest;
 }
 
+// Leaves out the positions of which something is said.
+std::vector<UnfitPlace> leave_out(const std::vector<std::string>& why, Dataset& dataset) {
+  std::vector<UnfitPlace> out;
+  std::vector<std::size_t> rest;
+  for (std::size_t p = 0; p < why.size(); ++p)
+    if (why[p].empty())
+      rest.push_back(p);
+    else
+      out.push_back({dataset.positions[p], why[p]});
+  if (!out.empty()) dataset = at_positions(dataset, rest);
+  return out;
+}
+
 // Leaves out what does not fit, or borrows for it.
 std::vector<UnfitPlace> settle_unfit(Places& places, Dataset& dataset, bool borrow) {
   std::vector<UnfitPlace> unfit;
@@ -79,7 +92,16 @@ Experiment make_experiment(const TetMesh& body, Recording recording,
 Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
                            const ExperimentOptions& options) {
   require_small_displacements(bodies, dataset);
-  const PressDepth depth = press_depth(bodies, dataset);
+  // Forces are asked of every press that is simulated; a fit does without some.
+  PressDepth depth;
+  std::vector<UnfitPlace> unfit;
+  if (options.borrow) {
+    depth = press_depth(bodies, dataset);
+  } else {
+    const PositionsThrough through = positions_through(bodies, dataset);
+    unfit = leave_out(through.why, dataset);
+    depth = through.others;
+  }
   ContactLibraryOptions library;
   library.threads = options.threads;
   library.cache = options.cache;
@@ -99,7 +121,8 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
       throw Error(error.code(), dataset.recording.name, error.what(), "");
     }
   }();
-  std::vector<UnfitPlace> unfit = settle_unfit(places, dataset, options.borrow);
+  for (UnfitPlace& place : settle_unfit(places, dataset, options.borrow))
+    unfit.push_back(std::move(place));
   std::vector<std::vector<Vec3>> windows;
   for (const Setup& s : dataset.setups) {
     const auto b = static_cast<std::size_t>(s.body);
@@ -130,11 +153,12 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
 
 std::string unfit_words(const Experiment& experiment, bool borrowed) {
   if (experiment.unfit.empty()) return "";
-  return fmt::format("WARNING: {} of {} places {}, for the tool does not fit on the body there: {}",
-                     experiment.unfit.size(),
-                     experiment.dataset.positions.size() + (borrowed ? 0 : experiment.unfit.size()),
-                     borrowed ? "are taken for their nearest neighbours" : "are left out",
-                     experiment.unfit.front().why);
+  return fmt::format(
+      "WARNING: {} of {} places {}, for this body cannot be pressed so there; the first: {}",
+      experiment.unfit.size(),
+      experiment.dataset.positions.size() + (borrowed ? 0 : experiment.unfit.size()),
+      borrowed ? "are taken for their nearest neighbours" : "are left out",
+      experiment.unfit.front().why);
 }
 
 Experiment at_positions(const Experiment& e, const std::vector<std::size_t>& positions) {

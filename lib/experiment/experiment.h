@@ -65,8 +65,9 @@ struct ExperimentOptions {
 constexpr double kLeastFloor = 0.01;
 
 // Reads nothing; prepares (or finds in the cache) the stiffness at each position of the recording.
-// Error(kBadInput), with the recording's name: displacements beyond the size of the body or through
-// it, a contact off its surface; no place at which the tool fits.
+// Error(kBadInput), with the recording's name: displacements beyond the size of the body; a contact
+// off its surface; no place at which the tool fits, or more than half at which it comes through the
+// body.
 Experiment make_experiment(const TetMesh& body, Recording recording,
                            const ExperimentOptions& options);
 // Of several bodies or tools: Setup::body of the dataset numbers `bodies`.

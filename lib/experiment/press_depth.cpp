@@ -10,8 +10,14 @@
 namespace hapsim {
 namespace {
 
-void include(const SignedDistance& surface, const Recording& r, const std::vector<int>& rows,
-             PressDepth& deepest) {
+// What a row says that goes through the body, and where; the rest of the rows is not looked at
+// then.
+struct Through {
+  std::string place, what;  // "": none
+};
+
+Through include(const SignedDistance& surface, const Recording& r, const std::vector<int>& rows,
+                PressDepth& deepest) {
   WayThrough way(&surface);
   const Vec3* last = nullptr;  // contact point
   for (const int row : rows) {
@@ -26,18 +32,48 @@ void include(const SignedDistance& surface, const Recording& r, const std::vecto
     const double share = way.share(u);
     if (share <= deepest.share) continue;
     deepest.share = share;
-    deepest.row = row;
+    deepest.line = r.line[row];
     if (share >= 1)
-      fail_input(fmt::format("{}:{}", r.name, r.line[row]),
-                 fmt::format("a displacement of {:.3g} m goes through the body, which is {:.3g} m "
-                             "thick there",
-                             u.norm(), u.norm() / share),
-                 "correct or remove the row; all lengths are in metres");
+      return {fmt::format("{}:{}", r.name, r.line[row]),
+              fmt::format("a displacement of {:.3g} m goes through the body, which is {:.3g} m "
+                          "thick there",
+                          u.norm(), u.norm() / share)};
   }
+  return {};
+}
+
+[[noreturn]] void fail(const Through& through) {
+  fail_input(through.place, through.what, "correct or remove the row; all lengths are in metres");
 }
 
 SignedDistance surface_of(const TetMesh& body) {
   return SignedDistance(boundary_surface(body), "body");
+}
+
+struct PositionDepth {
+  PressDepth deepest;
+  Through through;
+};
+std::vector<PositionDepth> by_position(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+  std::vector<PositionDepth> of(dataset.positions.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const SignedDistance surface = surface_of(bodies[b]);
+    for (const Episode& e : dataset.episodes) {
+      const auto p = static_cast<std::size_t>(e.position);
+      const int setup = dataset.setup_of[p];
+      if (dataset.setups[static_cast<std::size_t>(setup)].body != static_cast<int>(b)) continue;
+      if (of[p].through.what.empty())
+        of[p].through = include(surface, dataset.recording, e.rows, of[p].deepest);
+    }
+  }
+  return of;
+}
+
+void merge(const PressDepth& other, PressDepth& deepest) {
+  deepest.depth = std::max(deepest.depth, other.depth);
+  if (other.share <= deepest.share) return;
+  deepest.share = other.share;
+  deepest.line = other.line;
 }
 
 }  // namespace
@@ -46,21 +82,34 @@ PressDepth press_depth(const TetMesh& body, const Recording& recording) {
   PressDepth deepest;
   std::vector<int> rows(recording.rows());
   std::iota(rows.begin(), rows.end(), 0);
-  include(surface_of(body), recording, rows, deepest);
+  const Through through = include(surface_of(body), recording, rows, deepest);
+  if (!through.what.empty()) fail(through);
   return deepest;
 }
 
 PressDepth press_depth(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
   PressDepth deepest;
-  for (std::size_t b = 0; b < bodies.size(); ++b) {
-    const SignedDistance surface = surface_of(bodies[b]);
-    for (const Episode& e : dataset.episodes) {
-      const int setup = dataset.setup_of[static_cast<std::size_t>(e.position)];
-      if (dataset.setups[static_cast<std::size_t>(setup)].body == static_cast<int>(b))
-        include(surface, dataset.recording, e.rows, deepest);
-    }
+  for (const PositionDepth& position : by_position(bodies, dataset)) {
+    if (!position.through.what.empty()) fail(position.through);
+    merge(position.deepest, deepest);
   }
   return deepest;
+}
+
+PositionsThrough positions_through(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+  PositionsThrough out;
+  const std::vector<PositionDepth> of = by_position(bodies, dataset);
+  std::size_t through = 0;
+  for (const PositionDepth& position : of) {
+    const Through& t = position.through;
+    out.why.push_back(t.what.empty() ? "" : t.place + ": " + t.what);
+    if (t.what.empty()) {
+      merge(position.deepest, out.others);
+      continue;
+    }
+    if (2 * ++through > of.size()) fail(t);
+  }
+  return out;
 }
 
 double fitted_depth(const Model& model) {
@@ -68,12 +117,12 @@ double fitted_depth(const Model& model) {
       .value_or(std::numeric_limits<double>::infinity());
 }
 
-std::string beyond_depth(const PressDepth& depth, const Model& model, const Recording& recording) {
+std::string beyond_depth(const PressDepth& depth, const Model& model) {
   if (depth.share > kValidShare)
     return fmt::format(
         "line {} goes {:.0f} % of the way through the body: beyond {:.0f} % these forces mean "
         "little",
-        recording.line[depth.row], 100 * depth.share, 100 * kValidShare);
+        depth.line, 100 * depth.share, 100 * kValidShare);
   const double fitted = fitted_depth(model);
   if (depth.depth > 1.001 * fitted)
     return fmt::format("presses go {:.3g} mm deep, and the model was fitted to {:.3g} mm",

@@ -15,12 +15,20 @@ namespace hapsim {
 struct PressDepth {
   double depth = 0;  // into the surface, along its normal [m]
   double share = 0;  // of the way through the body (WayThrough)
-  int row = -1;      // of that share, in the recording; -1: none goes in
+  long line = 0;     // of that share, in the recording's file; 0: none goes in
 };
 // Error(kBadInput) with the line: a tool that comes out on the far side.
 PressDepth press_depth(const TetMesh& body, const Recording& recording);
 // The same of every body; Setup::body of the dataset numbers them.
 PressDepth press_depth(const std::vector<TetMesh>& bodies, const Dataset& dataset);
+
+// Where the tool comes out on the far side: a scan is often thinner at its edge than the body was.
+struct PositionsThrough {
+  std::vector<std::string> why;  // by position, with the line; "": nowhere
+  PressDepth others;             // of the positions that stay
+};
+// Error(kBadInput) where they are more than half of the positions: then it is the unit or the body.
+PositionsThrough positions_through(const std::vector<TetMesh>& bodies, const Dataset& dataset);
 
 // The deepest displacement that the model was fitted to, which hs-identify writes down [m];
 // infinite where it does not say.
@@ -28,6 +36,6 @@ double fitted_depth(const Model& model);
 
 // What is said of presses beyond what the model is valid for (kValidShare, fitted_depth()); ""
 // where there is none.
-std::string beyond_depth(const PressDepth& depth, const Model& model, const Recording& recording);
+std::string beyond_depth(const PressDepth& depth, const Model& model);
 
 }  // namespace hapsim

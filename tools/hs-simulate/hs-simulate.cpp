@@ -27,9 +27,8 @@ SolverKind solver_kind(const Arguments& arguments) {
   return name == "iterative" ? SolverKind::kIterative : SolverKind::kBySize;
 }
 
-void say_beyond(const Arguments& arguments, const PressDepth& depth, const Model& model,
-                const Recording& recording) {
-  const std::string text = beyond_depth(depth, model, recording);
+void say_beyond(const Arguments& arguments, const PressDepth& depth, const Model& model) {
+  const std::string text = beyond_depth(depth, model);
   if (!text.empty()) say(arguments, "hs-simulate", text);
 }
 
@@ -70,7 +69,7 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
   options.force_control = arguments[flag::force_control];
   if (arguments.given(flag::rim_edge)) options.rim_edge = arguments[flag::rim_edge];
   Recording out = load_recording(arguments, arguments.input(), options.force_control);
-  if (!options.force_control) say_beyond(arguments, press_depth(body, out), model, out);
+  if (!options.force_control) say_beyond(arguments, press_depth(body, out), model);
   Progress progress(arguments, "rows", out.rows());
   options.step = [&progress](std::size_t rows) { progress.step(rows); };
   FullResult result = simulate_full(body, model, out, options);
@@ -100,7 +99,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
   dataset = with_normals(std::move(dataset), body.normals());
-  say_beyond(arguments, press_depth({mesh}, dataset), model, dataset.recording);
+  say_beyond(arguments, press_depth({mesh}, dataset), model);
   say_together(arguments, "hs-simulate", dataset.recording);
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
@@ -202,7 +201,7 @@ int run(const Arguments& arguments) {
   if (const std::string unfit = unfit_words(w, true); !unfit.empty())
     say(arguments, "hs-simulate", unfit);
   const Selection all = all_episodes(w.dataset);
-  say_beyond(arguments, w.depth, model, w.dataset.recording);
+  say_beyond(arguments, w.depth, model);
   say_together(arguments, "hs-simulate", w.dataset.recording);
   write_forces(arguments, model, w.dataset, all, contact_mesh_forces(arguments, model, w, all),
                w.places.mesh_uncertainty());

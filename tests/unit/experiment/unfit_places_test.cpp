@@ -52,6 +52,28 @@ TEST(UnfitPlaces, AreLeftOutAndCounted) {
   EXPECT_TRUE(borrowed.places.unfit(2).empty());
 }
 
+// A press of 45 mm on a body of 40 mm.
+Experiment prepared_with_through(std::vector<Vec3> places) {
+  Recording r = at_places(places);
+  r.u[1].z() = -0.045;
+  ExperimentOptions options;
+  options.rim_edge = 0.35;
+  options.nu_low = options.nu_high = 0.4;
+  return make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), std::move(r), options);
+}
+
+TEST(UnfitPlaces, AreThoseWherePressesComeThrough) {
+  const Experiment w = prepared_with_through({kPlaces[0], kPlaces[1], {0.03, 0.05, 0.04}});
+  EXPECT_EQ(w.dataset.rows(), 6);
+  ASSERT_EQ(w.unfit.size(), 1);
+  EXPECT_NE(unfit_words(w).find("places:3: a displacement of 0.045 m goes through"),
+            std::string::npos)
+      << unfit_words(w);
+  EXPECT_NEAR(w.depth.depth, 1.5e-3, 1e-9);
+  EXPECT_EQ(w.depth.line, 7);
+  EXPECT_THROW(prepared_with_through({kPlaces[0]}), Error);
+}
+
 TEST(UnfitPlaces, AreFatalWhereThereIsNoOther) {
   EXPECT_THROW(prepared({kPlaces[2]}, false), Error);
   EXPECT_THROW(prepared({kPlaces[2]}, true), Error);
