@@ -15,6 +15,7 @@ pkg_check_modules(URDF REQUIRED IMPORTED_TARGET urdfdom)
 pkg_check_modules(CONSOLE_BRIDGE REQUIRED IMPORTED_TARGET console_bridge)
 pkg_check_modules(MATIO REQUIRED IMPORTED_TARGET matio)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 
 # Volumes: the CMake files of Teem and GDCM ask for more than is linked here.
 find_package(ZLIB REQUIRED)

@@ -64,7 +64,7 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION "From a scan of a soft object and recordings 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhapsim-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What HapsimDependencies.cmake looks for.
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libboost-dev, libcgal-dev, libtet1.5-dev, libsuitesparse-dev, libopenblas0-pthread, libblas-dev, liblapack-dev, coinor-libipopt-dev, libcli11-dev, nlohmann-json3-dev, liborocos-kdl-dev, liburdfdom-dev, libconsole-bridge-dev, libgdcm-dev, libnifti2-dev, libteem-dev, libsqlite3-dev, libpugixml-dev, libmatio-dev, libhdf5-dev, zlib1g-dev, pkg-config")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libboost-dev, libcgal-dev, libtet1.5-dev, libsuitesparse-dev, libopenblas0-pthread, libblas-dev, liblapack-dev, coinor-libipopt-dev, libcli11-dev, nlohmann-json3-dev, liborocos-kdl-dev, liburdfdom-dev, libconsole-bridge-dev, libgdcm-dev, libnifti2-dev, libteem-dev, libsqlite3-dev, libsodium-dev, libpugixml-dev, libmatio-dev, libhdf5-dev, zlib1g-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers and static libraries of hapsim, for C++ programs that read its bodies
  and models, identify, simulate and diagnose. For CMake and pkg-config.")
 include(CPack)

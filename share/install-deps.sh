@@ -14,7 +14,7 @@ packages=(
   libeigen3-dev libboost-dev libcgal-dev libtbb-dev libtet1.5-dev libsuitesparse-dev libopenblas0-pthread
   coinor-libipopt-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   liborocos-kdl-dev liburdfdom-dev libgdcm-dev libnifti2-dev libteem-dev zlib1g-dev
-  libsqlite3-dev libpugixml-dev libmatio-dev libhdf5-dev
+  libsodium-dev libsqlite3-dev libpugixml-dev libmatio-dev libhdf5-dev
 )
 # Each is called by a test, or by run-tests.sh; none is asked for only where it happens to be installed.
 test_packages=(

@@ -57,9 +57,8 @@ MultiStartResult minimise_from_many(const std::vector<std::vector<Unknown>>& sta
   };
   bool first = true, stopped = false;
   for (const std::vector<Unknown>& start : starts) {
-    const double least =
-        first ? std::numeric_limits<double>::infinity() : result.best.sum_of_squares;
-    if (before_start && !before_start(result.starts, least) && !first) stopped = true;
+    if (first) result.best.sum_of_squares = std::numeric_limits<double>::infinity();
+    if (before_start && !before_start(result.starts, result.best) && !first) stopped = true;
     if (stopped) break;
     LeastSquaresResult found = minimise(start, counted, options);
     stopped = found.stopped;

@@ -22,9 +22,9 @@ struct MultiStartResult {
   int valleys = 0;          // minima of different sum of squares
 };
 
-// Before each start, its number from 0 and the least sum of squares so far (infinite at first);
+// Before each start, its number from 0 and the best so far (of infinite sum of squares at first);
 // false ends the search.
-using StartWatch = std::function<bool(int start, double sum_of_squares)>;
+using StartWatch = std::function<bool(int start, const LeastSquaresResult& best)>;
 
 // Thesis Algorithm 5.6: minimise() from each start, the least sum of squares wins. Sums of squares
 // that differ by less than `same` of their mean per residual (or 1e-6 of their own) are one valley.

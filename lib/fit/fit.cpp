@@ -199,6 +199,13 @@ class Fitting {
     return !options_.watch || options_.watch(progress_);
   }
 
+  void keep_search(const LeastSquaresResult& best, int starts_done) const {
+    if (!options_.after_start || starts_done == 0) return;
+    Model model = result_.model;
+    set_values(model, best.x);
+    options_.after_start(model, starts_done);
+  }
+
   std::vector<Unknown> open_within(double reach) const {
     std::vector<Unknown> open = unknowns(result_.model);
     return is_linearised_ ? within_reach(std::move(open), result_.model, reach) : open;
@@ -229,9 +236,11 @@ class Fitting {
     const int skip = std::clamp(options_.skip - 1, 0, options_.starts - 1);
     starts.erase(starts.begin() + 1, starts.begin() + 1 + skip);
     MultiStartResult many = minimise_from_many(starts, residuals_of(result_.model), search_, 0.1,
-                                               [&](int number, double sum) {
+                                               [&](int number, const LeastSquaresResult& best) {
                                                  progress_.start = number == 0 ? 0 : number + skip;
-                                                 return std::isinf(sum) || go_on(sum);
+                                                 if (std::isinf(best.sum_of_squares)) return true;
+                                                 keep_search(best, progress_.start);
+                                                 return go_on(best.sum_of_squares);
                                                });
     take(std::move(many.best));
     if (result_.stopped) result_.starts_done = many.starts == 0 ? 0 : many.starts + skip;

@@ -43,6 +43,9 @@ struct FitOptions {
   // Told every model that the fit has come to, and its error [N]: what is there if it has to end at
   // once. May be empty.
   std::function<void(const Model&, double rmse)> keep;
+  // Between two of several starts: the best so far, and how many of `starts` are done. May be
+  // empty.
+  std::function<void(const Model& best, int starts_done)> after_start;
 };
 
 struct Fit {

@@ -17,7 +17,7 @@ ImpairedChannel::ImpairedChannel(const Impairment& impairment, std::uint64_t see
   heap_.reserve(capacity);
 }
 
-void ImpairedChannel::push(std::int64_t now, const PacketBytes& bytes) noexcept {
+void ImpairedChannel::push(std::int64_t now, const Datagram& datagram) noexcept {
   const double keep = std::exp(-1e-9 * static_cast<double>(now - pushed_) / kJitterTime);
   pushed_ = now;
   swing_ = keep * swing_ + std::sqrt(1 - keep * keep) * random_.normal();
@@ -28,19 +28,19 @@ void ImpairedChannel::push(std::int64_t now, const PacketBytes& bytes) noexcept 
     const double late = impairment_.jitter * std::abs(apart ? random_.normal() : swing_);
     std::int64_t due = now + std::llround(1e9 * (impairment_.delay + late));
     if (!apart) due = last_ = std::max(due, last_);
-    add(due, bytes);
+    add(due, datagram);
   }
 }
 
-void ImpairedChannel::add(std::int64_t due, const PacketBytes& bytes) noexcept {
+void ImpairedChannel::add(std::int64_t due, const Datagram& datagram) noexcept {
   if (heap_.size() == capacity_) return;
-  heap_.push_back({due, order_++, bytes});
+  heap_.push_back({due, order_++, datagram});
   std::push_heap(heap_.begin(), heap_.end());
 }
 
-bool ImpairedChannel::pop(std::int64_t now, PacketBytes& bytes) noexcept {
+bool ImpairedChannel::pop(std::int64_t now, Datagram& datagram) noexcept {
   if (heap_.empty() || heap_.front().due > now) return false;
-  bytes = heap_.front().bytes;
+  datagram = heap_.front().datagram;
   std::pop_heap(heap_.begin(), heap_.end());
   heap_.pop_back();
   return true;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "link/packets.h"
+#include "link/datagram.h"
 
 namespace hapsim {
 
@@ -22,21 +22,21 @@ struct Impairment {
 class ImpairedChannel {
  public:
   ImpairedChannel(const Impairment& impairment, std::uint64_t seed, std::size_t capacity = 8192);
-  void push(std::int64_t now, const PacketBytes& bytes) noexcept;
+  void push(std::int64_t now, const Datagram& datagram) noexcept;
   // The next one that is due, false when there is none.
-  bool pop(std::int64_t now, PacketBytes& bytes) noexcept;
+  bool pop(std::int64_t now, Datagram& datagram) noexcept;
   std::int64_t next_due() const noexcept;  // the largest number when nothing waits
 
  private:
   struct Waiting {
     std::int64_t due = 0;
     std::uint64_t order = 0;
-    PacketBytes bytes{};
+    Datagram datagram;
     bool operator<(const Waiting& o) const {  // a heap has the largest first
       return due != o.due ? due > o.due : order > o.order;
     }
   };
-  void add(std::int64_t due, const PacketBytes& bytes) noexcept;
+  void add(std::int64_t due, const Datagram& datagram) noexcept;
 
   Impairment impairment_;
   Random random_;

@@ -1,32 +1,18 @@
 #include "link/packets.h"
 
-#include <bit>
 #include <cmath>
-#include <cstring>
+
+#include "link/bytes.h"
 
 namespace hapsim {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "packets are little-endian");
-constexpr std::array<unsigned char, 4> kMagic{'H', 'S', 'L', '1'};
 constexpr double kLongest = 10, kStrongest = 1e5, kLatest = 1e9;  // [m], [N], [s]
+constexpr double kMostEnergy = 1e9;                               // [J]
 
-// Fowler, Noll and Vo, 64 bits.
-std::uint64_t check_of(const unsigned char* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211ULL;
-  return hash;
-}
-
-template <class T>
-void put(unsigned char*& at, T value) noexcept {
-  std::memcpy(at, &value, sizeof value);
-  at += sizeof value;
-}
-template <class T>
-void take(const unsigned char*& at, T& value) noexcept {
-  std::memcpy(&value, at, sizeof value);
-  at += sizeof value;
+// False of what is no number, too.
+bool within(const Vec3& v, double most) {
+  return std::abs(v.x()) < most && std::abs(v.y()) < most && std::abs(v.z()) < most;
 }
 
 }  // namespace
@@ -34,48 +20,43 @@ void take(const unsigned char*& at, T& value) noexcept {
 PacketBytes write_packet(const Packet& packet) noexcept {
   PacketBytes bytes{};
   unsigned char* at = bytes.data();
-  for (const unsigned char c : kMagic) put(at, c);
   put(at, static_cast<std::int32_t>(packet.kind));
-  put(at, packet.sender);
-  put(at, packet.number);
   put(at, packet.press);
   put(at, std::int32_t{packet.in_air ? 0 : 1});
+  put(at, packet.flags);
+  put(at, packet.number);
   put(at, packet.answers);
   put(at, packet.t);
-  for (const Vec3* v : {&packet.first, &packet.second})
-    for (int k = 0; k < 3; ++k) put(at, (*v)[k]);
-  put(at, check_of(bytes.data(), static_cast<std::size_t>(at - bytes.data())));
+  put_vector(at, packet.first);
+  put_vector(at, packet.second);
+  put(at, packet.energy);
   return bytes;
 }
 
-PacketFault read_packet(std::span<const unsigned char> bytes, Packet& packet) noexcept {
-  if (bytes.size() != kPacketBytes || std::memcmp(bytes.data(), kMagic.data(), 4) != 0)
-    return PacketFault::kForeign;
-  const unsigned char* at = bytes.data() + 4;
+bool read_packet(Bytes bytes, Packet& packet) noexcept {
+  if (bytes.size() != kPacketBytes) return false;
+  const unsigned char* at = bytes.data();
   Packet p;
-  std::int32_t kind = 0, contact = 0;
-  std::uint64_t check = 0;
-  take(at, kind);
-  take(at, p.sender);
-  take(at, p.number);
-  take(at, p.press);
-  take(at, contact);
-  take(at, p.answers);
-  take(at, p.t);
-  for (Vec3* v : {&p.first, &p.second})
-    for (int k = 0; k < 3; ++k) take(at, (*v)[k]);
-  const auto covered = static_cast<std::size_t>(at - bytes.data());
-  take(at, check);
-  if (check != check_of(bytes.data(), covered)) return PacketFault::kMalformed;
-  const double most = kind == 1 ? kLongest : kStrongest;
-  if ((kind != 1 && kind != 2) || (contact != 0 && contact != 1) || p.number == 0 ||
-      !(std::abs(p.t) < kLatest) || !(p.first.cwiseAbs().maxCoeff() < most) ||
-      !(p.second.cwiseAbs().maxCoeff() < kLongest))
-    return PacketFault::kMalformed;
+  const auto kind = take<std::int32_t>(at);
+  p.press = take<std::int32_t>(at);
+  const auto contact = take<std::int32_t>(at);
+  p.flags = take<std::int32_t>(at);
+  p.number = take<std::uint64_t>(at);
+  p.answers = take<std::uint64_t>(at);
+  p.t = take<double>(at);
+  p.first = take_vector(at);
+  p.second = take_vector(at);
+  p.energy = take<double>(at);
+  const bool force = kind == static_cast<std::int32_t>(Packet::Kind::kForce);
+  if ((!force && kind != static_cast<std::int32_t>(Packet::Kind::kMotion)) ||
+      (contact != 0 && contact != 1) || p.flags < 0 || p.number == 0 || (p.answers == 0) == force ||
+      !(std::abs(p.t) < kLatest) || !within(p.first, force ? kStrongest : kLongest) ||
+      !within(p.second, force ? kStrongest : kLongest) || !(std::abs(p.energy) < kMostEnergy))
+    return false;
   p.kind = static_cast<Packet::Kind>(kind);
   p.in_air = contact == 0;
   packet = p;
-  return PacketFault::kNone;
+  return true;
 }
 
 }  // namespace hapsim

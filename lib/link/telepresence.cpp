@@ -1,76 +1,136 @@
 #include "link/telepresence.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "base/counted.h"
 #include "estimate/lag.h"
 #include "realtime/real_time.h"
 
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kRing = 4096;  // motions that may be on their way
+constexpr std::size_t kRing = 4096;    // motions that may be on their way
+constexpr double kLongestPause = 0.1;  // between two motions that counts as time of the motion [s]
+
+double seconds(std::int64_t ns) {
+  return 1e-9 * static_cast<double>(ns);
+}
 
 }  // namespace
 
-std::string PacketCounts::summary() const {
-  return fmt::format("{} taken, {} stale, {} foreign, {} malformed, {}", taken, stale, foreign,
-                     malformed, counted(peers, "peer", "peers"));
+Teleoperator::Teleoperator(ToolLoop& body, const SafetyLimits& limits, const Vec3& low,
+                           const Vec3& high)
+    : body_(body),
+      limits_(limits),
+      low_(low),
+      high_(high),
+      size_((high - low).norm()),
+      motion_(of_motion(limits, size_)),
+      force_(limits) {}
+
+bool Teleoperator::is_possible(const Packet& motion) const noexcept {
+  const Vec3 off = motion.first - motion.first.cwiseMax(low_).cwiseMin(high_);
+  return off.norm() <= size_ && (motion.in_air || motion.second.norm() <= size_) &&
+         limits_.contains(motion.first + motion.second);
 }
 
-bool Teleoperator::receive(std::int64_t now, std::span<const unsigned char> bytes,
-                           Packet& answer) noexcept {
-  Packet motion;
-  const PacketFault fault = read_packet(bytes, motion);
-  if (fault == PacketFault::kMalformed) return ++counts_.malformed, false;
-  if (fault == PacketFault::kForeign || motion.kind != Packet::Kind::kMotion)
-    return ++counts_.foreign, false;
-  const bool anew = motion.sender != operator_;
-  if (anew) {
-    if (counts_.peers > 0 && now - heard_ < kSilence) return ++counts_.foreign, false;
-    operator_ = motion.sender;
-    last_ = 0;
-    ++counts_.peers;
-  }
-  if (motion.number <= last_) return ++counts_.stale, false;
-  last_ = motion.number;
-  heard_ = now;
-  ++counts_.taken;
-  if (anew || motion.press != press_) body_.begin(motion.first);
+void Teleoperator::restart(const Packet& motion) noexcept {
+  body_.begin(motion.first);
+  const long losses = motion_.losses();
+  motion_ = SafeForce(of_motion(limits_, size_));
+  motion_.count_losses(losses);
   press_ = motion.press;
+  u_.setZero();
+  pressing_ = false;
+}
+
+bool Teleoperator::press(std::int64_t now, const Received& received, Packet& answer) noexcept {
+  const Packet& motion = received.packet;
+  if (received.is_anew) last_ = 0;
+  if (!received.is_newest || motion.number <= last_) return false;
+  last_ = motion.number;
+  // Rates are of the motion's own time, for a network bunches packets; a clock that was set, or a
+  // pause, counts as little. What was missed counts by this side's clock: idle().
+  clock_ += std::clamp(motion.t - t_, 0.0, kLongestPause);
+  t_ = motion.t;
+  heard_ = now;
+  heard_clock_ = clock_;
   answer = {};
   answer.kind = Packet::Kind::kForce;
-  answer.sender = sender_;
   answer.number = ++sent_;
   answer.press = motion.press;
   answer.in_air = motion.in_air;
   answer.answers = motion.number;
   answer.t = motion.t;
-  answer.first = body_.press(motion.t, motion.second, motion.in_air);
+  SafeSample force;
+  if (is_possible(motion)) {
+    if (received.is_anew || motion.press != press_) restart(motion);
+    const SafeSample made = motion_.pass(clock_, Vec3::Zero(), motion.second);
+    const Vec3 u = motion.in_air ? motion.second : made.force;
+    energy_ -= felt_.dot(u - u_);
+    u_ = u;
+    pressing_ = !motion.in_air;
+    const Vec3 asked = body_.press(motion.t, u, motion.in_air);
+    force = force_.pass(clock_, motion.first + u, asked);
+    if (made.flags != 0) force.flags |= kSafeRate;
+  } else {
+    ++impossible_;
+    force = force_.miss(clock_);
+    force.flags |= kSafeInvalid;
+  }
+  felt_ = force.force;
+  answer.first = force.force;
+  answer.second = force.unlimited;
+  answer.flags = force.flags;
+  answer.energy = energy_;
   return true;
 }
 
-Operator::Operator(UnitResponse& body, std::uint64_t sender, const OperatorOptions& options,
-                   std::size_t expected_samples)
+void Teleoperator::idle(std::int64_t now) noexcept {
+  const double silent = seconds(now - heard_);
+  if (!pressing_ || silent <= limits_.hold) return;
+  clock_ = std::max(clock_, heard_clock_ + silent);
+  u_ = motion_.miss(clock_).force;
+  force_.miss(clock_);
+  const bool out = u_ == Vec3::Zero();
+  felt_ = body_.press(t_ + silent, u_, out);
+  pressing_ = !out;
+}
+
+bool Teleoperator::farewell(Packet& answer) noexcept {
+  if (last_ == 0) return false;
+  answer = {};
+  answer.kind = Packet::Kind::kForce;
+  answer.number = ++sent_;
+  answer.press = press_;
+  answer.answers = last_;
+  answer.t = t_;
+  answer.flags = kSafeEnded;
+  answer.energy = energy_;
+  return true;
+}
+
+Operator::Operator(UnitResponse& body, const OperatorOptions& options)
     : body_(body),
-      sender_(sender),
       options_(options),
+      safe_(options.limits, 1 / options.rate),
       identification_(static_cast<int>(body.unit_forces().cols()),
                       options.memory > 0 ? options.memory * options.rate
                                          : std::numeric_limits<double>::infinity()),
       moduli_(ModuliVector::Zero(body.unit_forces().cols())),
-      ring_(kRing) {
+      ring_(kRing),
+      record_(static_cast<std::size_t>(options.remember * options.rate)) {
   for (Sent& sent : ring_) sent.unit = UnitForces::Zero(3, body.unit_forces().cols());
-  record_.reserve(expected_samples);
 }
 
-Packet Operator::move(const MotionLine& line) noexcept {
-  if (line.press != press_) body_.begin(line.point);
+Packet Operator::move(std::int64_t now, const MotionLine& line) noexcept {
+  if (line.press != press_) {
+    body_.begin(line.point);
+    press_began_ = sent_ + 1;
+    measured_.setZero();
+  }
   press_ = line.press;
-  const double dt = record_.empty() ? 0 : 1 / options_.rate;
+  const double dt = record_.size() == 0 ? 0 : 1 / options_.rate;
   if (predicts()) {
     const double let_in = 1 - std::exp(-dt / options_.blend);
     moduli_ += let_in * (estimate_.moduli - moduli_);
@@ -78,29 +138,39 @@ Packet Operator::move(const MotionLine& line) noexcept {
     body_.set_moduli(moduli_);
   }
   const Vec3 predicted = body_.press(line.t, line.u, line.in_air);
-  felt_ = share_ * predicted + (1 - share_) * measured_;
+  const Vec3 wanted =
+      left_ ? Vec3(Vec3::Zero()) : Vec3(share_ * predicted + (1 - share_) * measured_);
+  const Vec3 place = line.point + line.u;
+  if (record_.size() > 0) energy_ -= felt_.force.dot(place - place_);
+  place_ = place;
+  felt_ = heard_any_ ? safe_.pass(seconds(now), place, wanted, seconds(heard_))
+                     : safe_.miss(seconds(now));
   Packet packet;
   packet.kind = Packet::Kind::kMotion;
-  packet.sender = sender_;
   packet.number = ++sent_;
   packet.press = line.press;
   packet.in_air = line.in_air;
   packet.t = line.t;
   packet.first = line.point;
   packet.second = line.u;
+  packet.energy = energy_;
   Sent& sent = ring_[sent_ % kRing];
   sent.number = sent_;
   sent.unit = body_.unit_forces();
-  Sample sample;
+  FeltSample sample;
   sample.t = line.t;
   sample.depth = line.u.norm();
-  sample.felt = felt_;
+  sample.felt = felt_.force;
   sample.predicted = predicted;
   sample.in_air = line.in_air;
-  record_.push_back(sample);
-  const double now = static_cast<double>(record_.size()) / options_.rate;
-  if (now >= next_) identify();
+  record_.push(sample);
+  const double end = static_cast<double>(record_.size()) / options_.rate;
+  if (end >= next_) identify();
   return packet;
+}
+
+const SafeSample& Operator::miss(std::int64_t now) noexcept {
+  return felt_ = safe_.miss(seconds(now));
 }
 
 void Operator::identify() noexcept {
@@ -116,44 +186,42 @@ void Operator::identify() noexcept {
   estimate_ = found;
 }
 
-void Operator::receive(std::span<const unsigned char> bytes) noexcept {
-  Packet force;
-  const PacketFault fault = read_packet(bytes, force);
-  if (fault == PacketFault::kMalformed) {
-    ++counts_.malformed;
-    return;
-  }
-  if (fault == PacketFault::kForeign || force.kind != Packet::Kind::kForce || force.answers == 0 ||
-      force.answers > sent_) {
-    ++counts_.foreign;
-    return;
-  }
-  if (force.sender != peer_) {  // the teleoperator has come, or come back
-    peer_ = force.sender;
+void Operator::receive(std::int64_t now, const Received& received) noexcept {
+  const Packet& force = received.packet;
+  if (force.answers > sent_) return;  // of another operator's session before this one
+  heard_ = now;
+  heard_any_ = true;
+  energy_there_ = force.energy;
+  if (received.is_anew) {
     newest_ = 0;
-    ++counts_.peers;
+    left_ = false;
   }
-  Sample& sample = record_[force.answers - 1];
-  if (sample.answered) {
-    ++counts_.stale;
+  if ((force.flags & kSafeEnded) != 0) {
+    left_ = true;
+    measured_.setZero();
     return;
   }
-  ++counts_.taken;
-  sample.answered = true;
-  sample.actual = force.first;
-  const Sent& sent = ring_[force.answers % kRing];
-  if (sent.number == force.answers && !force.in_air) identification_.add(sent.unit, force.first);
-  if (force.number <= newest_) {  // overtaken: of use to the model, no longer to the hand
-    ++counts_.stale;
-    return;
+  const std::uint64_t index = force.answers - 1;
+  const bool whole = (force.flags & kSafeInvalid) == 0;
+  if (record_.has(index) && !record_[index].answered) {
+    FeltSample& sample = record_[index];
+    sample.answered = true;
+    sample.actual = force.first;
+    ++answered_;
+    // What was cut there says nothing of the body.
+    const Sent& sent = ring_[force.answers % kRing];
+    if (sent.number == force.answers && !force.in_air && force.flags == 0)
+      identification_.add(sent.unit, force.first);
   }
+  // Overtaken, or of another press: of use to the model, not to the hand.
+  if (force.number <= newest_ || force.answers < press_began_) return;
   newest_ = force.number;
-  measured_ = force.first;
+  if (whole) measured_ = force.first;
 }
 
-FeltQuality felt_quality(const std::vector<Operator::Sample>& record, std::size_t from,
-                         std::size_t to, double rate) {
+FeltQuality felt_quality(const FeltRecord& record, std::size_t from, std::size_t to, double rate) {
   FeltQuality q;
+  from = std::max(from, record.first());
   std::vector<double> depth, felt, actual;
   double squares = 0;
   // The body's force where no answer came: straight between those that did.
@@ -162,7 +230,7 @@ FeltQuality felt_quality(const std::vector<Operator::Sample>& record, std::size_
     if (record[i].answered) answered.push_back(i);
   std::size_t next = 0;
   for (std::size_t i = from; i < std::min(to, record.size()) && !answered.empty(); ++i) {
-    const Operator::Sample& s = record[i];
+    const FeltSample& s = record[i];
     while (next + 1 < answered.size() && answered[next] < i) ++next;
     const std::size_t after = answered[next], before = next > 0 ? answered[next - 1] : after;
     const double share = after > before && i < after

@@ -69,6 +69,19 @@ ended
 ((code == 4 || code == 143)) || complain "exit code $code after two signals"
 [[ -z $(find . -name '.hapsim-*') ]] || complain 'no temporary file is left'
 
+# Killed without a word, it goes on from what was saved beside the model.
+rm -f m.csv
+searching "${search[@]}" -o m.csv
+until_true 60 test -s m.csv.search || complain 'the search is not saved'
+kill -KILL "$searcher"
+ended
+[[ ! -e m.csv ]] || complain 'a model out of a killed search'
+saved=$(sed -n 's/^# search: \([0-9]*\) of 100000 starts, seed 3/\1/p' m.csv.search)
+((saved > 0)) || complain 'what was saved says how far it is'
+sed "s/^# search: .*/# search: 99990 of 100000 starts, seed 3/" m.csv.search >m.csv && mv m.csv m.csv.search
+expect 0 'viscoelastic tau2' data.csv "${common[@]}" --model m.csv.search --resume -o m.csv
+[[ -e m.csv && ! -e m.csv.search ]] || complain 'what was saved is of no use any more'
+
 # While the model is improved: a signal that comes once the diagnosis has begun. Rows enough that it
 # takes its time.
 awk -F, -v OFS=, '/^[#p]/ { print; next } { for (k = 0; k < 40; ++k) { $2 = $2 + 0.001; print } }' data.csv >long.csv

@@ -17,6 +17,7 @@
 #include "import/import.h"
 #include "io/csv.h"
 #include "io/stream.h"
+#include "link/ends.h"
 #include "link/packets.h"
 #include "mesh/surface.h"
 #include "model/model.h"
@@ -155,23 +156,51 @@ void sections(const std::string& bytes) {
   sections_scan(read_sections(read_csv(input), 1, 0.01));
 }
 
-// A datagram, also with the sum that it should end with: no fuzzer finds that. What is taken for a
-// packet must be the same when it is written.
+std::span<const unsigned char> raw(const std::string& bytes) {
+  return {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
+}
+
+// The text of a packet, as it is after its seal was opened. What is taken for one must be the same
+// when it is written.
 void packets(const std::string& bytes) {
-  PacketBytes summed{};
-  std::uint64_t sum = 14695981039346656037ULL;
-  for (std::size_t i = 0; i + 8 < kPacketBytes; ++i) {
-    summed[i] = i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0;
-    sum = (sum ^ summed[i]) * 1099511628211ULL;
-  }
-  for (std::size_t i = 0; i < 8; ++i)
-    summed[kPacketBytes - 8 + i] = static_cast<unsigned char>(sum >> (8 * i));
-  const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
   Packet packet;
-  read_packet({data, bytes.size()}, packet);
-  if (read_packet(summed, packet) != PacketFault::kNone)
-    fail_input(kName, "no packet", "send packets");
-  if (write_packet(packet) != summed) std::abort();
+  if (!read_packet(raw(bytes), packet)) fail_input(kName, "no packet", "send packets");
+  const PacketBytes back = write_packet(packet);
+  if (!std::equal(back.begin(), back.end(), raw(bytes).begin())) std::abort();
+}
+
+// A datagram to both ends of a link, as it comes and as one of somebody who has the key: with the
+// tag, or the seal, that it should have. No fuzzer finds that.
+void datagrams(const std::string& bytes) {
+  static const Secret key{1, 2, 3};
+  static const Terms terms;
+  OperatorEnd near(key, terms);
+  TeleoperatorEnd far(key, terms);
+  Datagram hello, out, tagged;
+  near.tick(1, hello);
+  bool taken = far.receive(1, {}, raw(bytes), out).reply;
+  near.receive(1, raw(bytes));
+  std::string content = bytes;
+  content.resize(kHandshakeBytes);
+  put_header(reinterpret_cast<unsigned char*>(content.data()), Message::kHello, 0);
+  tagged = Datagram(raw(content));
+  const Tag tag = tag_of(derive(key, 1), tagged.view().first(kHandshakeBytes - sizeof(Tag)));
+  std::copy(tag.begin(), tag.end(), tagged.bytes.begin() + kHandshakeBytes - sizeof(Tag));
+  taken = far.receive(10'000'000, {}, tagged.view(), out).reply || taken;
+  near.receive(2, out.view());
+  // A session, and what the peer seals in it.
+  const SessionKeys keys{key, key};
+  Session session(keys, Side::kTeleoperator);
+  std::string text = bytes;
+  text.resize(kPacketBytes);
+  put_header(out.bytes.data(), Message::kPacket, 1);
+  seal(key, 1, {out.bytes.data(), kHeaderBytes}, raw(text), out.bytes.data() + kHeaderBytes);
+  out.size = kSealedBytes;
+  Packet packet;
+  bool newest = false;
+  const Session::Result result = session.read(out.view(), packet, newest);
+  if (result != Session::Result::kTaken && result != Session::Result::kMalformed) std::abort();
+  if (!taken && result != Session::Result::kTaken) fail_input(kName, "nothing", "send datagrams");
 }
 
 void records(const std::string& bytes) {
@@ -196,7 +225,7 @@ const std::vector<Reader>& readers() {
                                        {"urdf", urdf},         {"off", off},
                                        {"volume", volume},     {"acfm", acfm},
                                        {"fusion", fusion},     {"sections", sections},
-                                       {"packets", packets}};
+                                       {"packets", packets},   {"datagrams", datagrams}};
   return all;
 }
 

@@ -72,7 +72,7 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
 
 // The best so far of a fit that a signal ended, marked.
 int write_unfinished(const Arguments& arguments, const FitRequest& plan, const Experiment& w,
-                     Fit result, const SearchState& search) {
+                     Fit result, const SearchState& search, const SavedSearch& saved) {
   SearchState state = search;
   state.done = result.starts_done;
   record_fit(result, plan.start.metadata, w);
@@ -80,6 +80,7 @@ int write_unfinished(const Arguments& arguments, const FitRequest& plan, const E
   Output output(arguments.output());
   write_model(output.stream(), result.model);
   output.commit();
+  saved.finish();
   fail_numerics(
       w.dataset.recording.name,
       fmt::format(
@@ -147,6 +148,8 @@ int run(const Arguments& arguments) {
   fit_options.keep = watch.keep();
   FitOptions final_options = fit_options;
   final_options.skip = search.done;
+  SavedSearch saved(arguments, search, plan.start.metadata);
+  final_options.after_start = [&](const Model& best, int done) { saved.keep(best, done); };
   if (arguments[flag::profile] && fit_options.robust != RobustLoss::kNone)
     fail_usage("--profile and --robust exclude each other",
                "a robust loss is no likelihood: use one of them");
@@ -174,7 +177,7 @@ int run(const Arguments& arguments) {
     if (arguments.given(flag::boundary) && result.converged)
       result = with_refined_boundaries(arguments, result, w, body, fit_options);
   }
-  if (result.stopped) return write_unfinished(arguments, plan, w, std::move(result), search);
+  if (result.stopped) return write_unfinished(arguments, plan, w, std::move(result), search, saved);
   if (!result.converged)
     fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.message,
                   "start from a simpler model, or fix a parameter");
@@ -214,6 +217,7 @@ int run(const Arguments& arguments) {
     library->store(model, [&] { output.commit(); });
   else
     output.commit();
+  saved.finish();
   if (arguments.given(flag::history))
     add_history(arguments[flag::history],
                 history_row(arguments.output(), result, held_out, w.noise.value, force_rms));

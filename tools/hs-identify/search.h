@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <atomic>
 #include <chrono>
@@ -33,7 +34,9 @@ inline std::vector<Option> search_flags() {
            .minimum = 1,
            .maximum = 100000},
           {.flag = flag::resume,
-           .help = "Goes on with the search of --starts in which --model was interrupted.",
+           .help = "Goes on with the search of --starts in which --model was interrupted. While a "
+                   "search runs it is saved as FILE.search beside the -o FILE, for the case that "
+                   "it is killed.",
            .group = "Fit"},
           {.flag = flag::seed,
            .value = "N",
@@ -109,6 +112,50 @@ class LastResort {
   double least_ = std::numeric_limits<double>::infinity();
   std::atomic<bool> ended_{false}, seen_{false};
   std::thread thread_;
+};
+
+// The search of several starts as it goes, beside the model that is to come: what ends the process
+// without asking (SIGKILL, a power cut) loses no more than the starts of a second. Gone on with by
+// --model FILE.search --resume.
+class SavedSearch {
+ public:
+  SavedSearch(const Arguments& arguments, const SearchState& search, const Metadata& metadata)
+      : search_(search), metadata_(metadata) {
+    const std::string& model = arguments.output();
+    struct stat info = {};
+    if (search.starts > 1 && model != "-" &&
+        (stat(model.c_str(), &info) != 0 || S_ISREG(info.st_mode)))
+      path_ = model + ".search";
+    // Gone on with from there: it is saved already.
+    saved_ = arguments.given(flag::model) && arguments[flag::model] == path_;
+  }
+  // For FitOptions::after_start.
+  void keep(Model best, int starts_done) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point now = Clock::now();
+    if (path_.empty() || (saved_ && now - last_ < std::chrono::seconds(1))) return;
+    best.metadata = metadata_;
+    unmark(best);
+    SearchState state = search_;
+    state.done = starts_done;
+    mark_unfinished(best, state);
+    Output output(path_);
+    write_model(output.stream(), best);
+    output.commit();
+    saved_ = true;
+    last_ = now;
+  }
+  // The model is written: what is saved is of no use any more.
+  void finish() const {
+    if (saved_) std::remove(path_.c_str());
+  }
+
+ private:
+  std::string path_;
+  SearchState search_;
+  Metadata metadata_;
+  bool saved_ = false;
+  std::chrono::steady_clock::time_point last_;
 };
 
 // Watches the fits until end(); before and after, a signal ends the process as it always does.

@@ -10,8 +10,11 @@ inline constexpr TextFlag listen{"--listen"}, peer{"--peer"};
 inline constexpr IntegerFlag samples{"--samples"}, seed{"--seed"};
 inline constexpr NumberFlag rate{"--rate"}, loss{"--loss"}, duplicate{"--duplicate"},
     reorder{"--reorder"};
-inline constexpr FileFlag identified{"--identified"};
-inline constexpr TimeFlag delay{"--delay"}, jitter{"--jitter"}, idle{"--idle"};
+inline constexpr FileFlag identified{"--identified"}, key{"--key"}, make_key{"--make-key"},
+    expect_model{"--expect-model"};
+inline constexpr SwitchFlag insecure{"--insecure"};
+inline constexpr TimeFlag delay{"--delay"}, jitter{"--jitter"}, idle{"--idle"},
+    patience{"--patience"};
 inline constexpr ForceFlag add_noise{"--add-noise"};
 }  // namespace flag
 

@@ -3,6 +3,7 @@
 
 #include "common_options.h"
 #include "hs-link/flags.h"
+#include "safety_options.h"
 #include "stream_options.h"
 
 namespace hapsim {
@@ -25,10 +26,19 @@ inline ToolSpec link_specification() {
       "that costs microseconds. Once --samples answers are there the identified body is felt, at "
       "once, without a jump; later answers go on improving it.",
       "A network as bad as wished is put before the real one on the sending side of each process: "
-      "--delay, --jitter, --loss, --duplicate, --reorder. Packets carry sender, number and time "
-      "and "
-      "a check; old, foreign and damaged ones are counted and dropped. A peer that dies and comes "
-      "back is served again.",
+      "--delay, --jitter, --loss, --duplicate, --reorder.",
+      "The link is closed. Both sides prove that they have the --key before anything that they say "
+      "counts (X25519, HMAC-SHA-512-256, BLAKE2b), and agree on version, units, tool and body; "
+      "every "
+      "packet is sealed (ChaCha20-Poly1305) and is taken once. Nothing else is answered. A side "
+      "that dies and comes back, or changes its address, is served again once it has proved "
+      "itself; another operator only when the first has been silent for half a second. Without a "
+      "key only this machine is spoken to, unless --insecure is given.",
+      "What the hand feels has limits of force, rate, power and workspace, and goes to zero within "
+      "--hold and --ramp when the teleoperator or the motion is silent; column safety says so in "
+      "every line, and ax, ay, az are what was asked for. So have the teleoperator's motions, "
+      "which take the tool back when the operator is lost. See hs-safety(7). Exit code 5 when the "
+      "teleoperator is gone at the end, 3 when it refuses.",
       "Every line of the operator goes out at once: on standard output nothing but the last one "
       "can be "
       "lost, however it ends. SIGINT or SIGTERM ends either side in its order: what was felt and "
@@ -45,8 +55,30 @@ inline ToolSpec link_specification() {
       {.flag = flag::body,
        .value = "FILE",
        .help = "Body: the one that is pressed, or the one that is identified.",
-       .group = "Both sides",
-       .required = true},
+       .group = "Both sides"},
+      {.flag = flag::key,
+       .value = "FILE",
+       .help = "The key of the link, the same on both sides: whoever has it, and nobody else, is "
+               "spoken to.",
+       .group = "Both sides"},
+      {.flag = flag::make_key,
+       .value = "FILE",
+       .help = "Makes a new key, and does nothing else. A file that is there is never overwritten.",
+       .group = "Both sides"},
+      {.flag = flag::insecure,
+       .help = "Without a key also over a network that others use: they can press, and be felt.",
+       .group = "Both sides"},
+      {.flag = flag::expect_model,
+       .value = "FILE",
+       .help = "Operator: refuses a teleoperator whose body has another model than this.",
+       .group = "Operator"},
+      {.flag = flag::patience,
+       .value = "S",
+       .help = "Operator: how long the teleoperator is waited for at the start [s].",
+       .group = "Operator",
+       .default_text = "5",
+       .minimum = 0.1,
+       .maximum = 1e6},
       {.flag = flag::model,
        .value = "FILE",
        .help = "Teleoperator: the body's model.",
@@ -66,10 +98,10 @@ inline ToolSpec link_specification() {
        .maximum = 1e9},
       {.flag = flag::rate,
        .value = "HZ",
-       .help = "Operator: motion lines a second.",
+       .help = "Operator: motion lines a second; 0: each as soon as it comes, of a live hand.",
        .group = "Operator",
        .default_text = "1000",
-       .minimum = 1,
+       .minimum = 0,
        .maximum = 20000},
       {.flag = flag::identified,
        .value = "FILE",
@@ -132,19 +164,26 @@ inline ToolSpec link_specification() {
        .minimum = 0,
        .maximum = 1e6}};
   for (const Option& option : online_flags("Operator")) spec.options.push_back(option);
+  for (const Option& option : safety_flags()) spec.options.push_back(option);
   spec.tables = {{"Output of the operator",
                   {{"press, t, x, y, z, ux, uy, uz", "the motion"},
                    {"fx, fy, fz", "what is felt [N]"},
                    {"contact", "1 in contact, 0 in the air"},
                    {"mx, my, mz", "the newest force that has come [N]"},
-                   {"predicted", "1 where the identified body is felt"}}}};
+                   {"predicted", "1 where the identified body is felt"},
+                   {"safety",
+                    "0, or a sum of: 1 force cut, 2 its change cut, 4 its power cut, 8 outside the "
+                    "workspace, 16 no valid sample, 32 held, 64 on the way to zero and there, 128 "
+                    "ended"},
+                   {"ax, ay, az", "the force that was asked for [N]"}}}};
   spec.examples = {
       {"hs-link --listen 9000 --body real.ply --model hidden.csv --tool-radius 0.004 --delay 0.15",
        "The far side, with half of the delay."},
       {"hs-link motion.csv --peer 9000 --body body.ply --delay 0.15 --jitter 0.05 --loss 0.05 -o "
        "felt.csv",
-       "The near side."}};
-  spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};
+       "The near side."},
+      {"hs-link --make-key lab.key", "A key for both, to be copied by a safe way."}};
+  spec.see_also = {"hs-simulate(1)", "hs-identify(1)", "hs-safety(7)"};
   return spec;
 }
 

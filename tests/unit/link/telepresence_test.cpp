@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "base/random.h"
 #include "effects/catalogue.h"
 #include "estimate/lag.h"
 #include "link/impaired_channel.h"
 #include "realtime/force_loop.h"
+#include "support/allocations.h"
 #include "support/block_mesh.h"
 
 namespace hapsim {
@@ -33,40 +36,82 @@ const PreparedBody& body(const Model& model) {
   return *kept.back();
 }
 
-MotionLine motion(int i) {
+MotionLine motion(int i, double peak = 0.003) {
   MotionLine line;
   line.t = 1e-3 * i;
   line.point = {0.04, 0.04, 0.04};
   const double s = std::sin(2.5 * line.t);
-  line.u = {5e-4 * std::sin(3 * line.t) * s, 0, -0.003 * s * s};
+  line.u = {5e-4 * std::sin(3 * line.t) * s, 0, -peak * s * s};
   return line;
 }
 
-// Both ends for `samples` ms; `meddle` may do something to the teleoperator at each.
+constexpr Secret kKey{1, 2, 3};
+constexpr std::int64_t kMs = 1'000'000;
+
+Terms terms() {
+  Terms t;
+  t.tool_radius = 0.004;
+  t.high = {0.08, 0.08, 0.04};
+  return t;
+}
+SafetyLimits wide() {
+  SafetyLimits limits;
+  limits.force = 100;
+  limits.rate = 1e5;
+  limits.power = 1e5;
+  limits.hold = 0.8;  // beyond what the network here takes
+  return limits;
+}
+
+// Both ends for `samples` ms, once they have shaken hands; `meddle` may do something at each.
 struct TwoEnds {
-  explicit TwoEnds(
-      const Impairment& bad, int samples,
-      const std::function<void(int, std::unique_ptr<Teleoperator>&, ToolLoop&)>& meddle = {}) {
+  explicit TwoEnds(const Impairment& bad, int samples,
+                   const std::function<void(int, TwoEnds&)>& meddle = {},
+                   const SafetyLimits& limits = wide(), double peak = 0.003) {
     OperatorOptions options;
     options.samples = 1500;
-    near = std::make_unique<Operator>(response, 17, options, static_cast<std::size_t>(samples));
-    far = std::make_unique<Teleoperator>(hidden, 99);
+    options.limits = limits;
+    near = std::make_unique<Operator>(response, options);
+    restart_far(limits);
     ImpairedChannel out(bad, 1), back(bad, 2);
-    PacketBytes bytes;
-    Packet answer;
-    for (int i = 0; i < samples + 600; ++i) {
-      const std::int64_t now = 1'000'000LL * i;
-      if (i < samples) out.push(now, write_packet(near->move(motion(i))));
-      while (out.pop(now, bytes))
-        if (far && far->receive(now, bytes, answer)) back.push(now, write_packet(answer));
-      while (back.pop(now, bytes)) near->receive(bytes);
-      if (meddle) meddle(i, far, hidden);
+    Datagram datagram, reply;
+    int moved = 0;
+    for (int i = 0; moved < samples + 600 && i < samples + 20000; ++i) {
+      const std::int64_t now = kMs * (i + 1000);
+      if (near_end.tick(now, datagram)) out.push(now, datagram);
+      if (near_end.is_linked() || moved > 0) {
+        if (moved < samples) {
+          const Packet packet = near->move(now, motion(moved, peak));
+          felt.push_back(near->felt());
+          if (near_end.write(packet, datagram)) out.push(now, datagram);
+        }
+        ++moved;
+      }
+      while (out.pop(now, datagram)) {
+        if (!far) continue;
+        const auto got = far_end->receive(now, {}, datagram.view(), reply);
+        if (got.reply) back.push(now, reply);
+        Packet answer;
+        if (got.received && far->press(now, *got.received, answer) && far_end->write(answer, reply))
+          back.push(now, reply);
+      }
+      if (far) far->idle(now);
+      while (back.pop(now, datagram))
+        if (const auto got = near_end.receive(now, datagram.view())) near->receive(now, *got);
+      if (meddle && moved > 0) meddle(moved, *this);
     }
+  }
+  void restart_far(const SafetyLimits& limits) {
+    far_end = std::make_unique<TeleoperatorEnd>(kKey, terms());
+    far = std::make_unique<Teleoperator>(hidden, limits, terms().low, terms().high);
   }
   ForceLoop hidden{body(model_of(2.2e4, 6e3))};
   UnitResponse response{body(model_of(1, 0)), {0.1}};
+  OperatorEnd near_end{kKey, terms()};
+  std::unique_ptr<TeleoperatorEnd> far_end;
   std::unique_ptr<Operator> near;
   std::unique_ptr<Teleoperator> far;
+  std::vector<SafeSample> felt;
 };
 
 TEST(Telepresence, FeelsLateForcesThenTheIdentifiedBodyAtOnce) {
@@ -82,7 +127,7 @@ TEST(Telepresence, FeelsLateForcesThenTheIdentifiedBodyAtOnce) {
   EXPECT_LT(after.rms, 0.01 * after.peak);
   EXPECT_NEAR(run.near->estimate().moduli[0], 2.2e4, 50);
   EXPECT_NEAR(run.near->estimate().moduli[1], 6e3, 50);
-  EXPECT_GT(run.far->counts().stale, 0);
+  EXPECT_GT(run.far_end->counts().stale, 0);
   // The change is let in without a jump: no step beyond those of the motion.
   double largest = 0, usual = 0;
   for (std::size_t i = at - 20; i < at + 300; ++i) {
@@ -95,115 +140,147 @@ TEST(Telepresence, FeelsLateForcesThenTheIdentifiedBodyAtOnce) {
 }
 
 TEST(Telepresence, APeerThatDiesAndReturnsIsServedAgain) {
-  const TwoEnds run({0.01, 0, 0, 0, 0}, 4000,
-                    [](int i, std::unique_ptr<Teleoperator>& far, ToolLoop& hidden) {
-                      if (i == 1000) far.reset();
-                      if (i == 1800) far = std::make_unique<Teleoperator>(hidden, 100);
-                    });
-  EXPECT_EQ(run.near->counts().peers, 2);
-  EXPECT_TRUE(run.near->predicts());
+  SafetyLimits limits = wide();
+  limits.hold = 0.1;
+  limits.ramp = 0.2;
+  const TwoEnds run(
+      {0.01, 0, 0, 0, 0}, 6000,
+      [&](int i, TwoEnds& ends) {
+        if (i == 1000) ends.far.reset();
+        if (i == 1800) ends.restart_far(limits);
+      },
+      limits);
+  EXPECT_EQ(run.near_end.counts().sessions, 2);
   EXPECT_TRUE(run.near->record()[900].answered);
   EXPECT_FALSE(run.near->record()[1500].answered);
-  EXPECT_TRUE(run.near->record()[2500].answered);
+  EXPECT_TRUE(run.near->record()[4500].answered);
+  // Without a peer there is no force after hold and ramp, and each sample says so.
+  EXPECT_NE(run.felt[1200].flags & kSafeRamped, 0);
+  for (std::size_t i = 1321; i < 1800; ++i) EXPECT_EQ(run.felt[i].force, Vec3(0, 0, 0)) << i;
+  EXPECT_GT(run.felt[5900].force.norm() + run.felt[5200].force.norm(), 0.1) << "it comes back";
+  EXPECT_EQ(run.near->losses(), 1);
 }
 
-TEST(Teleoperator, ServesOneOperatorUntilItIsSilent) {
-  ForceLoop hidden(body(model_of(2e4, 0)));
-  Teleoperator far(hidden, 1);
-  Packet motion_packet, answer;
-  motion_packet.sender = 5;
-  motion_packet.number = 1;
-  motion_packet.first = {0.04, 0.04, 0.04};
-  EXPECT_TRUE(far.receive(0, write_packet(motion_packet), answer));
-  EXPECT_FALSE(far.receive(0, write_packet(motion_packet), answer));  // again
-  motion_packet.sender = 6;
-  EXPECT_FALSE(far.receive(Teleoperator::kSilence / 2, write_packet(motion_packet), answer));
-  EXPECT_TRUE(far.receive(Teleoperator::kSilence, write_packet(motion_packet), answer));
-  EXPECT_EQ(far.counts().stale, 1);
-  EXPECT_EQ(far.counts().foreign, 1);
-  EXPECT_EQ(far.counts().peers, 2);
-}
-
-TEST(Packets, AreReadAsTheyAreWritten) {
-  Packet p;
-  p.kind = Packet::Kind::kForce;
-  p.sender = 0x1234567890ABCDEF;
-  p.number = 7;
-  p.press = -3;
-  p.in_air = true;
-  p.answers = 5;
-  p.t = 1.25;
-  p.first = {1, -2, 3};
-  p.second = {0.1, 0.2, -0.3};
-  Packet back;
-  ASSERT_EQ(read_packet(write_packet(p), back), PacketFault::kNone);
-  EXPECT_EQ(back.kind, p.kind);
-  EXPECT_EQ(back.sender, p.sender);
-  EXPECT_EQ(back.number, p.number);
-  EXPECT_EQ(back.press, p.press);
-  EXPECT_EQ(back.in_air, p.in_air);
-  EXPECT_EQ(back.answers, p.answers);
-  EXPECT_EQ(back.t, p.t);
-  EXPECT_EQ(back.first, p.first);
-  EXPECT_EQ(back.second, p.second);
-  p.first.x() = std::nan("");
-  EXPECT_EQ(read_packet(write_packet(p), back), PacketFault::kMalformed);
-}
-
-// A million damaged packets: bits turned, cut, prolonged, noise. None counts as one, and neither
-// end changes.
-TEST(Packets, AMillionDamagedOnesChangeNothing) {
-  ForceLoop hidden(body(model_of(2e4, 0)));
-  Teleoperator far(hidden, 1);
-  UnitResponse response(body(model_of(1, 0)), {});
-  Operator near(response, 17, {}, 10);
-  Packet answer;
-  const PacketBytes first = write_packet(near.move(motion(300)));
-  ASSERT_TRUE(far.receive(0, first, answer));
-  near.receive(write_packet(answer));
-  const Vec3 measured = near.measured();
-  Random random(11);
-  std::array<unsigned char, 128> bytes{};
-  long taken = 0;
-  for (int i = 0; i < 1'000'000; ++i) {
-    answer.number = static_cast<std::uint32_t>(i + 2);
-    const PacketBytes good = i % 2 == 0 ? first : write_packet(answer);
-    std::copy(good.begin(), good.end(), bytes.begin());
-    std::size_t size = good.size();
-    const auto kind = random.integer(4);
-    if (kind == 0) size = random.integer(bytes.size());
-    if (kind == 1)
-      for (std::size_t k = 4; k < size; ++k)
-        bytes[k] = static_cast<unsigned char>(random.integer(256));
-    if (size == good.size())
-      for (std::uint64_t k = 0; k <= random.integer(6); ++k)
-        bytes[random.integer(size)] ^= static_cast<unsigned char>(1U << random.integer(8));
-    if (size == good.size() && std::equal(good.begin(), good.end(), bytes.begin())) continue;
-    Packet ignored;
-    taken += far.receive(0, {bytes.data(), size}, ignored) ? 1 : 0;
-    near.receive({bytes.data(), size});
+TEST(Telepresence, WhatTheHandFeelsStaysWithinItsLimits) {
+  SafetyLimits limits;
+  limits.force = 2;
+  limits.rate = 40;
+  const TwoEnds run({0.05, 0.02, 0.2, 0.02, 0.02}, 6000, {}, limits, 0.012);
+  Vec3 before = Vec3::Zero();
+  double most = 0, asked = 0;
+  for (const SafeSample& s : run.felt) {
+    most = std::max(most, s.force.norm());
+    asked = std::max(asked, s.unlimited.norm());
+    EXPECT_LE((s.force - before).norm(), 40e-3 * (1 + 1e-9));
+    before = s.force;
   }
-  EXPECT_EQ(taken, 0);
-  EXPECT_EQ(far.counts().taken, 1);
-  EXPECT_EQ(near.counts().taken, 1);
-  EXPECT_EQ(near.measured(), measured);
-  EXPECT_GT(far.counts().malformed, 100'000);
-  EXPECT_GT(far.counts().foreign, 100'000);
+  EXPECT_LE(most, 2);
+  EXPECT_GT(most, 1.9);
+  EXPECT_GE(asked, most);
+}
+
+TEST(Teleoperator, MakesNoImpossibleMotionAndTakesTheToolBack) {
+  ForceLoop hidden(body(model_of(2e4, 6e3)));
+  Teleoperator far(hidden, {}, terms().low, terms().high);
+  Received got;
+  got.is_newest = got.is_anew = true;
+  got.packet.first = {0.04, 0.04, 0.04};
+  Packet answer;
+  const auto send = [&](std::int64_t now, double u) {
+    ++got.packet.number;
+    got.packet.t = 1e-9 * static_cast<double>(now);
+    got.packet.second = {0, 0, u};
+    const bool taken = far.press(now, got, answer);
+    got.is_anew = false;
+    return taken;
+  };
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(send(kMs * i, -2e-5 * i));
+  const double pressed = answer.first.z();
+  EXPECT_GT(pressed, 0.5);
+  // Through the body, by nearly ten metres: not made.
+  ASSERT_TRUE(send(kMs * 100, -9.9));
+  EXPECT_EQ(answer.first.z(), pressed) << "held";
+  EXPECT_NE(answer.flags & kSafeInvalid, 0);
+  EXPECT_EQ(far.impossible(), 1);
+  // A leap within the body is made at 1 m/s.
+  ASSERT_TRUE(send(kMs * 101, -0.03));
+  EXPECT_NEAR(far.displacement().z(), -2e-5 * 99 - 2e-3, 1e-6);
+  EXPECT_NE(answer.flags & kSafeRate, 0);
+  --got.packet.number;
+  --got.packet.number;
+  EXPECT_FALSE(send(kMs * 102, -1e-3)) << "an old number is not pressed again";
+  // The operator is gone: held for 0.1 s, back within 0.2 s.
+  const double held = far.displacement().z();
+  for (int ms = 102; ms < 200; ms += 2) far.idle(kMs * ms);
+  EXPECT_EQ(far.displacement().z(), held);
+  for (int ms = 202; ms < 290; ms += 2) far.idle(kMs * ms);
+  EXPECT_LT(far.displacement().z(), 0);
+  EXPECT_GT(far.displacement().z(), held);
+  for (int ms = 290; ms < 410; ms += 2) far.idle(kMs * ms);
+  EXPECT_EQ(far.displacement(), Vec3(0, 0, 0));
+  EXPECT_EQ(far.losses(), 1);
+}
+
+TEST(Operator, FeelsNoAnswerOfAnotherPress) {
+  UnitResponse response(body(model_of(1, 0)), {});
+  Operator near(response, {});
+  Received force;
+  force.is_newest = true;
+  force.packet.kind = Packet::Kind::kForce;
+  const auto answer = [&](std::uint64_t motion, double f) {
+    ++force.packet.number;
+    force.packet.answers = motion;
+    force.packet.first = {0, 0, f};
+    near.receive(kMs, force);
+  };
+  for (int i = 0; i < 20; ++i) near.move(kMs * i, motion(i));
+  answer(10, 0.5);
+  EXPECT_EQ(near.measured().z(), 0.5);
+  MotionLine other = motion(21);
+  other.press = 2;
+  near.move(kMs * 21, other);
+  EXPECT_EQ(near.measured().z(), 0) << "a new press begins without force";
+  answer(15, 0.9);
+  EXPECT_EQ(near.measured().z(), 0) << "of the press before";
+  answer(21, 0.2);
+  EXPECT_EQ(near.measured().z(), 0.2);
+}
+
+TEST(Operator, TakesNoMemoryHoweverLongItRuns) {
+  UnitResponse response(body(model_of(1, 0)), {});
+  OperatorOptions options;
+  options.remember = 2;
+  Operator near(response, options);
+  Received force;
+  force.is_newest = true;
+  force.packet.kind = Packet::Kind::kForce;
+  long taken = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    if (i == 100) taken = test::allocations;
+    const Packet sent = near.move(kMs * i, motion(i % 5000));
+    ++force.packet.number;
+    force.packet.answers = sent.number;
+    near.receive(kMs * i, force);
+  }
+  EXPECT_EQ(test::allocations - taken, 0);
+  EXPECT_EQ(near.record().size(), 20'000u);
+  EXPECT_EQ(near.record().first(), 18'000u);
 }
 
 TEST(ImpairedChannel, DelaysLosesDoublesAndReordersAsAsked) {
   ImpairedChannel channel({0.1, 0.02, 0.1, 0.05, 0.2}, 3);
-  PacketBytes bytes{};
+  Datagram bytes;
+  bytes.size = sizeof(int);
   long got = 0, early = 0, overtaken = 0;
   int newest = -1;
   for (int i = 0; i < 50'000; ++i) {
     const std::int64_t now = 1'000'000LL * i;
-    std::copy_n(reinterpret_cast<const unsigned char*>(&i), sizeof i, bytes.begin());
+    std::copy_n(reinterpret_cast<const unsigned char*>(&i), sizeof i, bytes.bytes.begin());
     channel.push(now, bytes);
-    PacketBytes out;
+    Datagram out;
     while (channel.pop(now, out)) {
       int number = 0;
-      std::copy_n(out.begin(), sizeof number, reinterpret_cast<unsigned char*>(&number));
+      std::copy_n(out.bytes.begin(), sizeof number, reinterpret_cast<unsigned char*>(&number));
       ++got;
       early += now - 1'000'000LL * number < 100'000'000 ? 1 : 0;
       overtaken += number < newest ? 1 : 0;
