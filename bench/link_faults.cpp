@@ -84,10 +84,10 @@ struct World {
     far = std::make_unique<Teleoperator>(hidden, SafetyLimits(), terms().low, terms().high);
   }
   void to_far(const Datagram& d, std::uint16_t from = 1) {
-    UdpAddress address;
-    address.port = from;
+    UdpAddress sender;
+    sender.port = from;
     Datagram reply;
-    const auto got = far_end->receive(now, address, d.view(), reply);
+    const auto got = far_end->receive(now, sender, d.view(), reply);
     if (got.reply) send_back(reply);
     Packet answer;
     if (!got.received || !far->press(now, *got.received, answer)) return;
