@@ -31,8 +31,7 @@ inline Fingerprint fingerprint_of(const Model& model) {
   std::ostringstream text;
   write_model(text, plain);
   const std::string bytes = text.str();
-  return fingerprint_of(
-      Bytes(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+  return fingerprint_of(Bytes(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
 }
 
 inline Terms link_terms(const TetMesh& body, double tool_radius) {
