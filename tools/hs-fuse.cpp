@@ -7,6 +7,7 @@
 #include "common_options.h"
 #include "fusion/fused_loop.h"
 #include "fusion/fusion_words.h"
+#include "hand.h"
 #include "io/csv.h"
 #include "model/model_edit.h"
 #include "realtime/live_session.h"
@@ -54,7 +55,11 @@ ToolSpec specification() {
       "With --live SIGINT or SIGTERM ends the motion; what was answered until then, or before a "
       "bad row, is written. Its forces are for a hand: they have no effects of a force sensor. "
       "Column beyond: 1 deeper than half of the way through the body, 2 the tool is held at nine "
-      "tenths of it, 3 both."};
+      "tenths of it, 3 both.",
+      "With --hand the forces go through the last layer before a hand: within the limits they are "
+      "what they were; where no motion comes for --hold, lines go out of their own until the force "
+      "is zero, and an end after that has exit code 5. The last line is zero, whatever ends the "
+      "motion."};
   spec.options = {
       {.flag = flag::slow,
        .value = "FILE",
@@ -126,6 +131,7 @@ ToolSpec specification() {
                    {"noise_rise", "its growth with the rate [N s/m]"},
                    {"force_scale", "force at which the stiffening is one of the force [N]"},
                    {"blend", "time over which a correction is let in [s]"}}}};
+  for (const Option& option : hand_flags()) spec.options.push_back(option);
   spec.examples = {
       {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --learn filter.csv -o fused.csv",
        "Learns the filter and fuses."},
@@ -166,6 +172,7 @@ int run_live_fusion(const Arguments& arguments) {
   for (const AnyFlag& flag : AnyFlags{flag::slow, flag::learn, flag::exact, flag::delay})
     if (arguments.given(flag))
       fail_usage(flag + " is of whole recordings", "leave it out, or --live");
+  const std::optional<SafetyLimits> hand = hand_limits(arguments);
   Input model_input(arguments[flag::model]), acfm_input(arguments[flag::acfm]);
   const Model model = read_model(model_input);
   const Acfm acfm = read_acfm(acfm_input);
@@ -187,18 +194,26 @@ int run_live_fusion(const Arguments& arguments) {
   Metadata metadata = motion.metadata();
   metadata.set("simulated", "acfm, fused with " + effects_label(model));
   Output output(arguments.output());
-  CsvWriter(output.stream(), metadata, motion.force_columns());
+  CsvWriter(output.stream(), metadata,
+            hand ? hand_columns(motion.force_columns()) : motion.force_columns());
   output.stream().flush();
   LiveReport report;
+  HandReport felt;
   say(arguments, "hs-fuse", enter_real_time());  // this thread alone; the solver has begun before
   answer_stream(
-      arguments, "hs-fuse", input, [&] { run_live(motion, output.stream(), loop, live, report); },
+      arguments, "hs-fuse", input,
+      [&] {
+        answer_hand(motion, input, hand, output.stream(), felt, [&](MotionSource& source) {
+          run_live(source, output.stream(), loop, live, report);
+        });
+      },
       [&] {
         leave_real_time();
         loop.stop();
         output.commit();
         say(arguments, "hs-fuse",
             report.latency.summary() + fmt::format("; {} later than a period", report.misses));
+        tell_hand(arguments, "hs-fuse", felt);
         if (const std::string deep = report.depth_summary(); !deep.empty())
           say(arguments, "hs-fuse", deep);
         say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
@@ -207,15 +222,17 @@ int run_live_fusion(const Arguments& arguments) {
   if (!loop.failure().empty())
     fail_numerics("", "the finite elements stopped: " + loop.failure(),
                   "the rest is the analytical model's alone");
+  require_motion(input, felt);
   return 0;
 }
 
 int run(const Arguments& arguments) {
   if (arguments[flag::live]) return run_live_fusion(arguments);
   for (const AnyFlag& flag :
-       AnyFlags{flag::body, flag::model, flag::acfm, flag::tool_radius, flag::rate})
+       AnyFlags{flag::body, flag::model, flag::acfm, flag::tool_radius, flag::rate, flag::hand})
     if (arguments.given(flag))
       fail_usage(flag + " is of the live mode", "add --live, or leave it out");
+  hand_limits(arguments);
   if (!arguments.given(flag::slow))
     fail_usage("--slow is required", "give the slow forces, or --live");
   if (arguments.given(flag::learn) && arguments.given(flag::parameters))

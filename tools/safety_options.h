@@ -73,7 +73,8 @@ inline std::vector<Option> safety_flags() {
        .group = "Safety"}};
 }
 
-inline SafetyLimits safety_limits(const Arguments& arguments) {
+// `from_afar`: the tool has --max-speed.
+inline SafetyLimits safety_limits(const Arguments& arguments, bool from_afar = true) {
   SafetyLimits limits;
   if (arguments.given(flag::device)) {
     Input input(arguments[flag::device]);
@@ -85,7 +86,7 @@ inline SafetyLimits safety_limits(const Arguments& arguments) {
   take(flag::max_force, limits.force);
   take(flag::max_rate, limits.rate);
   take(flag::max_power, limits.power);
-  take(flag::max_speed, limits.speed);
+  if (from_afar) take(flag::max_speed, limits.speed);
   take(flag::hold, limits.hold);
   take(flag::ramp, limits.ramp);
   if (arguments.given(flag::workspace)) {

@@ -8,7 +8,7 @@
 #include "hs-link/closed.h"
 #include "hs-link/teleoperator.h"
 #include "io/csv.h"
-#include "link/motion_feed.h"
+#include "realtime/motion_feed.h"
 #include "realtime/latency.h"
 #include "realtime/motion_lines.h"
 #include "safety/safety_words.h"

@@ -184,9 +184,11 @@ int run(const Arguments& arguments) {
     if (acfm) return run_live_acfm(arguments, *acfm);
     return run_live_mode(arguments, model);
   }
-  for (const AnyFlag& flag : AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools})
+  for (const AnyFlag& flag :
+       AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools, flag::hand})
     if (arguments.given(flag))
       fail_usage(flag + " is of the live mode", "add --live, or leave it out");
+  hand_limits(arguments);
   if (acfm) return run_acfm(arguments, *acfm);
   if (arguments[flag::full]) return run_full_mode(arguments, model);
   if (arguments[flag::own_mesh]) return run_own_mesh(arguments, model);

@@ -9,6 +9,7 @@
 #include "acfm/acfm_loop.h"
 #include "base/error.h"
 #include "common_options.h"
+#include "hand.h"
 #include "hs-simulate/flags.h"
 #include "model/model_edit.h"
 #include "realtime/force_loop.h"
@@ -39,7 +40,11 @@ struct LiveInput {
   explicit LiveInput(const Arguments& arguments) : input(arguments.input()) {
     if (arguments.given(flag::add_noise))
       fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
+    hand = hand_limits(arguments);
     binary = arguments.given(flag::binary);
+    if (binary && hand)
+      fail_usage("--hand says in columns why it cuts a force, and records have none",
+                 "leave out --binary, or let the device's program limit the force");
     if (binary && arguments.given(flag::tools))
       fail_usage("--tools is of lines", "records say themselves of how many tools they are");
     if (binary) {
@@ -56,6 +61,9 @@ struct LiveInput {
     }
     CsvReader csv(input);
     if (ToolLines::serves(csv.header())) {
+      if (hand)
+        fail_input(input.name(), "it is of several tools, or of one that turns",
+                   "--hand knows one tool that does not turn; leave out tool_id, thx, thy and thz");
       const std::size_t tools =
           arguments.given(flag::tools) ? static_cast<std::size_t>(arguments[flag::tools]) : 0;
       auto lines = std::make_unique<ToolLines>(std::move(csv), input.name(), tools);
@@ -69,7 +77,7 @@ struct LiveInput {
                  "say of each line which tool it is of");
     auto lines = std::make_unique<MotionLines>(std::move(csv), input.name(), false);
     metadata = lines->metadata();
-    columns = lines->force_columns();
+    columns = hand ? hand_columns(lines->force_columns()) : lines->force_columns();
     source = std::move(lines);
   }
   bool has_contact_point() const {
@@ -93,6 +101,8 @@ struct LiveInput {
   Metadata metadata;                 // binary motion has none
   std::vector<std::string> columns;  // of the answers; records have none
   std::string header;                // of the answers: extended records have one
+  std::optional<SafetyLimits> hand;  // that the forces are for
+  HandReport felt;
 };
 
 // Answers everything until the motion ends: `run` reads, answers and writes.
@@ -121,18 +131,21 @@ int answer_by(const Arguments& arguments, LiveInput& in, const std::string& labe
           text +=
               fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
         say(arguments, "hs-simulate", text);
+        tell_hand(arguments, "hs-simulate", in.felt);
         if (const std::string deep = report.depth_summary(); !deep.empty())
           say(arguments, "hs-simulate", deep);
       });
+  require_motion(in.input, in.felt);
   return 0;
 }
 
 inline int answer(const Arguments& arguments, LiveInput& in, const std::string& label,
                   ToolLoop& loop) {
-  return answer_by(arguments, in, label,
-                   [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
-                     run_live(*in.source, out, loop, live, report);
-                   });
+  return answer_by(
+      arguments, in, label, [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
+        answer_hand(*in.source, in.input, in.hand, out, in.felt,
+                    [&](MotionSource& motion) { run_live(motion, out, loop, live, report); });
+      });
 }
 
 // Several tools, or one that turns.

@@ -29,6 +29,10 @@ inline ToolSpec simulate_specification() {
       "the body (layer, inclusion, base, shift, anisotropic) need --contacts. Every touch of a tip "
       "is a press of its own; lines before the first one are of press 0. SIGINT or SIGTERM ends "
       "the motion; what was answered until then, or before a bad row, is written.",
+      "With --hand the forces go through the last layer before a hand: within the limits they are "
+      "what they were; where no motion comes for --hold, lines go out of their own until the force "
+      "is zero, and an end after that has exit code 5. The last line is zero, whatever ends the "
+      "motion.",
       "Forces deeper than half of the way through the body, or than the model was fitted to (its "
       "metadata depth), are said to be so; presses through the body are an error. Live there is a "
       "column beyond: 1 for such a depth; 2 where the tool is held at nine tenths of the way, ux, "
@@ -163,6 +167,7 @@ inline ToolSpec simulate_specification() {
                           .group = "Live",
                           .minimum = 1,
                           .maximum = 4});
+  for (const Option& option : hand_flags()) spec.options.push_back(option);
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",

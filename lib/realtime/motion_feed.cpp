@@ -1,4 +1,4 @@
-#include "link/motion_feed.h"
+#include "realtime/motion_feed.h"
 
 #include <pthread.h>
 #include <signal.h>
