@@ -39,6 +39,12 @@ cat motion.csv | "$bin/hs-fuse" --live - --body body.ply --model model.csv --acf
 [[ $(grep -c '^[0-9]' live.csv) == 802 ]] || complain 'not every line was answered'
 grep -q '^hs-fuse: finite elements: [0-9]* samples' err && grep -q 'slow forces taken' err ||
   complain 'what the finite elements did is not told'
+# For a hand: no force above its limit, zero at the end.
+"$bin/hs-fuse" --live motion.csv --hand --max-force 0.1 --rate 1000 --body body.ply --model model.csv --acfm acfm.csv \
+  >hand.csv 2>err || complain 'no forces for a hand'
+awk -F, '/^[0-9]/ { if (sqrt($9 * $9 + $10 * $10 + $11 * $11) > 0.1) bad = 1; if (int($14) % 2 == 1) ++cut; ++n; f = $11 }
+  END { exit bad || !cut || n != 803 || f != 0 }' hand.csv || complain 'a hand may feel more than its limit'
+grep -q '^hs-fuse: safety: force cut in' err || complain 'that forces were cut is not said'
 "$bin/hs-simulate" motion.csv --model acfm.csv -q -o alone.csv 2>err
 distance() { # FILE: of its forces to the finite elements'
   paste -d, <(grep '^[0-9]' truth.csv | cut -d, -f9-11) <(grep '^[0-9]' "$1" | cut -d, -f9-11) |
