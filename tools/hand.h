@@ -58,7 +58,9 @@ class HandSource : public MotionSource {
   // `input`, of the motion, ends on signals.
   HandSource(MotionSource& motion, const Input& input, const SafetyLimits& limits,
              std::ostream& out)
-      : motion_(motion), input_(input), out_(out), safe_(limits), feed_(motion, input) {}
+      : motion_(motion), input_(input), out_(out), safe_(limits), feed_(motion, input) {
+    wait(20);  // so that the first lines of a file are not late while the feed begins
+  }
 
   bool has_contact_point() const override { return motion_.has_contact_point(); }
   bool next(MotionLine& line) override {
@@ -71,8 +73,7 @@ class HandSource : public MotionSource {
       }
       if (ended) return false;
       rest();
-      pollfd waited{feed_.event(), POLLIN, 0};
-      poll(&waited, 1, 1);
+      wait(1);
     }
     return false;
   }
@@ -90,6 +91,10 @@ class HandSource : public MotionSource {
   const SafetyCounts& counts() const { return counts_; }
 
  private:
+  void wait(int ms) const {  // for a line
+    pollfd waited{feed_.event(), POLLIN, 0};
+    poll(&waited, 1, ms);
+  }
   static double now() { return 1e-9 * static_cast<double>(monotonic_ns()); }
   void rest() {
     if (moved_ > 0 && now() - moved_ > safe_.limits().hold && felt_ != Vec3::Zero())
