@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <string>
 
 #include "base/error.h"
@@ -11,6 +12,8 @@
 
 namespace hapsim {
 namespace {
+
+constexpr std::size_t kMostLeftOut = 24;  // contacts, spread over all of them
 
 // The corners' mesh: the field puts the tool's own neighbourhood in, which is where second order
 // counts. Middles become nodes that no tetrahedron uses, which are held.
@@ -47,10 +50,32 @@ class FieldMaker {
       compliance_.factorise(constants, options_.threads);
       condensed_ = apart;
     }
-    const FieldMaterial about{material.nu, modulus_at, apart};
+    about_ = {material.nu, modulus_at, apart};
     if (options_.contacts) known_ = options_.contacts(material);
-    return std::make_unique<StiffnessField>(mesh_, compliance_, about, options_.tool_radius, known_,
-                                            like);
+    return std::make_unique<StiffnessField>(mesh_, compliance_, about_, options_.tool_radius,
+                                            known_, like);
+  }
+  // Of the last field's known contacts, each from those that lie farther off than the tool's
+  // radius.
+  LeftOut left_out() const {
+    LeftOut result;
+    const std::size_t every = (known_.size() + kMostLeftOut - 1) / kMostLeftOut;
+    double squares = 0;
+    for (std::size_t k = 0; k < known_.size(); k += every) {
+      std::vector<KnownStiffness> others;
+      for (const KnownStiffness& o : known_)
+        if ((o.point - known_[k].point).norm() > options_.tool_radius) others.push_back(o);
+      if (others.empty()) continue;
+      const StiffnessField field(mesh_, compliance_, about_, options_.tool_radius, others);
+      const SurfacePoint place = nearest_point(field.surface(), known_[k].point);
+      const double error =
+          (field.at(place.face, place.point) - known_[k].K).norm() / known_[k].K.norm();
+      squares += error * error;
+      result.worst = std::max(result.worst, error);
+      ++result.contacts;
+    }
+    if (result.contacts > 0) result.rms = std::sqrt(squares / static_cast<double>(result.contacts));
+    return result;
   }
   const std::vector<KnownStiffness>& known() const { return known_; }  // of the last field
   std::size_t unknowns() const { return static_cast<std::size_t>(compliance_.matrix().rows()); }
@@ -59,6 +84,7 @@ class FieldMaker {
   const TetMesh& mesh_;
   const PreparedBodyOptions& options_;
   SurfaceCompliance compliance_;
+  FieldMaterial about_;
   std::vector<KnownStiffness> known_;
   bool condensed_ = false;  // of unit modulus: serves any
 };
@@ -83,6 +109,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
   FieldMaker maker(mesh, options);
   field_ = maker.field(material);
   surface_unknowns_ = maker.unknowns();
+  left_out_ = maker.left_out();
   facts_ = std::make_unique<PlaceFacts>(*field_, material, maker.known());
   terms_ = relaxation.common;
   if (!relaxation.regional.empty())

@@ -23,9 +23,17 @@ struct PreparedBodyOptions {
   bool heals = false;  // the body recovers between presses (metadata `recovery: full`)
 };
 
+// How far the stiffness is off at known contacts that were left out, from those that were not:
+// |K - K_known| / |K_known| in the norm of Frobenius.
+struct LeftOut {
+  std::size_t contacts = 0;  // that were; 0: there are not two, and nothing is known
+  double rms = 0, worst = 0;
+};
+
 // Reads nothing, and holds all that a loop reads: never changed after, so any number of loops and
 // threads may share one. Cost: one factorisation and condensation of the body's mesh (its corners,
-// of first order); some thirty where regions relax each in its own way.
+// of first order); some thirty where regions relax each in its own way. Up to 24 known contacts
+// are left out in turn, for which the field alone is made again.
 class PreparedBody {
  public:
   // Error(kBadInput): more than kMostTerms regional Maxwell elements; features of the body, or a
@@ -50,6 +58,7 @@ class PreparedBody {
   // relative to it.
   double misfit() const { return misfit_; }
   std::size_t surface_unknowns() const { return surface_unknowns_; }
+  const LeftOut& left_out() const { return left_out_; }
 
   static constexpr int kMostTerms = 32;
 
@@ -66,6 +75,7 @@ class PreparedBody {
   std::vector<Eigen::Matrix3d> maxwell_;  // [vertex * terms + term]
   double misfit_ = 0;
   std::size_t surface_unknowns_ = 0;
+  LeftOut left_out_;
   std::unique_ptr<StiffnessField> field_;
   std::unique_ptr<SignedDistance> distance_;
 };

@@ -169,6 +169,17 @@ inline int answer_several(const Arguments& arguments, LiveInput& in, const TetMe
                    });
 }
 
+// How far forces are off between the contacts that were solved finely.
+inline std::string between_contacts(const LeftOut& left_out) {
+  if (left_out.contacts == 0)
+    return "off contacts that are solved finely the stiffness is that of the body's own mesh, and "
+           "how far it is off is not known; several --contacts tell";
+  return fmt::format(
+      "off the contacts forces are {:.1f} % off, {:.1f} % at the worst of {} that "
+      "were left out in turn",
+      100 * left_out.rms, 100 * left_out.worst, left_out.contacts);
+}
+
 inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   LiveInput in(arguments);
@@ -189,6 +200,9 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
       fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
                   body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
                   fine ? fine->dataset.positions.size() : 0));
+  say(arguments, "hs-simulate", between_contacts(body.left_out()));
+  if (body.left_out().contacts > 0)
+    in.metadata.set("off_contacts", format_number(body.left_out().rms));
   if (body.is_regional())
     say(arguments, "hs-simulate",
         fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "

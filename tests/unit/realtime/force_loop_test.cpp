@@ -212,6 +212,29 @@ TEST(ForceLoop, SurvivesBadSamples) {
   EXPECT_GT(f.z(), 0);
 }
 
+// A truth that is the body's own field times one number is foretold from any contact; one that is
+// twice as stiff at one place is not.
+TEST(PreparedBody, SaysHowFarItIsOffAtContactsThatAreLeftOut) {
+  const Model model = viscoelastic_model(0);
+  const PreparedBody plain(body_mesh(), model, tool());
+  EXPECT_EQ(plain.left_out().contacts, 0u);
+  std::vector<KnownStiffness> known;
+  for (const double x : {0.02, 0.03, 0.04, 0.05, 0.06}) {
+    const SurfaceSide side = plain.distance().at({x, 0.04, 0.04});
+    known.push_back({side.point, side.normal, 1.3 * plain.field().at(side.face, side.point)});
+  }
+  PreparedBodyOptions options = tool();
+  options.contacts = [&](const MaterialSpec&) { return known; };
+  const LeftOut same = PreparedBody(body_mesh(), model, options).left_out();
+  EXPECT_EQ(same.contacts, 5u);
+  EXPECT_LT(same.worst, 0.1);
+  known[2].K *= 2;
+  const LeftOut other = PreparedBody(body_mesh(), model, options).left_out();
+  EXPECT_GT(other.worst, 0.4);
+  EXPECT_GT(other.rms, 2 * same.rms);
+  EXPECT_LE(other.rms, other.worst);
+}
+
 TEST(PreparedBody, RefusesFeaturesThatItsOwnMeshDoesNotShow) {
   for (const Effect* effect : catalogue()) {
     if (!effect->card().solved) continue;
