@@ -64,13 +64,25 @@ double Dataset::floor_at(std::size_t position, double floor) const {
   return doubt.empty() ? floor : std::hypot(floor, doubt[position]);
 }
 
+double session_start(const Recording& recording) {
+  return recording.t.empty() ? 0 : *std::min_element(recording.t.begin(), recording.t.end());
+}
+
+void add_sample(PressView& press, const Recording& recording, std::size_t row, double press_start,
+                double session_start) {
+  press.u.push_back(recording.u[row]);
+  press.in_air.push_back(recording.in_air(row) ? 1 : 0);
+  if (!recording.temp.empty()) press.temperature.push_back(recording.temp[row]);
+  if (recording.t.empty()) return;
+  press.t.push_back(recording.t[row] - press_start);
+  press.session.push_back(recording.t[row] - session_start);
+}
+
 Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row) {
   Dataset dataset;
   const Setup only{0, setup_of_row.empty() ? recording.tool_radius() : 0};
   const bool relaxed = recording.metadata.find("recovery").value_or("") != "none";
-  double session_start = 0;
-  if (!recording.t.empty())
-    session_start = *std::min_element(recording.t.begin(), recording.t.end());
+  const double began = session_start(recording);
   for (const Press& press : recording.presses()) {
     const Vec3& point = recording.position[press.rows.front()];
     for (const int row : press.rows)
@@ -100,12 +112,7 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
         recording.t.empty() ? 0 : recording.t[goes_on ? episode.rows.front() : press.rows.front()];
     for (const int row : press.rows) {
       episode.rows.push_back(row);
-      episode.view.u.push_back(recording.u[row]);
-      episode.view.in_air.push_back(recording.in_air(row) ? 1 : 0);
-      if (!recording.temp.empty()) episode.view.temperature.push_back(recording.temp[row]);
-      if (recording.t.empty()) continue;
-      episode.view.t.push_back(recording.t[row] - start);
-      episode.view.session.push_back(recording.t[row] - session_start);
+      add_sample(episode.view, recording, static_cast<std::size_t>(row), start, began);
     }
   }
   for (Episode& e : dataset.episodes)

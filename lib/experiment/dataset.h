@@ -45,6 +45,12 @@ struct Dataset {
 // recording; empty: all rows of one body, with the recording's tool. Error(kBadInput) when a press
 // moves its contact point by more than that.
 Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row = {});
+// The earliest time of a recording [s]; 0 without times.
+double session_start(const Recording& recording);
+// What effects may know of a row, at the end of the press that it is of; the one place where a
+// column of a recording comes to effects. Times are counted from `press_start` and `session_start`.
+void add_sample(PressView& press, const Recording& recording, std::size_t row, double press_start,
+                double session_start);
 // With normals by position, and what follows from them: each press's direction and the deepest
 // press before it at its place (none with `recovery: full`).
 Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals);

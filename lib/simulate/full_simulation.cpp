@@ -11,6 +11,7 @@
 #include "contact/feature_zone.h"
 #include "contact/support_springs.h"
 #include "effects/effect.h"
+#include "experiment/dataset.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
 #include "io/number.h"
@@ -205,16 +206,10 @@ class Simulation {
   // The press of one tool as effects see it.
   PressView view_of(const ToolSteps& steps, std::size_t tool, int number) const {
     PressView view;
-    const Recording& r = recording_;
-    for (const std::vector<std::size_t>& rows : steps.rows) {
-      const std::size_t row = rows[tool];
-      view.u.push_back(r.u[row]);
-      view.in_air.push_back(r.in_air(row) ? 1 : 0);
-      if (!r.temp.empty()) view.temperature.push_back(r.temp[row]);
-      if (r.t.empty()) continue;
-      view.t.push_back(r.t[row] - r.t[steps.rows.front()[tool]]);
-      view.session.push_back(r.t[row] - *std::min_element(r.t.begin(), r.t.end()));
-    }
+    const double start = recording_.t.empty() ? 0 : recording_.t[steps.rows.front()[tool]];
+    const double began = session_start(recording_);
+    for (const std::vector<std::size_t>& rows : steps.rows)
+      add_sample(view, recording_, rows[tool], start, began);
     view.normal = session_->contacts[tool].normal;
     view.direction = -view.normal;
     view.number = number;

@@ -35,7 +35,14 @@ alone() { # FIRST HEADER: its first words where it does not compile
 export -f alone
 export work compiler
 declare -p flags >"$work/flags"
-each() { xargs -r -P "$(nproc)" -I{} bash -c '. "$work/flags"; alone "$0" {}' "$1"; } # FIRST <HEADERS
+# What is said comes in the order of the headers, whichever was quicker.
+each() { # FIRST <HEADERS
+  local code=0
+  rm -rf "$work/said" && mkdir "$work/said"
+  xargs -r -P "$(nproc)" -I{} bash -c '. "$work/flags"; alone "$0" "$1" >"$work/said/${1//\//:}"' "$1" {} || code=$?
+  cat "$work/said"/* 2>/dev/null || true
+  return $code
+}
 failed=no
 each "$work/eigen.h" <"$work/with" || failed=yes
 comm -23 "$work/all" "$work/with" | each '' || failed=yes
