@@ -4,18 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "diagnose/effect_sets.h"
+#include "diagnose/held_out.h"
 #include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
+#include "fit/first_parts.h"
 
 namespace hapsim {
 namespace {
 
 constexpr std::size_t kBeam = 3;  // sets that are grown on
 
-const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
+// What sets foretell, each once.
+class Judge {
+ public:
+  Judge(const TrialGround& g, const DiagnoseOptions& options)
+      : g_(g), options_(options), parts_(first_parts(g.experiment)) {}
+  const Foretold& of(const EffectSet& set) {
+    const auto known = all_.find(set.added);
+    if (known != all_.end()) return known->second;
+    return all_
+        .emplace(set.added, foretell(set.fitted, g_.experiment, parts_, trial_fit_options(g_)))
+        .first->second;
+  }
+  ForceError error(const EffectSet& set) { return of(set).error(g_.dataset.axes()); }
+  // Of no fall, by resampled stretches.
+  double chance(const EffectSet& before, const EffectSet& after) {
+    return chance_of_no_fall(of(before), of(after), options_.flips, options_.seed);
+  }
+  // Whether the rest of the presses speaks for what `after` has more.
+  bool admits(const std::string& effect, const EffectSet& before, const EffectSet& after) {
+    return admitted_by_rest(effect, after.fitted.model, of(before), of(after), options_);
+  }
+
+ private:
+  const TrialGround& g_;
+  const DiagnoseOptions& options_;
+  std::vector<FirstParts> parts_;
+  std::map<EffectNames, Foretold> all_;
+};
+
+const EffectSet& best_set(EffectSets& sets, Judge& judge, const Gates& gates) {
   const EffectSet* best = sets.find({});
   std::vector<const EffectSet*> beam{best};
   for (int level = 0; level < gates.most_effects && !beam.empty(); ++level) {
@@ -23,7 +55,9 @@ const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
     for (const EffectSet* set : beam)
       for (const Effect* effect : sets.growth(*set))
         if (const EffectSet* grown = sets.grown(*set, *effect);
-            grown != nullptr && std::find(next.begin(), next.end(), grown) == next.end())
+            grown != nullptr && std::find(next.begin(), next.end(), grown) == next.end() &&
+            sets.criterion(*grown) < sets.criterion(*set) - gates.criterion_gain &&
+            judge.admits(effect->card().name, *set, *grown))
           next.push_back(grown);
     std::vector<std::pair<double, const EffectSet*>> ranked;
     for (const EffectSet* set : next) ranked.emplace_back(sets.criterion(*set), set);
@@ -41,7 +75,7 @@ const EffectSet& best_set(EffectSets& sets, const Gates& gates) {
 
 // What the effect does on top of a set without it.
 Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& without_it,
-               std::size_t tried, const TrialGround& g) {
+               Judge& judge, const TrialGround& g) {
   const Baseline base{without_it.fitted, {}, {}};
   Candidate candidate;
   candidate.effect = &effect;
@@ -54,8 +88,9 @@ Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& 
   f.one_more_term = candidate.one_more_term;
   f.rmse_now = without_it.fitted.error;
   f.rmse_after = with_it.fitted.error;
-  f.held_out_now = f.held_out_after = {};
-  f.p_value = std::min(1.0, 2 * m.p_by_size * static_cast<double>(tried));
+  f.held_out_now = judge.error(without_it);
+  f.held_out_after = judge.error(with_it);
+  f.p_value = judge.chance(without_it, with_it);
   f.criterion_gain = yardstick.residual.squaredNorm() - m.sum_of_squares - m.penalty;
   f.memory = m.memory;
   const double noise = g.allowance.noise * g.allowance.noise;
@@ -66,14 +101,16 @@ Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& 
             beyond_noise,
         0.0, 1.0);
   f.where = describe_where(candidate);
-  f.evidence = describe_evidence(candidate, m, f);
+  f.evidence = counts_for_nothing(with_it.fitted.model, f.effect);
+  f.counts = f.evidence.empty();
+  if (f.counts) f.evidence = describe_evidence(candidate, m, f);
   f.next_measurement = effect.card().separated_by;
   return f;
 }
 
 bool passes(const Finding& f, const Gates& gates) {
-  return f.criterion_gain > gates.criterion_gain && f.p_value < kFewPressesLevel &&
-         f.share >= gates.share;
+  return f.counts && f.criterion_gain > gates.criterion_gain && f.p_value <= kFewPressesLevel &&
+         held_out_fall(f) >= kForetoldFall;
 }
 
 struct Member {
@@ -82,7 +119,8 @@ struct Member {
 };
 
 // Of several terms first the effect as a whole, then each further term. The largest first.
-std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, const TrialGround& g) {
+std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, Judge& judge,
+                               const TrialGround& g) {
   std::vector<Member> members;
   for (std::size_t i = 0; i < set.added.size(); ++i) {
     const std::string& name = set.added[i];
@@ -92,7 +130,7 @@ std::vector<Member> members_of(const EffectSet& set, EffectSets& sets, const Tri
     else
       std::erase(rest, name);
     const EffectSet* found = sets.find_below(rest);
-    members.push_back({judged(require_effect(name), set, *found, sets.tried(), g), found});
+    members.push_back({judged(require_effect(name), set, *found, judge, g), found});
   }
   std::stable_sort(members.begin(), members.end(), [](const Member& a, const Member& b) {
     return a.finding.criterion_gain > b.finding.criterion_gain;
@@ -107,33 +145,42 @@ struct Rival {
 
 // What can take a member's place.
 std::vector<Rival> rivals_of(const Member& member, const EffectSet& best, EffectSets& sets,
-                             const Gates& gates, const TrialGround& g) {
+                             Judge& judge, const Gates& gates, const TrialGround& g) {
   const Effect& own = require_effect(member.finding.effect);
   std::vector<Rival> rivals;
   for (const Effect* effect : sets.growth(*member.rest)) {
     if (effect == &own || contains(*effect, own.card().name) || contains(own, effect->card().name))
       continue;
     const EffectSet* other = sets.grown(*member.rest, *effect);
-    if (other == nullptr || sets.criterion(*other) > sets.criterion(best) + gates.criterion_gain)
+    if (other == nullptr || sets.criterion(*other) > sets.criterion(best) + gates.criterion_gain ||
+        !judge.admits(effect->card().name, *member.rest, *other))
       continue;
-    rivals.push_back({judged(*effect, *other, *member.rest, sets.tried(), g), other->fitted.model});
+    rivals.push_back({judged(*effect, *other, *member.rest, judge, g), other->fitted.model});
   }
   return rivals;
 }
 
 }  // namespace
 
+bool admitted_by_rest(const std::string& effect, const Model& model, const Foretold& before,
+                      const Foretold& after, const DiagnoseOptions& options) {
+  return counts_for_nothing(model, effect).empty() &&
+         after.error(3).pooled <= (1 - kForetoldFall) * before.error(3).pooled &&
+         chance_of_no_fall(before, after, options.flips, options.seed) <= kFewPressesLevel;
+}
+
 FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
                                 const DiagnoseOptions& options) {
   const Gates& gates = options.gates;
   EffectSets sets(base, g, options);
-  const EffectSet* best = &best_set(sets, gates);
+  Judge judge(g, options);
+  const EffectSet* best = &best_set(sets, judge, gates);
   FewPresses result;
 
-  std::vector<Member> members = members_of(*best, sets, g);
+  std::vector<Member> members = members_of(*best, sets, judge, g);
   while (!members.empty() && !passes(members.back().finding, gates)) {
     best = sets.find_below(without(best->added, members.back().finding.effect));
-    members = members_of(*best, sets, g);
+    members = members_of(*best, sets, judge, g);
   }
 
   result.end = best->fitted;
@@ -142,7 +189,7 @@ FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
     Finding& f = member.finding;
     f.verdict = Verdict::kMissing;
     settled.push_back(f.effect);
-    std::vector<Rival> rivals = rivals_of(member, *best, sets, gates, g);
+    std::vector<Rival> rivals = rivals_of(member, *best, sets, judge, gates, g);
     for (const Rival& r : rivals) f.confused_with.push_back(r.finding.effect);
     if (!rivals.empty())  // one ambiguous set at a time
       f.verdict = result.rivals.empty() ? Verdict::kIndistinguishable : Verdict::kPossible;
@@ -172,7 +219,7 @@ FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
       result.findings.push_back(f);
       continue;
     }
-    Finding f = judged(*effect, *more, *best, sets.tried(), g);
+    Finding f = judged(*effect, *more, *best, judge, g);
     f.verdict = f.criterion_gain > gates.criterion_gain && f.share >= gates.share
                     ? Verdict::kPossible
                     : Verdict::kAbsent;

@@ -37,9 +37,10 @@ inline constexpr double kLikeNoise = 1.1;
 inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
 // Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
-// of effects are then judged by an F test of this level, all effects tried counted.
+// of effects are then judged by what the first part of each press foretells of the rest: its error
+// has to fall by that share, and not to fall in no more than that share of resampled stretches.
 inline constexpr std::size_t kLeastPresses = 6;
-inline constexpr double kFewPressesLevel = 0.01;
+inline constexpr double kForetoldFall = 0.05, kFewPressesLevel = 0.01;
 
 // The gates in words, with their numbers: paragraphs of --help and the man page.
 inline std::vector<std::string> gates_in_words() {
@@ -72,10 +73,11 @@ inline std::vector<std::string> gates_in_words() {
           "Fewer than {} presses have too few signs to flip, so they are judged by their course in "
           "time: sets of effects are grown side by side and ranked as above by independent "
           "samples, "
-          "and an effect of the best set is missing when the set without it errs more than chance "
-          "allows (F test, all effects tried counted, {:g} %). That says nothing of other places, "
+          "and an effect is missing when the set with it, learned from the first part of each "
+          "press, foretells the rest with an error lower by {:g} % or more, beyond what resampled "
+          "stretches allow ({:g} %). That says nothing of other places, "
           "and regions and offsets by press need {} presses.",
-          least, 100 * kFewPressesLevel, least)};
+          least, 100 * kForetoldFall, 100 * kFewPressesLevel, least)};
 }
 
 }  // namespace hapsim

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "diagnose/few_presses.h"
 #include "diagnose/held_out.h"
 #include "effects/catalogue.h"
 #include "model/model_edit.h"
@@ -37,6 +38,14 @@ double remaining(const ImprovementStep& before, const ImprovementStep& after,
   return by(folds, Map::kKnown);
 }
 
+bool rest_admits(const std::string& effect, const Fit& before, const Fit& after,
+                 const TrialGround& g, const DiagnoseOptions& options) {
+  const std::vector<FirstParts> parts = first_parts(g.experiment);
+  const FitOptions trial = trial_fit_options(g);
+  return admitted_by_rest(effect, after.model, foretell(before, g.experiment, parts, trial),
+                          foretell(after, g.experiment, parts, trial), options);
+}
+
 struct Ended {};  // by the watch of the fits
 
 }  // namespace
@@ -52,7 +61,9 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
   ExtendOptions extend;
   extend.noise = fine.noise.value;
   extend.floor = fine.floor;
+  const bool few = fine.dataset.episodes.size() < kLeastPresses;
   Improvement result;
+  result.by_rest = few;
   const Model first = start.parameters.empty() ? elastic_model(fine, all) : start;
   tell("fitting " + effects_label(first));
   result.steps.push_back(fitted_step("", {first}, ground, folds, options));
@@ -86,11 +97,12 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
                       ground, folds, options);
       result.stopped = step.fitted.stopped;
       if (result.stopped) return result;
-      // Without anything to hold out the diagnosis decides alone.
+      // Of few presses the rest of each decides, as in the diagnosis.
       const bool helps =
           step.fitted.converged &&
-          (std::isnan(step.held_out.pooled) || remaining(before, step, finding, ground, folds) <=
-                                                   1 - options.diagnose.gates.held_out_fall);
+          (few ? rest_admits(finding.effect, before.fitted, step.fitted, ground, options.diagnose)
+               : remaining(before, step, finding, ground, folds) <=
+                     1 - options.diagnose.gates.held_out_fall);
       if (!helps) {
         result.refused = finding.effect;
         return result;

@@ -132,8 +132,11 @@ std::string step_words(const ImprovementStep& step, double noise) {
 std::string end_words(const Improvement& improvement) {
   if (!improvement.refused.empty())
     return improvement.refused +
-           " was called missing but does not help on unseen presses: left out";
-  return verdict_name(improvement.last.verdict) + ": " + improvement.last.explanation;
+           (improvement.by_rest
+                ? " was called missing but does not foretell the rest of the press: left out"
+                : " was called missing but does not help on unseen presses: left out");
+  const std::string by = improvement.by_rest ? "judged on the rest of each press: " : "";
+  return by + verdict_name(improvement.last.verdict) + ": " + improvement.last.explanation;
 }
 
 }  // namespace hapsim
