@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,15 @@ class ContactLibrary {
                                        const Material& material,
                                        const std::string& description) const;
 
+  // The stiffness alone, on the finer or the coarser mesh of each place (a quarter of the cost);
+  // nothing where the tool cannot be laid on or the place cannot be meshed. `keep`: the meshes stay
+  // for later materials.
+  std::vector<std::optional<SampledContact>> sample(const std::vector<Vec3>& places,
+                                                    const Material& material,
+                                                    const std::string& description,
+                                                    ContactLevel level, bool keep) const;
+  const std::vector<std::uint8_t>& bonded() const { return bonded_; }  // one a face of surface()
+
   // What features do at each position, to first order.
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
       const std::vector<Vec3>& positions) const;
@@ -96,6 +106,7 @@ class ContactLibrary {
   ContactLibraryOptions options_;
   ContactCache cache_;
   ContentHash base_hash_;
+  std::vector<std::uint8_t> bonded_;
   std::shared_ptr<const SurfaceTree> free_surface_;
   using Position = std::array<double, 3>;
   std::unique_ptr<Memo<Position, std::shared_ptr<ContactBodies>>> kept_;

@@ -164,6 +164,23 @@ FeaturedBody& ContactBodies::featured(int k) {
   return *featured_[k];
 }
 
+SampledContact ContactBodies::sample(const Material& material, ContactLevel which) {
+  const int k = which == ContactLevel::kFine ? 0 : 1;
+  Level& own = level(k);
+  SampledContact result{own.contact.point, own.contact.normal, Eigen::Matrix3d::Zero()};
+  if (material.group_of || !material.features.empty()) {
+    result.K = featured(k).solve(material).K;
+    return result;
+  }
+  const Lame unit = lame(1, material.nu);
+  const double modulus = material.modulus[0];
+  ElasticBody& body = own.body();
+  body.factorise(
+      std::vector<Lame>(own.contact.mesh.tets.size(), {modulus * unit.lambda, modulus * unit.mu}));
+  result.K = body.solve(Eigen::Matrix3d::Identity()).reaction;
+  return result;
+}
+
 void ContactBodies::forget_systems() {
   for (const auto& body : featured_)
     if (body) body->forget_system();

@@ -59,6 +59,14 @@ constexpr double kCoarser = 1.5;
 // Relative uncertainty of the normal stiffness [-]: a bound that the error keeps in 95 of 100.
 double mesh_uncertainty(const StiffnessSolution& solution);
 
+// Which mesh of the pair.
+enum class ContactLevel { kFine, kCoarse };
+
+struct SampledContact {
+  Vec3 point, normal;  // on the surface [m]; outward, unit
+  Eigen::Matrix3d K;   // [N/m]
+};
+
 // The homogeneous body of E = 1 at one Poisson's ratio: stiffness and its derivative by nu [m].
 struct UnitPair {
   Eigen::Matrix3d K, by_nu;
@@ -87,6 +95,8 @@ class ContactBodies {
   // by up to 2 % where two regions differ by a factor of three.
   StiffnessSolution solve_corrected(const Material& material, const UnitPair& fine,
                                     const UnitPair& coarse);
+  // The stiffness alone on one mesh of the pair, of any material.
+  SampledContact sample(const Material& material, ContactLevel which);
   void forget_systems();  // that the last two keep
   // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh. These
   // bodies must outlive it.

@@ -20,7 +20,7 @@ stream() { # KIND: noise, and after 14 s the change
         if ($c["t"] > 14 && kind == "bias" && k == 2) $f += 0.1
         $f = sprintf("%.6f", $f + 0.01 * g) } print }' clean.csv
 }
-follow() { stream "$1" | "$bin/hs-compare" --follow - --body body.ply --model model.csv --rate 200 \
+follow() { stream "$1" | "$bin/hs-compare" --follow --accuracy 0.3 - --body body.ply --model model.csv --rate 200 \
   --learning 6 --events "$1.events" >"$1.out" 2>err || complain "$1 was not followed"; }
 for kind in none soft bias; do
   follow $kind
@@ -44,7 +44,7 @@ answered() { # every row of the stream, in the file that will be rows.csv
 }
 for signal in INT TERM; do
   rm -f rows.csv soft.events err  # words of the run before must not be waited for
-  env --default-signal=INT "$bin/hs-compare" --follow pipe --body body.ply --model model.csv --rate 200 \
+  env --default-signal=INT "$bin/hs-compare" --follow --accuracy 0.3 pipe --body body.ply --model model.csv --rate 200 \
     --learning 6 --events soft.events -o rows.csv 2>err &
   watching=$!
   exec {to}>pipe
@@ -57,15 +57,15 @@ for signal in INT TERM; do
     complain "SIG$signal loses rows or events"
 done
 rm -f rows.csv soft.events
-{ stream soft; echo 'x,30,0,0,0,0,0,0,0,0,0,1'; } | "$bin/hs-compare" --follow - --body body.ply --model model.csv \
+{ stream soft; echo 'x,30,0,0,0,0,0,0,0,0,0,1'; } | "$bin/hs-compare" --follow --accuracy 0.3 - --body body.ply --model model.csv \
   --rate 200 --learning 6 --events soft.events -o rows.csv -q 2>err
 (($? == 3)) && [[ $(grep -c '^[0-9]' rows.csv) == 4800 && $(wc -l <soft.events) == 2 ]] || complain 'a bad row loses those before it'
 # Nothing was watched, and that is told.
-stream none | "$bin/hs-compare" --follow - --body body.ply --model model.csv --rate 200 --learning 60 >rows.csv 2>err
+stream none | "$bin/hs-compare" --follow --accuracy 0.3 - --body body.ply --model model.csv --rate 200 --learning 60 >rows.csv 2>err
 grep -q 'nothing was watched: the usual error is learned from 60 s in contact, and there were 19.2 s' err || complain 'no word of learning'
 
 # The modulus from a stream, line by line.
-stream none | "$bin/hs-identify" --follow - --body body.ply --every 400 >estimates.csv 2>err || complain 'no estimates'
+stream none | "$bin/hs-identify" --follow --accuracy 0.3 - --body body.ply --every 400 >estimates.csv 2>err || complain 'no estimates'
 [[ $(grep -c '^[0-9]' estimates.csv) == 12 ]] || complain 'not a line every 400 rows'
 awk -F, '/^[0-9]/ { e = $3; s = $4 } END { exit !(e > 19980 && e < 20020 && s > 0 && s < 10) }' estimates.csv ||
   complain 'E was not found'

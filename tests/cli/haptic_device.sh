@@ -47,7 +47,7 @@ awk '$1 == 1 && $2 > 0.1 && $3 == 298 && $4 == 0 && $5 == 1 { ok = 1 } END { exi
 
 # Killed in mid-stream: what was answered before is there, whole lines but perhaps the last.
 mkfifo motion
-"$bin/hs-simulate" --live "${common[@]}" -q <motion >forces.csv 2>err &
+"$bin/hs-simulate" --live --accuracy 0.3 "${common[@]}" -q <motion >forces.csv 2>err &
 simulate=$!
 exec {to}>motion
 printf 't,x,y,z\n' >&"$to"

@@ -13,6 +13,7 @@
 #include "link/impaired_channel.h"
 #include "link/telepresence.h"
 #include "link/udp.h"
+#include "prepared_options.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"
 #include "realtime/motion_lines.h"
@@ -39,9 +40,12 @@ int run_teleoperator(const Arguments& arguments) {
       fail_usage("a teleoperator needs " + flag, "give it: it has a body to press");
   Input model_input(arguments[flag::model]);
   const Model model = read_model(model_input);
-  PreparedBodyOptions options;
-  options.tool_radius = arguments[flag::tool_radius];
+  std::shared_ptr<Progress> progress;
+  const PreparedBodyOptions options =
+      prepared_options(arguments, arguments[flag::tool_radius], progress);
   const PreparedBody body(load_body(arguments), model, options);
+  progress.reset();
+  tell_accuracy(arguments, "hs-link", body.field());
   ToolLoopOptions hand;
   hand.sensor = false;
   hand.fitted_depth = fitted_depth(model);
@@ -81,12 +85,15 @@ int run_operator(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines motion(input);
   motion.require_contact_points("press,t,x,y,z,ux,uy,uz");
-  PreparedBodyOptions options;
-  options.tool_radius = stream_radius(arguments, motion.metadata(), input.name());
+  std::shared_ptr<Progress> progress;
+  const PreparedBodyOptions options = prepared_options(
+      arguments, stream_radius(arguments, motion.metadata(), input.name()), progress);
   const std::vector<double> times =
       parse_relaxation_times(arguments.list(flag::times), flag::times.name);
   const double nu = arguments[flag::nu], rate = arguments[flag::rate];
   const PreparedBody body(load_body(arguments), unit_model(nu), options);
+  progress.reset();
+  tell_accuracy(arguments, "hs-link", body.field());
   UnitResponse response(body, times);
   OperatorOptions operator_options;
   operator_options.rate = rate;

@@ -3,6 +3,7 @@
 
 #include "common_options.h"
 #include "hs-link/flags.h"
+#include "prepared_options.h"
 #include "stream_options.h"
 
 namespace hapsim {
@@ -131,6 +132,7 @@ inline ToolSpec link_specification() {
        .default_text = "5",
        .minimum = 0,
        .maximum = 1e6}};
+  spec.options.push_back(accuracy_option("Body"));
   for (const Option& option : online_flags("Operator")) spec.options.push_back(option);
   spec.tables = {{"Output of the operator",
                   {{"press, t, x, y, z, ux, uy, uz", "the motion"},

@@ -133,6 +133,7 @@ Model relaxing() {
 PreparedBodyOptions tool() {
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
+  options.most_samples = 16;
   return options;
 }
 

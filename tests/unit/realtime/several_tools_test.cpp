@@ -41,6 +41,7 @@ struct Prepared {
   static PreparedBodyOptions options(const std::vector<KnownStiffness>& known) {
     PreparedBodyOptions options;
     options.tool_radius = kRadius;
+    options.most_samples = 16;
     if (!known.empty()) options.contacts = [known](const MaterialSpec&) { return known; };
     return options;
   }
