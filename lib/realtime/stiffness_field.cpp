@@ -20,7 +20,9 @@ namespace hapsim {
 namespace {
 
 constexpr int kMostSteps = 64;
-constexpr double kStraight = 0.004;  // relative change between entries that is taken as straight
+// Relative change between entries that is taken as straight: of what the samples leave unknown, a
+// quarter, but not below the least.
+constexpr double kStraight = 0.004, kStraightShare = 0.25;
 constexpr double kClosest = 0.3;     // entries are not closer than this, in tool radii
 constexpr std::size_t kBlock = 256;  // places estimated at a time
 
@@ -174,6 +176,7 @@ StiffnessField::StiffnessField(const Surface& surface, const FieldSampling& samp
                                const std::vector<KnownStiffness>& known, double tool_radius,
                                int threads)
     : surface_(surface), samples_(sampling.samples()), expected_(sampling.expected_error()) {
+  const double straight_within = std::max(kStraight, kStraightShare * expected_);
   const std::vector<int> known_vertex = insert_known(surface_, known);
   const double size = size_of(surface_);
   EntryTable table(sampling, 1e-8 * size, threads);
@@ -219,7 +222,7 @@ StiffnessField::StiffnessField(const Surface& surface, const FieldSampling& samp
               table.K(finer[k][static_cast<std::size_t>(lattice_index(i, j))]);
           worst = std::max(worst, (K - straight).norm() / K.norm());
         }
-      if (worst <= kStraight) continue;
+      if (worst <= straight_within) continue;
       steps_[f] *= 2;
       lattice[f] = std::move(finer[k]);
       open.push_back(f);

@@ -12,7 +12,7 @@ awk 'BEGIN { # presses of a second at 200 Hz, with air between them
     printf "%d,%.3f,%g,%g,0.04,%.9g,0,%.9g,%d\n", p, p + i / 200, 0.02 + 0.005 * (p % 5), 0.02 + 0.003 * (p % 4), air ? 0 : 0.0006 * s, air ? 0.01 : -0.003 * s, !air
   }
 }' >motion.csv
-"$bin/hs-simulate" --live motion.csv --body body.ply --model model.csv -q -o clean.csv 2>err || complain 'no forces'
+"$bin/hs-simulate" --live --accuracy 0.3 motion.csv --body body.ply --model model.csv -q -o clean.csv 2>err || complain 'no forces'
 stream() { # KIND: noise, and after 14 s the change
   awk -F, -v OFS=, -v kind="$1" 'BEGIN { srand(3) } /^#/ { print; next } !h { h = 1; for (i = 1; i <= NF; ++i) c[$i] = i; print; next }
     { for (k = 0; k < 3; ++k) { f = c["fx"] + k; g = -6; for (j = 0; j < 12; ++j) g += rand()
@@ -83,9 +83,9 @@ refuse() { # CODE TEXT ARGUMENTS...
 refuse 2 '--follow needs --model' --follow clean.csv --body body.ply
 refuse 2 'is of a stream' clean.csv --simulated clean.csv --events e.csv
 refuse 2 '--simulated is required' clean.csv
-refuse 3 'the rows come at some 200 Hz by their t, not 1000 Hz' --follow clean.csv --body body.ply --model model.csv
+refuse 3 'the rows come at some 200 Hz by their t, not 1000 Hz' --follow clean.csv --accuracy 0.3 --body body.ply --model model.csv
 awk -F, -v OFS=, '$2 == 6.5 { $8 = -0.3 } 1' clean.csv >deep.csv
-refuse 3 'a displacement of 0.3 m on a body of 0.0877 m' --follow deep.csv --body body.ply --model model.csv --rate 200 -q
-refuse 3 "'fx'" --follow motion.csv --body body.ply --model model.csv
+refuse 3 'a displacement of 0.3 m on a body of 0.0877 m' --follow deep.csv --accuracy 0.3 --body body.ply --model model.csv --rate 200 -q
+refuse 3 "'fx'" --follow motion.csv --accuracy 0.3 --body body.ply --model model.csv
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

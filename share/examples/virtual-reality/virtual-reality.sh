@@ -107,8 +107,8 @@ figures() { # KIND READY FORCE: the thesis's, beside ours
 }
 {
   echo 'figure,thesis,ours'
-  figures elastic 95 15
-  figures viscoelastic 120 30
+  figures elastic 0.095 15
+  figures viscoelastic 0.12 30
 } >summary.csv
 
 plot() { # FILE TITLE NAME...
