@@ -175,9 +175,9 @@ inline std::string between_contacts(const LeftOut& left_out) {
     return "off contacts that are solved finely the stiffness is that of the body's own mesh, and "
            "how far it is off is not known; several --contacts tell";
   return fmt::format(
-      "off the contacts forces are {:.1f} % off, {:.1f} % at the worst of {} that "
-      "were left out in turn",
-      100 * left_out.rms, 100 * left_out.worst, left_out.contacts);
+      "each of {} contacts left out in turn, its force is {:.1f} % off, {:.1f} % at the worst; "
+      "between contacts expect that or more",
+      left_out.contacts, 100 * left_out.rms, 100 * left_out.worst);
 }
 
 inline int run_live_mode(const Arguments& arguments, const Model& model) {

@@ -34,16 +34,12 @@ inline ToolSpec simulate_specification() {
       "is zero, and an end after that has exit code 5. The last line is zero, whatever ends the "
       "motion.",
       "Between contacts that are solved finely, and without --contacts everywhere, live forces "
-      "rest "
-      "on the body's own first-order mesh, and may be off by some 10 to 40 %, and at a Poisson's "
-      "ratio of 0.49 by as much as the force and more. Where there are two such contacts or more, "
-      "up to "
-      "24 are left out in turn: how far the others' stiffness is off there is said, and its root "
-      "mean square "
-      "stands in the metadata off_contacts, as a share of the force. It is that of gaps as wide as "
-      "between those contacts, on the parts of the body where they lie; of nine contacts on a box "
-      "it was 6.9 % "
-      "where 20 other places had 5.8 %, but at 0.49 19 % where they had 35 %.",
+      "rest on the body's own first-order mesh, and may be off by some 10 to 40 %, and at a "
+      "Poisson's ratio of 0.49 by as much as the force and more. Where there are two such "
+      "contacts or more, up to 24 are left out in turn: how far their forces are then off is "
+      "said, and the root mean square stands in the metadata off_contacts, as a share of the "
+      "force. It is no bound: on two meshes of one box with nine contacts 20 other places were "
+      "0.8 to 1.8 times as far off.",
       "Forces deeper than half of the way through the body, or than the model was fitted to (its "
       "metadata depth), are said to be so; presses through the body are an error. Live there is a "
       "column beyond: 1 for such a depth; 2 where the tool is held at nine tenths of the way, ux, "
