@@ -68,3 +68,10 @@ set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libboost-dev, l
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers and static libraries of hapsim, for C++ programs that read its bodies
  and models, identify, simulate and diagnose. For CMake and pkg-config.")
 include(CPack)
+
+# `cmake --build build/PRESET --target sbom`: what the tools that are built there are made of.
+add_custom_target(sbom
+  COMMAND ${PROJECT_SOURCE_DIR}/cmake/sbom.sh ${PROJECT_BINARY_DIR}/bin ${PROJECT_VERSION}
+    libeigen3-dev libcgal-dev libboost-dev libcli11-dev nlohmann-json3-dev libnanoflann-dev libtet1.5-dev
+    > ${PROJECT_BINARY_DIR}/hapsim.cdx.json
+  BYPRODUCTS ${PROJECT_BINARY_DIR}/hapsim.cdx.json VERBATIM)

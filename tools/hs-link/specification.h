@@ -27,13 +27,12 @@ inline ToolSpec link_specification() {
       "once, without a jump; later answers go on improving it.",
       "A network as bad as wished is put before the real one on the sending side of each process: "
       "--delay, --jitter, --loss, --duplicate, --reorder.",
-      "The link is closed. Both sides prove that they have the --key before anything that they say "
-      "counts (X25519, HMAC-SHA-512-256, BLAKE2b), and agree on version, units, tool and body; "
-      "every "
-      "packet is sealed (ChaCha20-Poly1305) and is taken once. Nothing else is answered. A side "
-      "that dies and comes back, or changes its address, is served again once it has proved "
-      "itself; another operator only when the first has been silent for half a second. Without a "
-      "key only this machine is spoken to, unless --insecure is given.",
+      "The link is closed. Both sides prove that they have the --key before anything that they "
+      "say counts (X25519, HMAC-SHA-512-256, BLAKE2b), and agree on version, units, tool and "
+      "body; every packet is sealed (ChaCha20-Poly1305) and is taken once. Nothing else is "
+      "answered. A side that dies and comes back, or changes its address, is served again once "
+      "it has proved itself; another operator only when the first has been silent for half a "
+      "second. Without a key only this machine is spoken to, unless --insecure is given.",
       "What the hand feels has limits of force, rate, power and workspace, and goes to zero within "
       "--hold and --ramp when the teleoperator or the motion is silent; column safety says so in "
       "every line, and ax, ay, az are what was asked for. So have the teleoperator's motions, "
