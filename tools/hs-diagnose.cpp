@@ -150,10 +150,10 @@ int run(const Arguments& arguments) {
   diagnose_options.folds = static_cast<int>(arguments[flag::folds]);
   diagnose_options.flips = static_cast<int>(arguments[flag::flips]);
   diagnose_options.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
-  progress = std::make_shared<Progress>(arguments, "trying", 0);
-  diagnose_options.progress = [&](const std::string& what) { progress->show(what); };
+  auto trying = std::make_unique<Progress>(arguments, "trying", 0);
+  diagnose_options.progress = [&](const std::string& what) { trying->show(what); };
   const Diagnosis d = diagnose(model, w, w.allowance(), diagnose_options);
-  progress.reset();
+  trying.reset();
 
   const DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
   Output output(arguments.output());

@@ -8,7 +8,6 @@
 #include "material/unit_law.h"
 #include "solid/elastic_body.h"
 #include "solid/foundation.h"
-#include "solid/inhomogeneity.h"
 
 namespace hapsim {
 namespace {
@@ -66,6 +65,7 @@ FeatureEstimate::FeatureEstimate(const ContactMesh& contact, const SurfaceTree& 
   std::vector<Eigen::Matrix3d> reaction(mesh_.nodes.size(), Eigen::Matrix3d::Zero());
   Eigen::Matrix<double, 30, 30> stiffness;
   Eigen::Matrix<double, 30, 3> local;
+  std::vector<Eigen::Matrix3d> share;  // S, one a tetrahedron; their sum is the identity
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
   for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
     const auto& n = mesh_.tets[t];
@@ -77,8 +77,8 @@ FeatureEstimate::FeatureEstimate(const ContactMesh& contact, const SurfaceTree& 
     }
     const FieldMoments moments(gradients, local);
     moments_.add(1, moments);
-    share_.push_back(moments.energy(law.D, law.kappa));
-    K += share_.back();
+    share.push_back(moments.energy(law.D, law.kappa));
+    K += share.back();
     if (!at_base) continue;
     element_matrix(gradients, block, law.kappa, 1, stiffness);
     const Eigen::Matrix<double, 30, 3> force = stiffness * local;
@@ -86,8 +86,9 @@ FeatureEstimate::FeatureEstimate(const ContactMesh& contact, const SurfaceTree& 
       if (mesh_.fixed[n[a]]) reaction[n[a]] += force.middleRows<3>(3 * a);
   }
   inverse_ = Eigen::Matrix3d(K.llt().matrixL()).inverse();
-  for (Eigen::Matrix3d& k : share_) k = (inverse_ * k * inverse_.transpose()).eval();
-  tabulate_depths(free_surface);
+  for (Eigen::Matrix3d& k : share) k = (inverse_ * k * inverse_.transpose()).eval();
+  tree_ = ShareTree(mesh_, share);
+  tabulate_depths(free_surface, share);
   make_base(reaction);
   Vec3 middle = Vec3::Zero();
   int held = 0;
@@ -100,7 +101,8 @@ FeatureEstimate::FeatureEstimate(const ContactMesh& contact, const SurfaceTree& 
 }
 
 // Each tetrahedron's share is spread evenly over the depths between its corners.
-void FeatureEstimate::tabulate_depths(const SurfaceTree& free_surface) {
+void FeatureEstimate::tabulate_depths(const SurfaceTree& free_surface,
+                                      const std::vector<Eigen::Matrix3d>& share) {
   std::vector<double> depth(mesh_.nodes.size(), 0);
   for (const auto& n : mesh_.tets)
     for (int a = 0; a < 4; ++a)
@@ -118,7 +120,7 @@ void FeatureEstimate::tabulate_depths(const SurfaceTree& free_surface) {
       const double thickness = deepest_ * k * k / (kDepths * kDepths);
       if (thickness <= low) continue;
       shallow_[static_cast<std::size_t>(k)] +=
-          (thickness >= high ? 1 : (thickness - low) / (high - low)) * share_[t];
+          (thickness >= high ? 1 : (thickness - low) / (high - low)) * share[t];
     }
   }
 }
@@ -201,17 +203,8 @@ FeatureEstimate::Change FeatureEstimate::of_layer(const BodyFeature& layer) cons
 }
 
 FeatureEstimate::Change FeatureEstimate::of_ball(const BodyFeature& ball) const {
-  const InsideShares inside = inside_shares(mesh_, zone_level(ball, nullptr));
-  Eigen::Matrix3d share = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Matrix3d> by(4, Eigen::Matrix3d::Zero());
-  for (std::size_t t = 0; t < share_.size(); ++t) {
-    if (inside.share[t] <= 0) continue;
-    share += inside.share[t] * share_[t];
-    for (Eigen::Index v = 0; v < 4; ++v)
-      by[static_cast<std::size_t>(v)] +=
-          inside.by_parameters(static_cast<Eigen::Index>(t), v) * share_[t];
-  }
-  return of_zone(share, by, ball.value[4]);
+  const ShareTree::Inside inside = tree_.inside(zone_level(ball, nullptr), 4);
+  return of_zone(inside.share, inside.by_parameters, ball.value[4]);
 }
 
 FeatureEstimate::Change FeatureEstimate::of_law(const BodyFeature& transverse) const {

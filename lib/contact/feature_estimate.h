@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "contact/share_tree.h"
 #include "material/body_features.h"
 #include "mesh/surface_tree.h"
 #include "solid/element_moments.h"
@@ -39,7 +40,7 @@ class FeatureEstimate {
   Change of_ball(const BodyFeature& ball) const;
   Change of_law(const BodyFeature& transverse) const;
   Change of_support(const BodyFeature& support) const;
-  void tabulate_depths(const SurfaceTree& free_surface);
+  void tabulate_depths(const SurfaceTree& free_surface, const std::vector<Eigen::Matrix3d>& share);
   void make_base(const std::vector<Eigen::Matrix3d>& reaction);
 
   struct BaseFace {
@@ -51,7 +52,7 @@ class FeatureEstimate {
   const TetMesh& mesh_;
   double nu_, height_ = 0;                // [m] of the contact over the base
   Eigen::Matrix3d inverse_;               // L^-1
-  std::vector<Eigen::Matrix3d> share_;    // S, one a tetrahedron; their sum is the identity
+  ShareTree tree_;                        // of S; the sum of all is the identity
   double deepest_ = 0;                    // [m]
   std::vector<Eigen::Matrix3d> shallow_;  // share of what is nearer to the surface than a thickness
   FieldMoments moments_;                  // of the whole body

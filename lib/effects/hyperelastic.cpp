@@ -37,10 +37,10 @@ struct Law {
     m.y = m.d * m.d + kShear * k_t / k_n * m.q.squaredNorm() + 1e-24;
     m.M = std::pow(m.y, kPower / 2);
     m.dM = kPower / 2 * m.M / m.y;
-    const double r = 1 + std::pow(kDeepeningEnds * m.d, 2);
-    m.T = kDeepening * m.d / std::sqrt(r);
-    m.dT = kDeepening / std::pow(r, 1.5);
-    m.ddT = -3 * kDeepening * std::pow(kDeepeningEnds, 2) * m.d / std::pow(r, 2.5);
+    const double r = 1 + kDeepeningEnds * kDeepeningEnds * m.d * m.d, root = std::sqrt(r);
+    m.T = kDeepening * m.d / root;
+    m.dT = kDeepening / (r * root);
+    m.ddT = -3 * kDeepeningEnds * kDeepeningEnds * m.d / r * m.dT;
     return m;
   }
 

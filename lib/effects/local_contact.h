@@ -85,7 +85,7 @@ bool LocalContact::find(const Law& law, const Vec3& u, Vec3& x, LocalForce& forc
   force = law(x);
   Vec3 residual = K * (x - u) + rest_ * force.F;
   for (int k = 0; k < kMost; ++k) {
-    Vec3 step = (K + rest_ * force.tangent).partialPivLu().solve(-residual);
+    Vec3 step = -(K + rest_ * force.tangent).inverse() * residual;
     // Halved while the residual grows: laws have corners where the contact opens or closes.
     const double before = residual.norm();
     Vec3 next = x + step;

@@ -48,40 +48,38 @@ CutShare prism_part(const std::array<double, 4>& v, int a, int b, int c, int d) 
   return part;
 }
 
+struct Corner {
+  Vec3 at;
+  LevelValue level;
+};
 using Corners = std::array<Vec3, 4>;
+using LevelCorners = std::array<const Corner*, 4>;
 
-// Eight tetrahedra of equal volume: four at the corners, four of the inner octahedron (Bey,
+// Adds the share of one part (of relative volume `weight`) and its derivatives. It is divided into
+// eight tetrahedra of equal volume: four at the corners, four of the inner octahedron (Bey,
 // Computing 55, 1995).
-std::array<Corners, 8> divided(const Corners& x) {
-  const auto mid = [&](int i, int j) { return Vec3(0.5 * (x[i] + x[j])); };
-  const Vec3 a = mid(0, 1), b = mid(0, 2), c = mid(0, 3), d = mid(1, 2), e = mid(1, 3),
-             f = mid(2, 3);
-  return {{{x[0], a, b, c},
-           {a, x[1], d, e},
-           {b, d, x[2], f},
-           {c, e, f, x[3]},
-           {a, b, c, e},
-           {a, b, d, e},
-           {b, c, e, f},
-           {b, d, e, f}}};
-}
-
-// Adds the share of one part (of relative volume `weight`) and its derivatives.
-void add_part(const Corners& x, const LevelSet& level, int subdivisions, double weight,
+void add_part(const LevelCorners& x, const LevelSet& level, int subdivisions, double weight,
               double& share, Eigen::Ref<Eigen::RowVectorXd> by_parameters) {
   if (subdivisions > 0) {
-    for (const Corners& part : divided(x))
+    const auto mid = [&](int i, int j) {
+      const Vec3 at = 0.5 * (x[i]->at + x[j]->at);
+      return Corner{at, level(at)};
+    };
+    const Corner a = mid(0, 1), b = mid(0, 2), c = mid(0, 3), d = mid(1, 2), e = mid(1, 3),
+                 f = mid(2, 3);
+    const LevelCorners parts[] = {{x[0], &a, &b, &c}, {&a, x[1], &d, &e}, {&b, &d, x[2], &f},
+                                  {&c, &e, &f, x[3]}, {&a, &b, &c, &e},   {&a, &b, &d, &e},
+                                  {&b, &c, &e, &f},   {&b, &d, &e, &f}};
+    for (const LevelCorners& part : parts)
       add_part(part, level, subdivisions - 1, weight / 8, share, by_parameters);
     return;
   }
-  std::array<LevelValue, 4> values;
-  std::array<double, 4> v;
-  for (std::size_t i = 0; i < 4; ++i) v[i] = (values[i] = level(x[i])).value;
-  const CutShare cut = cut_share(v);
+  const CutShare cut =
+      cut_share({x[0]->level.value, x[1]->level.value, x[2]->level.value, x[3]->level.value});
   share += weight * cut.share;
   for (std::size_t i = 0; i < 4; ++i)
     if (cut.by_value[i] != 0)
-      by_parameters += weight * cut.by_value[i] * values[i].by_parameters.transpose();
+      by_parameters += weight * cut.by_value[i] * x[i]->level.by_parameters.transpose();
 }
 
 Corners corners_of(const TetMesh& mesh, std::size_t t) {
@@ -125,6 +123,23 @@ CutShare cut_share(const std::array<double, 4>& value) {
   }
 }
 
+double inside_share(const TetMesh& mesh, std::size_t tetrahedron, const LevelSet& level,
+                    int subdivisions, Eigen::Ref<Eigen::RowVectorXd> by_parameters) {
+  const Corners x = corners_of(mesh, tetrahedron);
+  double reach = 0;
+  const Vec3 centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+  for (const Vec3& p : x) reach = std::max(reach, (p - centre).norm());
+  const LevelValue at_centre = level(centre);
+  by_parameters.setZero();
+  if (at_centre.clear > reach) return at_centre.value < 0;
+  std::array<Corner, 4> corner;
+  for (std::size_t i = 0; i < 4; ++i) corner[i] = {x[i], level(x[i])};
+  double share = 0;
+  add_part({&corner[0], &corner[1], &corner[2], &corner[3]}, level, subdivisions, 1, share,
+           by_parameters);
+  return share;
+}
+
 InsideShares inside_shares(const TetMesh& mesh, const LevelSet& level, int subdivisions) {
   InsideShares result;
   const Eigen::Index parameters =
@@ -133,18 +148,7 @@ InsideShares inside_shares(const TetMesh& mesh, const LevelSet& level, int subdi
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(mesh.tets.size()), parameters);
   Eigen::RowVectorXd row(parameters);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const Corners x = corners_of(mesh, t);
-    double reach = 0;
-    const Vec3 centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
-    for (const Vec3& p : x) reach = std::max(reach, (p - centre).norm());
-    const LevelValue at_centre = level(centre);
-    double share = 0;
-    row.setZero();
-    if (at_centre.clear > reach)
-      share = at_centre.value < 0;
-    else
-      add_part(x, level, subdivisions, 1, share, row);
-    result.share.push_back(share);
+    result.share.push_back(inside_share(mesh, t, level, subdivisions, row));
     result.by_parameters.row(static_cast<Eigen::Index>(t)) = row;
   }
   return result;

@@ -30,6 +30,9 @@ struct InsideShares {
   Eigen::MatrixXd by_parameters;  // tetrahedra x parameters
 };
 InsideShares inside_shares(const TetMesh& mesh, const LevelSet& level, int subdivisions = 1);
+// The same of one tetrahedron; `by_parameters` (one column a parameter) is written.
+double inside_share(const TetMesh& mesh, std::size_t tetrahedron, const LevelSet& level,
+                    int subdivisions, Eigen::Ref<Eigen::RowVectorXd> by_parameters);
 
 // Stiffness factors 1 + (ratio - 1) share, one a tetrahedron, for BodyModel::scale and
 // NonlinearBody::set_scale: the modulus of the mixture in parallel (Voigt, 1889), which tends to
