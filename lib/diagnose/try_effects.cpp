@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
-#include <numeric>
 #include <optional>
 
 #include "diagnose/departures.h"
 #include "diagnose/held_out.h"
+#include "diagnose/screens.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 
@@ -57,78 +55,6 @@ double left_by_laws(const Fit& fitted, const TrialGround& g) {
 // by less than the baseline.
 constexpr double kPromising = 2.5, kBetter = 0.99;
 
-// Where there are more places than that, so many of them tell whether finite elements are worth
-// solving for an effect at all of them.
-constexpr std::size_t kManyPlaces = 60, kScreened = 24;
-
-// Places spread over all: each the farthest from those before it.
-std::vector<std::size_t> spread_places(const std::vector<Vec3>& positions, std::size_t count) {
-  std::vector<std::size_t> chosen{0};
-  std::vector<double> distance(positions.size(), std::numeric_limits<double>::infinity());
-  while (chosen.size() < count) {
-    for (std::size_t p = 0; p < positions.size(); ++p)
-      distance[p] = std::min(distance[p], (positions[p] - positions[chosen.back()]).norm());
-    chosen.push_back(static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
-                                              distance.begin()));
-  }
-  std::sort(chosen.begin(), chosen.end());
-  return chosen;
-}
-
-// The places about one.
-std::vector<std::size_t> nearest_places(const std::vector<Vec3>& positions, const Vec3& about,
-                                        std::size_t count) {
-  std::vector<std::size_t> order(positions.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return (positions[a] - about).squaredNorm() < (positions[b] - about).squaredNorm();
-  });
-  order.resize(count);
-  std::sort(order.begin(), order.end());
-  return order;
-}
-
-// Some places of a ground, with the baseline fitted there.
-struct Screen {
-  Experiment experiment;
-  TrialGround ground;
-  Baseline base;
-  Screen(const Baseline& all, const TrialGround& g, const std::vector<std::size_t>& places)
-      : experiment(at_positions(g.experiment, places)),
-        ground(experiment, g.allowance),
-        base(make_baseline(all.fitted.model, ground, {})) {}
-  Screen(const Screen&) = delete;
-  Screen& operator=(const Screen&) = delete;
-};
-
-// Screens for effects that finite elements are solved for, made when they are first asked for:
-// what acts everywhere is sought everywhere, what is local about the place that departs most.
-class Screens {
- public:
-  Screens(const Baseline& base, const TrialGround& g, const Departures& departures)
-      : base_(base), g_(g), where_(departures.where) {}
-  // The error that the effect leaves on its screen over that of the baseline there; nothing where
-  // it cannot be tried.
-  std::optional<double> left_by(const Effect& effect, std::string& lack) {
-    std::unique_ptr<Screen>& screen = effect.card().local ? local_ : everywhere_;
-    const auto& positions = g_.dataset.positions;
-    if (!screen)
-      screen = std::make_unique<Screen>(base_, g_,
-                                        effect.card().local
-                                            ? nearest_places(positions, where_, kScreened)
-                                            : spread_places(positions, kScreened));
-    const auto tried = try_effect(effect, screen->base, screen->ground, lack);
-    if (!tried) return std::nullopt;
-    return tried->fitted.error.pooled / screen->base.fitted.error.pooled;
-  }
-
- private:
-  const Baseline& base_;
-  const TrialGround& g_;
-  Vec3 where_;
-  std::unique_ptr<Screen> everywhere_, local_;
-};
-
 // The best estimates first: what they become, not what they promised, decides what else is worth
 // the solutions.
 void refine_promising(std::vector<Candidate>& candidates, const Baseline& base,
@@ -137,7 +63,7 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base,
   double least = base.fitted.error.pooled;
   for (Candidate& c : candidates) {
     const EffectCard& card = c.effect->card();
-    if (card.solved || card.is_map) order.push_back(&c);
+    if (!c.starts.empty() || card.is_map) order.push_back(&c);
     // Offsets of presses imitate any misfit and are no measure of it.
     else if (!card.per_press)
       least = std::min(least, c.fitted.error.pooled);
@@ -208,12 +134,42 @@ Finding not_testable(const Effect& effect, const std::string& lack) {
   return finding;
 }
 
-// Effects that need no finite elements first: with what they leave, some places tell which others
-// are worth them.
-std::vector<const Effect*> cheap_first(std::vector<const Effect*> effects) {
-  std::stable_partition(effects.begin(), effects.end(),
-                        [](const Effect* e) { return !e->card().solved; });
-  return effects;
+// Tries effects at some places, and at all of them those that could be rivals of what leaves the
+// `least` error, the best first: solved for once, at the values that the screen gave.
+void try_at_some_first(const std::vector<const Effect*>& effects, const Departures& departures,
+                       double least, const Baseline& base, const TrialGround& g,
+                       const DiagnoseOptions& options, Round& round) {
+  const double now = base.fitted.error.pooled;
+  Screens screens(base, g, departures);
+  std::vector<std::pair<const Effect*, Screens::Tried>> all_tried;
+  for (const Effect* effect : effects) {
+    if (options.progress) options.progress(effect->card().name);
+    std::string lack;
+    if (auto tried = screens.try_effect(*effect, std::min(kBetter, kPromising * least / now), lack))
+      all_tried.emplace_back(effect, std::move(*tried));
+    else
+      round.untestable.push_back(not_testable(*effect, lack));
+  }
+  std::stable_sort(all_tried.begin(), all_tried.end(),
+                   [](const auto& a, const auto& b) { return a.second.left < b.second.left; });
+  for (const auto& [effect, tried] : all_tried) {
+    if (tried.left > kBetter || tried.left * now > kAlike * least) {
+      round.ruled_out.push_back(ruled_out(*effect, base));
+      round.ruled_out.back().evidence =
+          fmt::format("on {} of the {} places it leaves {:.0f} % of the error", tried.places,
+                      g.dataset.positions.size(), 100 * tried.left_there);
+      continue;
+    }
+    if (options.progress) options.progress(effect->card().name);
+    Candidate candidate;
+    candidate.effect = effect;
+    candidate.one_more_term = base.fitted.model.has(effect->card().name);
+    candidate.fitted =
+        fit(tried.model, g.experiment, all_episodes(g.dataset), trial_fit_options(g, 0),
+            g.experiment.places.solve(material_of(tried.model)));
+    least = std::min(least, candidate.fitted.error.pooled);
+    round.candidates.push_back(std::move(candidate));
+  }
 }
 
 }  // namespace
@@ -234,38 +190,29 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
   Round round;
   const Departures departures = stiffness_departures(base.fitted, g);
   const bool departs = departures.anywhere();
-  const bool screens_first = g.dataset.positions.size() > kManyPlaces;
-  Screens screens(base, g, departures);
   double least = base.fitted.error.pooled;
-  const std::vector<const Effect*> effects = untried(base.fitted.model);
-  for (const Effect* effect : screens_first ? cheap_first(effects) : effects) {
+  std::vector<const Effect*> at_some_first;
+  for (const Effect* effect : untried(base.fitted.model)) {
     if (options.progress) options.progress(effect->card().name);
-    if (effect->card().solved && !departs && lacking_for(effect->card(), g.dataset).empty()) {
+    const bool solved = effect->card().solved && lacking_for(effect->card(), g.dataset).empty();
+    if (solved && !departs) {
       round.ruled_out.push_back(ruled_out(*effect, base));
       continue;
     }
-    std::string lack;
-    if (effect->card().solved && screens_first && lacking_for(effect->card(), g.dataset).empty()) {
-      const std::optional<double> left = screens.left_by(*effect, lack);
-      if (!left) {
-        round.untestable.push_back(not_testable(*effect, lack));
-        continue;
-      }
-      if (*left > kBetter || *left * base.fitted.error.pooled > kPromising * least) {
-        round.ruled_out.push_back(ruled_out(*effect, base));
-        round.ruled_out.back().evidence =
-            fmt::format("on {} of the {} places it leaves {:.0f} % of the error", kScreened,
-                        g.dataset.positions.size(), 100 * *left);
-        continue;
-      }
-    }
-    if (auto candidate = try_effect(*effect, base, g, lack)) {
-      if (!effect->card().per_press) least = std::min(least, candidate->fitted.error.pooled);
-      round.candidates.push_back(std::move(*candidate));
+    if (solved && has_many_places(g.dataset)) {
+      at_some_first.push_back(effect);
       continue;
     }
-    round.untestable.push_back(not_testable(*effect, lack));
+    std::string lack;
+    auto candidate = try_effect(*effect, base, g, lack);
+    if (!candidate) {
+      round.untestable.push_back(not_testable(*effect, lack));
+      continue;
+    }
+    if (!effect->card().per_press) least = std::min(least, candidate->fitted.error.pooled);
+    round.candidates.push_back(std::move(*candidate));
   }
+  try_at_some_first(at_some_first, departures, least, base, g, options, round);
   refine_promising(round.candidates, base, g, options);
   const Yardstick yardstick = make_yardstick(base, round.candidates, g);
   std::vector<Measured> measured;
