@@ -20,8 +20,6 @@ double coordinate_slope(double nu) {
 // What features do hardly depends on it; estimates are made for soft tissue.
 constexpr double kTypicalPoisson = 0.42;
 
-constexpr std::size_t kMostSystems = 24;  // matrices kept from one material to the next
-
 }  // namespace
 
 void UnitStiffness::add(double nu, const Eigen::Matrix3d& K, const Eigen::Matrix3d& dK_dnu) {
@@ -63,8 +61,7 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
       grid_(plan_grid(base_.surface)),
       radius_(tool_radius),
       options_(options),
-      cache_(options.cache),
-      kept_(std::make_unique<Memo<Position, std::shared_ptr<ContactBodies>>>(options.kept)) {
+      cache_(options.cache) {
   // Meshing forks; OpenBLAS must have its one thread before that.
   prepare_blas_for_many_threads();
   for (const Vec3& p : base_.surface.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
@@ -76,13 +73,28 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
   base_hash_.add(options.rim_edge);
   base_hash_.add(kGrowth);
   base_hash_.add(kCoarser);
+  content_ = base_hash_;
+  content_.add(options.draft ? 1.0 : 0.0);
   free_surface_ = free_surface(base_);
 }
 
-std::shared_ptr<ContactBodies> ContactLibrary::take_bodies(const Vec3& p, bool kept) const {
-  if (kept)
-    if (auto bodies = kept_->take({p.x(), p.y(), p.z()})) return bodies;
+std::string ContactLibrary::bodies_key(const Vec3& position) const {
+  ContentHash hash = base_hash_;
+  hash.add(position.data(), sizeof(double) * 3);
+  return hash.hex();
+}
+
+std::shared_ptr<ContactBodies> ContactLibrary::fresh_bodies(const Vec3& p) const {
   return std::make_shared<ContactBodies>(base_, p, radius_, options_.rim_edge, free_surface_);
+}
+
+std::shared_ptr<ContactBodies> ContactLibrary::take_bodies(const Vec3& position) const {
+  auto kept = memo().take<ContactBodies>(bodies_key(position));
+  return kept ? kept : fresh_bodies(position);
+}
+
+void ContactLibrary::put_bodies(const Vec3& position, std::shared_ptr<ContactBodies> bodies) const {
+  memo().put(bodies_key(position), std::move(bodies));
 }
 
 ContentHash ContactLibrary::key_of(const Material& material, const std::string& description) const {
@@ -111,7 +123,7 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
         results[p * m + k] = *found;
         continue;
       }
-      if (!bodies) bodies = take_bodies(positions[p], keep);
+      if (!bodies) bodies = keep ? take_bodies(positions[p]) : fresh_bodies(positions[p]);
       try {
         results[p * m + k] = tasks[k].solve(*bodies, p);
       } catch (const ContactUnfit& error) {
@@ -121,8 +133,7 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
       }
       cache_.store(hash.hex(), results[p * m + k]);
     }
-    if (bodies && keep)
-      kept_->put({positions[p].x(), positions[p].y(), positions[p].z()}, std::move(bodies));
+    if (bodies && keep) put_bodies(positions[p], std::move(bodies));
     if (options_.step) options_.step();
   });
   return results;
@@ -132,11 +143,9 @@ std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
     const std::vector<Vec3>& positions) const {
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());
   in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
-    // The estimate reads the coarser mesh of these bodies, which never changes, and keeps them.
-    const std::shared_ptr<ContactBodies> bodies = take_bodies(positions[p], true);
-    const std::shared_ptr<const FeatureEstimate> estimate = bodies->estimate(kTypicalPoisson);
-    estimates[p] = {estimate.get(), [bodies, estimate](const FeatureEstimate*) {}};
-    kept_->put({positions[p].x(), positions[p].y(), positions[p].z()}, bodies);
+    std::shared_ptr<ContactBodies> bodies = take_bodies(positions[p]);
+    estimates[p] = bodies->estimate(kTypicalPoisson);
+    put_bodies(positions[p], std::move(bodies));
   });
   return estimates;
 }
@@ -194,7 +203,8 @@ std::vector<StiffnessSolution> ContactLibrary::solve(const std::vector<Vec3>& po
     } else {
       solution = bodies.solve_featured(material);
     }
-    if (positions.size() > kMostSystems) bodies.forget_systems();
+    // Meshes alone, where not all matrices have room.
+    if (positions.size() * bodies.held_bytes() > memo().budget()) bodies.forget_systems();
     return solution;
   };
   const std::string kind = options_.draft ? "corrected " : "featured ";

@@ -1,7 +1,6 @@
 // The stiffness of a body at all its contact positions, prepared in parallel and cached.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -22,6 +21,7 @@ class UnitStiffness {
   void add(double nu, const Eigen::Matrix3d& K, const Eigen::Matrix3d& dK_dnu);
   // K and its derivative by nu [m]. Exact at the solved values.
   void evaluate(double nu, Eigen::Matrix3d& K, Eigen::Matrix3d& dK_dnu) const;
+  std::size_t held_bytes() const { return hapsim::held_bytes(nodes_); }
 
  private:
   struct Node {
@@ -38,6 +38,10 @@ struct PreparedContact {
   double mesh_uncertainty = 0;    // relative, of the normal stiffness
   std::vector<float> plan_share;  // share of the strain energy by plan-view cell
   std::string unfit;              // not "": why the tool cannot press there; nothing else is known
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(stiffness) + hapsim::held_bytes(coarse) +
+           hapsim::held_bytes(plan_share) + hapsim::held_bytes(unfit);
+  }
 };
 
 struct ContactLibraryOptions {
@@ -45,9 +49,9 @@ struct ContactLibraryOptions {
   std::string cache;           // directory, "" for none
   double rim_edge = kRimEdge;  // edge length at the tool's rim over its radius
   bool draft = false;          // materials that are not homogeneous on the coarser mesh
-  // Up to so many meshes of positions (of about a megabyte each) stay for the next material; 0:
-  // none. Changes no result.
-  std::size_t kept = 256;
+  // Where meshes and matrices of positions stay for the next material; several libraries may share
+  // it. Changes no result.
+  std::shared_ptr<Memo> memo = std::make_shared<Memo>();
   std::function<void()> step;  // called once a position is ready (from any thread)
 };
 
@@ -75,6 +79,9 @@ class ContactLibrary {
   int threads() const { return options_.threads; }  // 0: as many as the machine has
   const PlanGrid& grid() const { return grid_; }
   const Surface& surface() const { return base_.fine; }  // the body's, as it was given
+  Memo& memo() const { return *options_.memo; }
+  // Of all that solutions depend on beside positions and material.
+  const ContentHash& content() const { return content_; }
 
  private:
   using Solver = std::function<StiffnessSolution(ContactBodies&, std::size_t position)>;
@@ -87,18 +94,19 @@ class ContactLibrary {
   std::vector<StiffnessSolution> solve_all(const std::vector<Vec3>& positions,
                                            const std::vector<Task>& tasks, bool keep) const;
   ContentHash key_of(const Material& material, const std::string& description) const;
-  // Those that are `kept`, or fresh ones; the caller has them alone.
-  std::shared_ptr<ContactBodies> take_bodies(const Vec3& position, bool kept) const;
+  // Those that are kept, or fresh ones; the caller has them alone until they are put back.
+  std::shared_ptr<ContactBodies> take_bodies(const Vec3& position) const;
+  std::shared_ptr<ContactBodies> fresh_bodies(const Vec3& position) const;
+  void put_bodies(const Vec3& position, std::shared_ptr<ContactBodies> bodies) const;
+  std::string bodies_key(const Vec3& position) const;
 
   ContactBase base_;
   PlanGrid grid_;
   double radius_;
   ContactLibraryOptions options_;
   ContactCache cache_;
-  ContentHash base_hash_;
+  ContentHash base_hash_, content_;
   std::shared_ptr<const SurfaceTree> free_surface_;
-  using Position = std::array<double, 3>;
-  std::unique_ptr<Memo<Position, std::shared_ptr<ContactBodies>>> kept_;
 };
 
 }  // namespace hapsim

@@ -41,11 +41,18 @@ constexpr Dilatation kDilatation = Dilatation::kElement;  // soft tissue is near
 }
 
 struct ContactBodies::Level {
-  ContactMesh contact;
+  std::shared_ptr<const ContactMesh> shared;
+  const ContactMesh& contact;
   std::unique_ptr<ElasticBody> homogeneous;  // made when first asked for
 
   Level(const ContactBase& base, const Vec3& point, double radius, double rim_edge, double growth)
-      : contact(make_contact_mesh(base, point, radius, rim_edge, growth)) {}
+      : shared(std::make_shared<const ContactMesh>(
+            make_contact_mesh(base, point, radius, rim_edge, growth))),
+        contact(*shared) {}
+
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(shared) + hapsim::held_bytes(homogeneous);
+  }
 
   ElasticBody& body() {
     if (homogeneous) return *homogeneous;
@@ -169,9 +176,16 @@ void ContactBodies::forget_systems() {
     if (body) body->forget_system();
 }
 
-std::unique_ptr<const FeatureEstimate> ContactBodies::estimate(double poisson_ratio) {
+std::shared_ptr<const FeatureEstimate> ContactBodies::estimate(double poisson_ratio) {
   if (!surface_) surface_ = free_surface(base_);
-  return std::make_unique<const FeatureEstimate>(level(1).contact, *surface_, poisson_ratio);
+  return std::make_shared<const FeatureEstimate>(level(1).shared, *surface_, poisson_ratio);
+}
+
+std::size_t ContactBodies::held_bytes() const {
+  std::size_t sum = 0;
+  for (const auto& body : featured_) sum += hapsim::held_bytes(body);
+  for (const auto& level : levels_) sum += hapsim::held_bytes(level);
+  return sum;
 }
 
 StiffnessSolution ContactBodies::solve_featured(const Material& material) {

@@ -45,6 +45,10 @@ struct StiffnessSolution {
   Vec3 point, normal;             // of the contact on the surface
   std::string unfit;              // why there is none (ContactUnfit); "": there is
   std::vector<float> plan_share;  // share of the strain energy by cell of the grid
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(dK_dmodulus) + hapsim::held_bytes(dK_dfeature) +
+           hapsim::held_bytes(unfit) + hapsim::held_bytes(plan_share);
+  }
 };
 
 // The finer mesh of a position has this edge length at the tool's rim, as a share of the radius,
@@ -88,9 +92,10 @@ class ContactBodies {
   StiffnessSolution solve_corrected(const Material& material, const UnitPair& fine,
                                     const UnitPair& coarse);
   void forget_systems();  // that the last two keep
-  // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh. These
-  // bodies must outlive it.
-  std::unique_ptr<const FeatureEstimate> estimate(double poisson_ratio);
+  // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh, which
+  // it shares.
+  std::shared_ptr<const FeatureEstimate> estimate(double poisson_ratio);
+  std::size_t held_bytes() const;  // meshes and matrices; not the surface
 
  private:
   struct Level;

@@ -56,10 +56,10 @@ constexpr int kDepths = 200;
 
 }  // namespace
 
-FeatureEstimate::FeatureEstimate(const ContactMesh& contact, const SurfaceTree& free_surface,
-                                 double poisson_ratio)
-    : mesh_(contact.mesh), nu_(poisson_ratio) {
-  const Fields phi = homogeneous_fields(contact, nu_);
+FeatureEstimate::FeatureEstimate(std::shared_ptr<const ContactMesh> contact,
+                                 const SurfaceTree& free_surface, double poisson_ratio)
+    : contact_(std::move(contact)), mesh_(contact_->mesh), nu_(poisson_ratio) {
+  const Fields phi = homogeneous_fields(*contact_, nu_);
   const UnitLaw law = unit_law(nu_, {});
   const BlockMaker block(law.D);
   std::vector<Eigen::Matrix3d> reaction(mesh_.nodes.size(), Eigen::Matrix3d::Zero());
@@ -97,7 +97,7 @@ FeatureEstimate::FeatureEstimate(const ContactMesh& contact, const SurfaceTree& 
       middle += mesh_.nodes[n];
       ++held;
     }
-  if (held > 0) height_ = std::abs(contact.point.z() - middle.z() / held);
+  if (held > 0) height_ = std::abs(contact_->point.z() - middle.z() / held);
 }
 
 // Each tetrahedron's share is spread evenly over the depths between its corners.

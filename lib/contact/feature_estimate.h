@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "contact/share_tree.h"
@@ -22,9 +23,9 @@ namespace hapsim {
 //   high above the base.
 class FeatureEstimate {
  public:
-  // Solves the homogeneous body of this Poisson's ratio on the mesh, once; the mesh must outlive
-  // the estimate. Error(kNoConvergence) when the body is not held.
-  FeatureEstimate(const ContactMesh& contact, const SurfaceTree& free_surface,
+  // Solves the homogeneous body of this Poisson's ratio on the mesh, once, and shares the mesh.
+  // Error(kNoConvergence) when the body is not held.
+  FeatureEstimate(std::shared_ptr<const ContactMesh> contact, const SurfaceTree& free_surface,
                   double poisson_ratio);
 
   struct Change {
@@ -32,6 +33,10 @@ class FeatureEstimate {
     std::vector<Eigen::Matrix3d> by_value;  // over the value's unit
   };
   Change at(const BodyFeature& feature) const;
+  std::size_t held_bytes() const {  // the mesh with it
+    return hapsim::held_bytes(contact_) + hapsim::held_bytes(tree_) + hapsim::held_bytes(shallow_) +
+           hapsim::held_bytes(base_);
+  }
 
  private:
   Change of_zone(const Eigen::Matrix3d& share, const std::vector<Eigen::Matrix3d>& share_by,
@@ -49,7 +54,8 @@ class FeatureEstimate {
     Eigen::Matrix3d compliance;  // R' C R for a bed of 1 m
   };
 
-  const TetMesh& mesh_;
+  std::shared_ptr<const ContactMesh> contact_;
+  const TetMesh& mesh_;                   // of the contact
   double nu_, height_ = 0;                // [m] of the contact over the base
   Eigen::Matrix3d inverse_;               // L^-1
   ShareTree tree_;                        // of S; the sum of all is the identity

@@ -29,6 +29,8 @@ class FeaturedBody {
   Solution solve(const Material& material);
   // Gives back the matrix that is kept for the next solution (some 40 MB).
   void forget_system() { system_.reset(); }
+  // That matrix; not the mesh, nor the surface.
+  std::size_t held_bytes() const { return hapsim::held_bytes(system_); }
 
  private:
   struct Moduli;  // by element, with derivatives

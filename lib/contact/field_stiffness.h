@@ -55,6 +55,9 @@ class FieldBody {
 
   std::size_t elements() const { return contact_.mesh.tets.size(); }
   const Vec3& normal() const { return contact_.normal; }
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(contact_) + hapsim::held_bytes(body_) + hapsim::held_bytes(weights_);
+  }
 
  private:
   ContactMesh contact_;

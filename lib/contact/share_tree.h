@@ -25,6 +25,9 @@ class ShareTree {
   // Elements that the boundary cuts count by the share of their volume (inside_share). The level
   // set's `clear` decides what is on one side.
   Inside inside(const LevelSet& level, std::size_t parameters) const;
+  std::size_t held_bytes() const {  // the mesh without
+    return hapsim::held_bytes(share_) + hapsim::held_bytes(order_) + hapsim::held_bytes(nodes_);
+  }
 
  private:
   struct Node {

@@ -107,7 +107,7 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
   library.cache = options.cache;
   library.rim_edge = options.rim_edge;
   library.draft = options.draft;
-  if (options.kept == 0) library.kept = 0;
+  library.memo = std::make_shared<Memo>(options.memory);
   if (options.progress) library.step = options.progress(dataset.positions.size());
   std::vector<std::shared_ptr<const ContactLibrary>> libraries;
   for (const Setup& s : dataset.setups)
@@ -115,7 +115,7 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
                                                          s.tool_radius, library));
   Places places = [&] {
     try {
-      return Places(libraries, dataset, options.nu_low, options.nu_high, options.kept);
+      return Places(libraries, dataset, options.nu_low, options.nu_high);
     } catch (const Error& error) {  // names the contact, not the file in which it stands
       if (error.code() != ExitCode::kBadInput) throw;
       throw Error(error.code(), dataset.recording.name, error.what(), "");

@@ -57,7 +57,8 @@ struct ExperimentOptions {
   // What becomes of places at which the tool's disc does not fit: left out with their presses, or
   // taken for the nearest one at which it does.
   bool borrow = false;
-  std::size_t kept = 32;  // solutions and the like kept in memory; see SetupPlaces
+  // Meshes, matrices and solutions kept in memory for later, of all bodies and tools [bytes].
+  std::size_t memory = Memo::kDefaultBudget;
   std::function<std::function<void()>(std::size_t)> progress;  // from the count, a step function
 };
 

@@ -8,7 +8,7 @@
 namespace hapsim {
 
 Places::Places(const std::vector<std::shared_ptr<const ContactLibrary>>& libraries,
-               const Dataset& dataset, double nu_low, double nu_high, std::size_t kept) {
+               const Dataset& dataset, double nu_low, double nu_high) {
   std::vector<std::vector<Vec3>> positions(libraries.size());
   auto place = std::make_shared<std::vector<Linearisation::Place>>();
   for (std::size_t p = 0; p < dataset.positions.size(); ++p) {
@@ -18,7 +18,7 @@ Places::Places(const std::vector<std::shared_ptr<const ContactLibrary>>& librari
   }
   place_ = std::move(place);
   for (std::size_t s = 0; s < libraries.size(); ++s)
-    setups_.push_back(SetupPlaces::prepare(libraries[s], positions[s], nu_low, nu_high, kept));
+    setups_.push_back(SetupPlaces::prepare(libraries[s], positions[s], nu_low, nu_high));
 }
 
 Places Places::chosen(const std::vector<std::size_t>& places) const {

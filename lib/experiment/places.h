@@ -13,9 +13,9 @@ namespace hapsim {
 class Places {
  public:
   // libraries[s] is that of dataset.setups[s]. Prepares all positions for Poisson's ratios in
-  // [nu_low, nu_high]. `kept`: see SetupPlaces.
+  // [nu_low, nu_high].
   Places(const std::vector<std::shared_ptr<const ContactLibrary>>& libraries,
-         const Dataset& dataset, double nu_low, double nu_high, std::size_t kept);
+         const Dataset& dataset, double nu_low, double nu_high);
 
   // Some of these places, in this order.
   Places chosen(const std::vector<std::size_t>& places) const;

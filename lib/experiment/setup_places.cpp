@@ -56,105 +56,141 @@ bool same_regions(const MaterialSpec& a, const MaterialSpec& b) {
   return true;
 }
 
-SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library, std::vector<Vec3> positions,
-                         std::vector<PreparedContact> contacts, double nu_low, double nu_high,
-                         std::size_t kept)
+namespace {
+
+std::size_t held_bytes(const MaterialSpec& m) {
+  std::size_t sum = hapsim::held_bytes(m.modulus) + hapsim::held_bytes(m.modulus_column) +
+                    hapsim::held_bytes(m.key_point) + hapsim::held_bytes(m.key_region) +
+                    m.features.capacity() * sizeof(FeatureSpec);
+  for (const FeatureSpec& f : m.features)
+    sum += hapsim::held_bytes(f.feature.value) + hapsim::held_bytes(f.column);
+  return sum;
+}
+
+}  // namespace
+
+std::size_t held_bytes(const SolvedPlaces& solved) {
+  return held_bytes(solved.material) + held_bytes(solved.solutions);
+}
+
+std::size_t held_bytes(const PreparedPlaces& prepared) {
+  return held_bytes(prepared.positions) + held_bytes(prepared.contacts);
+}
+
+SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library,
+                         std::shared_ptr<const PreparedPlaces> prepared, double nu_low,
+                         double nu_high)
     : library_(std::move(library)),
-      positions_(std::move(positions)),
-      contacts_(std::move(contacts)),
+      prepared_(std::move(prepared)),
       nu_low_(nu_low),
       nu_high_(nu_high),
-      kept_(kept),
-      moved_(std::make_unique<Memo<std::string, std::shared_ptr<const SetupPlaces>>>(kept)),
-      solved_(std::make_unique<Memo<std::string, std::shared_ptr<const SolvedPlaces>>>(kept)),
-      shares_(std::make_unique<Memo<std::string, std::shared_ptr<const RegionShares>>>(kept)),
-      estimates_(
-          std::make_unique<Memo<std::string, std::shared_ptr<const FeatureEstimates>>>(kept)) {}
+      content_(library_->content()) {
+  content_.add(nu_low_);
+  content_.add(nu_high_);
+  for (const Vec3& p : positions()) content_.add(p.data(), 3 * sizeof(double));
+}
+
+template <class Value, class Make>
+std::shared_ptr<const Value> SetupPlaces::kept(const std::string& about, const Make& make) const {
+  ContentHash hash = content_;
+  hash.add(about);
+  const std::string key = hash.hex();
+  if (auto known = library_->memo().find<Value>(key)) return known;
+  std::shared_ptr<const Value> made = make();
+  library_->memo().put(key, made);
+  return made;
+}
+
+std::shared_ptr<const SetupPlaces> SetupPlaces::of(
+    std::shared_ptr<const PreparedPlaces> prepared) const {
+  return std::shared_ptr<const SetupPlaces>(
+      new SetupPlaces(library_, std::move(prepared), nu_low_, nu_high_));
+}
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::prepare(
     std::shared_ptr<const ContactLibrary> library, const std::vector<Vec3>& positions,
-    double nu_low, double nu_high, std::size_t kept) {
-  std::vector<PreparedContact> contacts = library->prepare(positions, nu_low, nu_high);
+    double nu_low, double nu_high) {
+  auto prepared = std::make_shared<const PreparedPlaces>(
+      PreparedPlaces{positions, library->prepare(positions, nu_low, nu_high)});
   return std::shared_ptr<const SetupPlaces>(
-      new SetupPlaces(std::move(library), positions, std::move(contacts), nu_low, nu_high, kept));
+      new SetupPlaces(std::move(library), std::move(prepared), nu_low, nu_high));
+}
+
+std::shared_ptr<const PreparedPlaces> SetupPlaces::prepare_at(
+    const std::vector<Vec3>& positions) const {
+  PreparedPlaces places{positions, library_->prepare(positions, nu_low_, nu_high_)};
+  for (const PreparedContact& contact : places.contacts)
+    if (!contact.unfit.empty())
+      fail_numerics("where the body has moved", contact.unfit, "leave the place out");
+  return std::make_shared<const PreparedPlaces>(std::move(places));
 }
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::with_positions(
     const std::vector<Vec3>& positions) const {
-  auto places = prepare(library_, positions, nu_low_, nu_high_, kept_);
-  for (const PreparedContact& contact : places->contacts())
-    if (!contact.unfit.empty())
-      fail_numerics("where the body has moved", contact.unfit, "leave the place out");
-  return places;
+  return of(prepare_at(positions));
 }
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::chosen(
     const std::vector<std::size_t>& places) const {
-  std::vector<Vec3> positions;
-  std::vector<PreparedContact> contacts;
+  PreparedPlaces some;
   for (const std::size_t p : places) {
-    positions.push_back(positions_[p]);
-    contacts.push_back(contacts_[p]);
+    some.positions.push_back(positions()[p]);
+    some.contacts.push_back(contacts()[p]);
   }
-  return std::shared_ptr<const SetupPlaces>(new SetupPlaces(
-      library_, std::move(positions), std::move(contacts), nu_low_, nu_high_, kept_));
+  return of(std::make_shared<const PreparedPlaces>(std::move(some)));
 }
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::before_move(const MaterialSpec& m) const {
   if (!has_moved(m)) return shared_from_this();
-  ContentHash hash;
-  hash.add(m.shift.data(), 3 * sizeof(double));
-  hash.add(m.rotation.data(), 3 * sizeof(double));
-  const std::string key = hash.hex();
-  if (auto known = moved_->find(key)) return known;
-  const Vec3 middle = middle_of(positions_);
-  std::vector<Vec3> there;
-  for (const Vec3& p : positions_) there.push_back(moved_back(p, middle, m.shift, m.rotation));
-  auto places = with_positions(there);
-  moved_->put(key, places);
-  return places;
+  ContentHash move;
+  move.add(m.shift.data(), 3 * sizeof(double));
+  move.add(m.rotation.data(), 3 * sizeof(double));
+  return of(kept<PreparedPlaces>(move.hex(), [&] {
+    const Vec3 middle = middle_of(positions());
+    std::vector<Vec3> there;
+    for (const Vec3& p : positions()) there.push_back(moved_back(p, middle, m.shift, m.rotation));
+    return prepare_at(there);
+  }));
 }
 
 std::shared_ptr<const SolvedPlaces> SetupPlaces::solve(const MaterialSpec& material) const {
-  const std::string key = content(material);
-  if (auto known = solved_->find(key)) return known;
-  Material m;
-  m.nu = material.nu;
-  m.modulus.clear();
-  for (const double modulus : material.modulus) m.modulus.push_back(modulus / material.modulus[0]);
-  if (has_regions(material))
-    m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
-  for (const FeatureSpec& f : material.features) m.features.push_back(f.feature);
-  auto solved = std::make_shared<SolvedPlaces>();
-  solved->material = material;
-  solved->material.modulus = m.modulus;
-  solved->solutions = library_->solve(positions_, contacts_, m, layout(material).hex());
-  solved_->put(key, solved);
-  return solved;
+  return kept<SolvedPlaces>(content(material), [&] {
+    Material m;
+    m.nu = material.nu;
+    m.modulus.clear();
+    for (const double modulus : material.modulus)
+      m.modulus.push_back(modulus / material.modulus[0]);
+    if (has_regions(material))
+      m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
+    for (const FeatureSpec& f : material.features) m.features.push_back(f.feature);
+    auto solved = std::make_shared<SolvedPlaces>();
+    solved->material = material;
+    solved->material.modulus = m.modulus;
+    solved->solutions = library_->solve(positions(), contacts(), m, layout(material).hex());
+    return solved;
+  });
 }
 
 std::shared_ptr<const RegionShares> SetupPlaces::shares(const MaterialSpec& material) const {
-  const std::string key = layout(material).hex();
-  if (auto known = shares_->find(key)) return known;
-  const PlanGrid& grid = library_->grid();
-  std::vector<int> region(static_cast<std::size_t>(grid.columns) * grid.rows);
-  for (std::size_t c = 0; c < region.size(); ++c)
-    region[c] = region_at(material, grid.centre(static_cast<int>(c)));
-  auto shares = std::make_shared<RegionShares>();
-  for (const PreparedContact& contact : contacts_) {
-    std::vector<double> share(material.modulus.size(), 0.0);
-    for (std::size_t c = 0; c < region.size(); ++c) share[region[c]] += contact.plan_share[c];
-    shares->push_back(share);
-  }
-  shares_->put(key, shares);
-  return shares;
+  return kept<RegionShares>(layout(material).hex(), [&] {
+    const PlanGrid& grid = library_->grid();
+    std::vector<int> region(static_cast<std::size_t>(grid.columns) * grid.rows);
+    for (std::size_t c = 0; c < region.size(); ++c)
+      region[c] = region_at(material, grid.centre(static_cast<int>(c)));
+    auto shares = std::make_shared<RegionShares>();
+    for (const PreparedContact& contact : contacts()) {
+      std::vector<double> share(material.modulus.size(), 0.0);
+      for (std::size_t c = 0; c < region.size(); ++c) share[region[c]] += contact.plan_share[c];
+      shares->push_back(share);
+    }
+    return shares;
+  });
 }
 
 std::shared_ptr<const FeatureEstimates> SetupPlaces::estimates() const {
-  if (auto known = estimates_->find("")) return known;
-  auto made = std::make_shared<const FeatureEstimates>(library_->estimates(positions_));
-  estimates_->put("", made);
-  return made;
+  return kept<FeatureEstimates>("", [&] {
+    return std::make_shared<const FeatureEstimates>(library_->estimates(positions()));
+  });
 }
 
 }  // namespace hapsim

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "base/memo.h"
 #include "contact/contact_library.h"
 #include "effects/effect.h"
 #include "experiment/registration.h"
@@ -17,19 +16,27 @@ struct SolvedPlaces {
   MaterialSpec material;                     // its moduli over that of region 0
   std::vector<StiffnessSolution> solutions;  // by place
 };
+std::size_t held_bytes(const SolvedPlaces& solved);
+
 using RegionShares = std::vector<std::vector<double>>;  // [place][region], sums to 1
 using FeatureEstimates = std::vector<std::shared_ptr<const FeatureEstimate>>;  // by place
 
+// Where a body is pressed, and the homogeneous body there.
+struct PreparedPlaces {
+  std::vector<Vec3> positions;
+  std::vector<PreparedContact> contacts;
+};
+std::size_t held_bytes(const PreparedPlaces& prepared);
+
 // Everything it gives depends on its constructor's arguments and on what is asked alone. What is
-// dear and constant (solutions, shares, estimates, moved bodies) is kept by content, up to `kept`
-// of each; keeping nothing costs time and changes no result. Safe for threads.
+// dear and constant (solutions, shares, estimates, moved bodies) is kept by content in the
+// library's memo; keeping nothing costs time and changes no result. Safe for threads.
 class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
  public:
   // Prepares all positions for Poisson's ratios in [nu_low, nu_high].
   static std::shared_ptr<const SetupPlaces> prepare(std::shared_ptr<const ContactLibrary> library,
                                                     const std::vector<Vec3>& positions,
-                                                    double nu_low, double nu_high,
-                                                    std::size_t kept);
+                                                    double nu_low, double nu_high);
   // The same body pressed by the same tool at other positions. Error(kNoConvergence) where the tool
   // does not fit.
   std::shared_ptr<const SetupPlaces> with_positions(const std::vector<Vec3>& positions) const;
@@ -47,29 +54,26 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
   std::shared_ptr<const FeatureEstimates> estimates() const;
 
   int threads() const { return library_->threads(); }
-  const std::vector<PreparedContact>& contacts() const { return contacts_; }
-  const std::vector<Vec3>& positions() const { return positions_; }
+  const std::vector<PreparedContact>& contacts() const { return prepared_->contacts; }
+  const std::vector<Vec3>& positions() const { return prepared_->positions; }
   const Surface& surface() const { return library_->surface(); }
   const PlanGrid& grid() const { return library_->grid(); }  // of the contacts' plan_share
   // The move that the contact points' distances from the surface show.
-  RigidMove move() const { return register_points(positions_, library_->surface()); }
+  RigidMove move() const { return register_points(positions(), library_->surface()); }
 
  private:
-  SetupPlaces(std::shared_ptr<const ContactLibrary> library, std::vector<Vec3> positions,
-              std::vector<PreparedContact> contacts, double nu_low, double nu_high,
-              std::size_t kept);
+  SetupPlaces(std::shared_ptr<const ContactLibrary> library,
+              std::shared_ptr<const PreparedPlaces> prepared, double nu_low, double nu_high);
+  std::shared_ptr<const SetupPlaces> of(std::shared_ptr<const PreparedPlaces> prepared) const;
+  std::shared_ptr<const PreparedPlaces> prepare_at(const std::vector<Vec3>& positions) const;
+  // The value of that type for these places and what `about` says; made where it is not kept.
+  template <class Value, class Make>
+  std::shared_ptr<const Value> kept(const std::string& about, const Make& make) const;
 
   std::shared_ptr<const ContactLibrary> library_;
-  std::vector<Vec3> positions_;
-  std::vector<PreparedContact> contacts_;
+  std::shared_ptr<const PreparedPlaces> prepared_;
   double nu_low_, nu_high_;
-  std::size_t kept_;
-  template <class Value>
-  using Kept = std::unique_ptr<Memo<std::string, std::shared_ptr<const Value>>>;
-  Kept<SetupPlaces> moved_;
-  Kept<SolvedPlaces> solved_;
-  Kept<RegionShares> shares_;
-  Kept<FeatureEstimates> estimates_;
+  ContentHash content_;  // of all of these
 };
 
 bool has_moved(const MaterialSpec& material);

@@ -23,7 +23,6 @@ namespace {
 using PlanPoint = Eigen::Vector2d;
 
 constexpr int kScanPoints = 20000;
-constexpr std::size_t kKept = 24;  // meshes, some 40 MB each
 
 // Mean distance of the positions from their nearest neighbour.
 double spacing_of(const std::vector<Vec3>& positions) {
@@ -60,7 +59,7 @@ class BoundaryProblem {
         spacing_(spacing),
         options_(options),
         contacts_(mesh, experiment.places, dataset_.recording.tool_radius(), material_of(model_).nu,
-                  plan_nodes(mesh, dataset_.recording.tool_radius()), kKept),
+                  plan_nodes(mesh, dataset_.recording.tool_radius()), Memo::kDefaultBudget),
         measured_(measured_forces(dataset_, selection_)),
         weights_(dataset_, selection_, model_forces(fitted, experiment, selection_, false).f,
                  options.fit.noise, options.fit.floor) {

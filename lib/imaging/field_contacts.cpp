@@ -2,27 +2,25 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <string>
 
 namespace hapsim {
 
 FieldContacts::FieldContacts(const TetMesh& body, const Places& places, double tool_radius,
-                             double nu, const FieldGrid& grid, std::size_t keep)
+                             double nu, const FieldGrid& grid, std::size_t memory)
     : places_(places),
       base_(make_contact_base(body)),
       tool_radius_(tool_radius),
       nu_(nu),
       grid_(grid),
-      keep_(keep) {}
+      memo_(memory) {}
 
-FieldContacts::Prepared FieldContacts::take(std::size_t position) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (auto node = kept_.extract(position); !node.empty()) return std::move(node.mapped());
-  }
-  return {std::make_unique<FieldBody>(base_, places_.position(position), tool_radius_,
-                                      kFieldRim * tool_radius_, kGrowth, grid_),
-          {},
-          false};
+std::shared_ptr<FieldContacts::Prepared> FieldContacts::take(std::size_t position) {
+  if (auto kept = memo_.take<Prepared>(std::to_string(position))) return kept;
+  auto prepared = std::make_shared<Prepared>();
+  prepared->body = std::make_unique<FieldBody>(base_, places_.position(position), tool_radius_,
+                                               kFieldRim * tool_radius_, kGrowth, grid_);
+  return prepared;
 }
 
 Eigen::Matrix3d FieldContacts::scale(std::size_t position, const Eigen::Matrix3d& K_coarse) const {
@@ -32,16 +30,15 @@ Eigen::Matrix3d FieldContacts::scale(std::size_t position, const Eigen::Matrix3d
 }
 
 FieldContacts::Contact FieldContacts::at(std::size_t position, const Eigen::VectorXd& field) {
-  Prepared prepared = take(position);
+  std::shared_ptr<Prepared> prepared = take(position);
   const Eigen::VectorXd homogeneous = Eigen::VectorXd::Zero(field.size());
-  if (!prepared.has_S && field != homogeneous)
-    prepared.S = scale(position, prepared.body->solve(nu_, homogeneous, false).K);
-  const FieldBody::Solution solution = prepared.body->solve(nu_, field, true);
-  if (!prepared.has_S && field == homogeneous) prepared.S = scale(position, solution.K);
-  prepared.has_S = true;
-  Contact contact{prepared.S, solution.K, prepared.body->by_node(solution)};
-  const std::lock_guard lock(mutex_);
-  if (kept_.size() < keep_) kept_.emplace(position, std::move(prepared));
+  if (!prepared->has_S && field != homogeneous)
+    prepared->S = scale(position, prepared->body->solve(nu_, homogeneous, false).K);
+  const FieldBody::Solution solution = prepared->body->solve(nu_, field, true);
+  if (!prepared->has_S && field == homogeneous) prepared->S = scale(position, solution.K);
+  prepared->has_S = true;
+  Contact contact{prepared->S, solution.K, prepared->body->by_node(solution)};
+  memo_.put_if_room(std::to_string(position), std::move(prepared));
   return contact;
 }
 

@@ -1,11 +1,10 @@
 // The contact stiffness of a model's positions when the modulus is a field over the body.
 #pragma once
 
-#include <map>
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "base/memo.h"
 #include "contact/field_stiffness.h"
 #include "experiment/places.h"
 
@@ -18,9 +17,9 @@ constexpr double kFieldRim = 0.25;
 class FieldContacts {
  public:
   // `places` gives the positions and their homogeneous stiffness at `nu`. Meshes and matrices
-  // (some 40 MB a position) are kept for the next field, up to `keep` positions.
+  // (some 40 MB a position) are kept for the next field, up to `memory` bytes.
   FieldContacts(const TetMesh& body, const Places& places, double tool_radius, double nu,
-                const FieldGrid& grid, std::size_t keep);
+                const FieldGrid& grid, std::size_t memory);
 
   // At one position, for a body whose modulus is exp(field) at the nodes of the grid [N/m]:
   // K = S K_c S' of the coarser mesh's K_c, with S such that a homogeneous body has the model's own
@@ -43,8 +42,9 @@ class FieldContacts {
     std::unique_ptr<FieldBody> body;
     Eigen::Matrix3d S;
     bool has_S = false;
+    std::size_t held_bytes() const { return hapsim::held_bytes(body); }
   };
-  Prepared take(std::size_t position);
+  std::shared_ptr<Prepared> take(std::size_t position);
   // S of K_coarse, that of the homogeneous body.
   Eigen::Matrix3d scale(std::size_t position, const Eigen::Matrix3d& K_coarse) const;
 
@@ -52,9 +52,7 @@ class FieldContacts {
   ContactBase base_;
   double tool_radius_, nu_;
   FieldGrid grid_;
-  std::size_t keep_;
-  std::mutex mutex_;
-  std::map<std::size_t, Prepared> kept_;
+  Memo memo_;
 };
 
 }  // namespace hapsim

@@ -15,6 +15,10 @@ template <int B, class Number>
 struct BlockSparse {
   LowerPattern pattern;
   std::vector<Number> value;
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(pattern.start) + hapsim::held_bytes(pattern.row) +
+           hapsim::held_bytes(value);
+  }
 };
 
 // The matrix with its blocks in the given order.

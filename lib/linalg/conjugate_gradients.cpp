@@ -38,6 +38,7 @@ struct ConjugateGradients::Impl {
   virtual bool prepare(const SymmetricSparse& matrix) = 0;
   virtual void multiply_by_matrix(const Vector& x, Vector& y) const = 0;
   virtual void precondition(Vector& z) const = 0;
+  virtual std::size_t held_bytes() const = 0;
   std::vector<int> order;  // of the unknowns
   Eigen::VectorXd scale;   // 1 / sqrt(diagonal), in that order
   double shift = 0;
@@ -78,6 +79,11 @@ struct Blocked : Base {
     multiply(a, x.data(), y.data());
   }
   void precondition(Vector& z) const override { apply_inverse(l, z.data()); }
+  std::size_t held_bytes() const override {
+    using hapsim::held_bytes;
+    return sizeof *this + held_bytes(a) + held_bytes(l) + held_bytes(this->order) +
+           held_bytes(this->scale);
+  }
 };
 
 }  // namespace
@@ -181,6 +187,10 @@ IterationReport ConjugateGradients::solve(const Eigen::MatrixXd& b, Eigen::Matri
         x(order[i], first + l) = impl_->scale[i] * y[kLanes * i + l];
   }
   return all;
+}
+
+std::size_t ConjugateGradients::held_bytes() const {
+  return impl_ ? impl_->held_bytes() : 0;
 }
 
 double ConjugateGradients::shift() const {

@@ -36,6 +36,7 @@ class ConjugateGradients {
   // reported, not thrown.
   IterationReport solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x, double tolerance = 1e-8,
                         int limit = 0) const;
+  std::size_t held_bytes() const;
   double shift() const;  // by which the unit diagonal was raised
 
  private:

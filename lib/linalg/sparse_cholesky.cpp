@@ -103,6 +103,10 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) c
   return cholmod_solution(impl_->factor, right_hand_sides, &impl_->common);
 }
 
+std::size_t SparseCholesky::held_bytes() const {
+  return sizeof(Impl) + impl_->common.memory_inuse;
+}
+
 double SparseCholesky::factor_nonzeros() const {
   return impl_->common.lnz;
 }

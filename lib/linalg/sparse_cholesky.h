@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "base/held_bytes.h"
+
 namespace hapsim {
 
 // Lower triangle of a symmetric matrix in compressed columns, rows ascending within a column.
@@ -14,6 +16,9 @@ struct SymmetricSparse {
   std::vector<int> column_start;  // size + 1
   std::vector<int> row;
   std::vector<double> value;
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(column_start) + hapsim::held_bytes(row) + hapsim::held_bytes(value);
+  }
 };
 
 // Analyses a pattern once and factorises any values on it. Not to be shared between threads; one
@@ -32,6 +37,7 @@ class SparseCholesky {
   // Solution of A X = B by the last factorisation; B is size x m.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
   double factor_nonzeros() const;
+  std::size_t held_bytes() const;  // the factor and its work space
 
  private:
   struct Impl;

@@ -34,6 +34,9 @@ class StiffnessSolver {
   bool factorise(const SymmetricSparse& matrix);
   // A X = B. Error(kNoConvergence) when the iteration stops above a relative residual of 2e-9.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(direct_) + hapsim::held_bytes(iterative_);
+  }
 
  private:
   std::unique_ptr<SparseCholesky> direct_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/held_bytes.h"
 #include "base/vec3.h"
 #include "mesh/surface.h"
 
@@ -21,6 +22,10 @@ struct TetMesh {
   std::vector<int> region;                // one a tetrahedron
   std::vector<std::uint8_t> fixed;        // one a node; 1: bonded to the support
   std::vector<Triangle> faces;            // boundary, corner nodes, outward
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(nodes) + hapsim::held_bytes(tets) + hapsim::held_bytes(region) +
+           hapsim::held_bytes(fixed) + hapsim::held_bytes(faces);
+  }
 };
 
 double tet_volume(const TetMesh& mesh, std::size_t tet);  // from the corners, signed [m^3]

@@ -49,6 +49,11 @@ void ElasticBody::factorise(const std::vector<Lame>& lame_of_tet) {
                   "check that the body has fixed nodes, nu < 0.5 and all moduli are positive");
 }
 
+std::size_t ElasticBody::held_bytes() const {
+  using hapsim::held_bytes;
+  return held_bytes(handle_) + held_bytes(system_) + held_bytes(choice_.why) + held_bytes(lame_);
+}
+
 bool ElasticBody::is_touched(std::size_t tet) const {
   const auto begin = mesh_.tets[tet].begin();
   return std::any_of(begin, begin + (mesh_.order == 1 ? 4 : 10),

@@ -80,6 +80,12 @@ void NodeSystem::build_pattern() {
   }
 }
 
+std::size_t NodeSystem::held_bytes() const {
+  using hapsim::held_bytes;
+  return held_bytes(cliques_) + held_bytes(block_) + held_bytes(matrix_) + held_bytes(place_) +
+         held_bytes(place_start_) + held_bytes(solver_);
+}
+
 void NodeSystem::clear() {
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
 }

@@ -18,6 +18,7 @@ struct Cliques {
   std::size_t size() const { return start.size() - 1; }
   int count(std::size_t clique) const { return start[clique + 1] - start[clique]; }
   const int* nodes(std::size_t clique) const { return node.data() + start[clique]; }
+  std::size_t held_bytes() const { return hapsim::held_bytes(start) + hapsim::held_bytes(node); }
 };
 
 class NodeSystem {
@@ -40,6 +41,7 @@ class NodeSystem {
   // Rows of the free nodes of `load` (3 nodes x m) solved for; rows of the others are zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& load) const;
   const SymmetricSparse& matrix() const { return matrix_; }
+  std::size_t held_bytes() const;  // its factor with it
 
  private:
   void build_pattern();

@@ -25,6 +25,9 @@ struct ContactMesh {
   Vec3 point;                    // contact point projected on the surface
   Vec3 normal;                   // outward unit normal of the patch
   double patch_area = 0;         // [m^2], close to pi radius^2
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(mesh) + hapsim::held_bytes(patch_nodes);
+  }
 };
 
 // Imprints the disc of `radius` (a regular polygon of its area) about the surface point nearest to

@@ -22,9 +22,9 @@ class Estimate : public ::testing::Test {
         make_contact_base(test::block_mesh({0.06, 0.05, 0.03}, 6, 6, 4, 1));
     return base;
   }
-  static const ContactMesh& contact() {
-    static const ContactMesh mesh =
-        make_contact_mesh(base(), {0.033, 0.024, 0.03}, kRadius, kRadius / 3, 0.6);
+  static const std::shared_ptr<const ContactMesh>& contact() {
+    static const auto mesh = std::make_shared<const ContactMesh>(
+        make_contact_mesh(base(), {0.033, 0.024, 0.03}, kRadius, kRadius / 3, 0.6));
     return mesh;
   }
   static const FeatureEstimate& estimate() {
@@ -32,7 +32,7 @@ class Estimate : public ::testing::Test {
     return estimate;
   }
   static Eigen::Matrix3d solved(const std::vector<BodyFeature>& features) {
-    static FeaturedBody body(contact(), free_surface(base()));
+    static FeaturedBody body(*contact(), free_surface(base()));
     return body.solve({kNu, {1.0}, nullptr, features}).K;
   }
   // Relative error of the estimated change.

@@ -50,12 +50,12 @@ std::string bytes_of(const Diagnosis& d) {
 }
 
 // Six places on a body with a skin.
-Experiment pressed(std::size_t kept) {
+Experiment pressed(std::size_t memory) {
   ExperimentOptions options;
   options.rim_edge = 0.3;
   options.noise = 0.01;
   options.floor = 0.01;
-  options.kept = kept;
+  options.memory = memory;
   Experiment e =
       make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), test::presses(), options);
   test::measure(e, test::with(test::elastic(1.5e4, 0.42), "layer", {0.002, 3}), 0.01, 4);
@@ -70,7 +70,7 @@ DiagnoseOptions few_flips() {
 }
 
 TEST(SameAnswer, OfADiagnosisAskedTwiceAndInTwoThreads) {
-  const Experiment e = pressed(32);
+  const Experiment e = pressed(Memo::kDefaultBudget);
   const Model model = elastic_model(e, all_episodes(e.dataset));
   const auto ask = [&] { return bytes_of(diagnose(model, e, e.allowance(), few_flips())); };
   const std::string first = ask();
@@ -84,8 +84,8 @@ TEST(SameAnswer, OfADiagnosisAskedTwiceAndInTwoThreads) {
 }
 
 TEST(SameAnswer, OfFitsAndForcesInAnyOrder) {
-  const auto answers = [](std::size_t kept, const std::vector<int>& order) {
-    const Experiment e = pressed(kept);
+  const auto answers = [](std::size_t memory, const std::vector<int>& order) {
+    const Experiment e = pressed(memory);
     const Selection all = all_episodes(e.dataset);
     const Model elastic = test::elastic(1.5e4, 0.42);
     const std::vector<Model> starts{test::with(elastic, "layer", {0.002, 3}),
@@ -107,8 +107,9 @@ TEST(SameAnswer, OfFitsAndForcesInAnyOrder) {
     }
     return bytes;
   };
-  const auto first = answers(32, {0, 1, 2, 3, 4, 5, 6, 7});
-  EXPECT_EQ(answers(32, {7, 2, 5, 0, 3, 6, 1, 4}), first);
+  const auto first = answers(Memo::kDefaultBudget, {0, 1, 2, 3, 4, 5, 6, 7});
+  EXPECT_EQ(answers(Memo::kDefaultBudget, {7, 2, 5, 0, 3, 6, 1, 4}), first);
+  EXPECT_EQ(answers(20'000'000, {1, 4, 3, 0, 7, 6, 5, 2}), first) << "with room for a few";
   EXPECT_EQ(answers(0, {3, 6, 1, 4, 7, 0, 5, 2}), first) << "with nothing kept";
 }
 
