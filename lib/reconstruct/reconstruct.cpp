@@ -4,10 +4,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <exception>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/median.h"
@@ -15,184 +13,25 @@
 #include "mesh/point_index.h"
 #include "mesh/surface_check.h"
 #include "mesh/surface_tree.h"
+#include "reconstruct/choices.h"
 #include "reconstruct/clean_points.h"
 #include "reconstruct/normals.h"
 #include "reconstruct/reconstruct_parts.h"
+#include "reconstruct/usable_points.h"
 #include "repair/self_intersection.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kSeenBelow = 0.5;  // share of the plan view: a scan from all round
-constexpr double kFewSteep = 0.02;  // share of the points: a scan of the upper side alone
-constexpr double kRest = 0.05;      // share of the height cut off such a body so that it can stand
-constexpr double kFarOff = 0.25;    // of the spacing: others are tried when points lie farther off
-constexpr double kNoises = 3;       // ... unless that is the scan's own thickness
-constexpr double kFarthest = 1e6;   // [m]
-constexpr std::size_t kLeastPoints = 12;  // different points
-constexpr double kFlat = 1e-4;            // thickness over width of points in a plane
-constexpr double kFaces = 2000;           // wished when --edge is not given
-
-// Points given once, in their order.
-PointCloud without_doubles(const PointCloud& cloud) {
-  std::vector<std::size_t> order(cloud.points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto key = [&](std::size_t i) {
-    const Vec3& p = cloud.points[i];
-    return std::array<double, 3>{p.x(), p.y(), p.z()};
-  };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  std::vector<char> doubled(order.size(), 0);
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    doubled[order[i]] = key(order[i]) == key(order[i - 1]) ? 1 : 0;
-  }
-  PointCloud once;
-  for (std::size_t i = 0; i < doubled.size(); ++i) {
-    if (doubled[i] != 0) continue;
-    once.points.push_back(cloud.points[i]);
-    if (!cloud.normals.empty()) once.normals.push_back(cloud.normals[i]);
-  }
-  return once;
-}
-
-// Circumcentres underflow with coordinates of 1e-200 m, and normals need not be of unit length in a
-// file: what does not change the shape and would end CGAL's exact numbers.
-void make_tame(PointCloud& cloud) {
-  constexpr double kNothing = 1e-12;  // [m]
-  for (Vec3& p : cloud.points)
-    for (int k = 0; k < 3; ++k)
-      if (std::abs(p[k]) < kNothing) p[k] = 0;
-  for (Vec3& n : cloud.normals) {
-    const double largest = n.cwiseAbs().maxCoeff();
-    if (largest > 0 && std::abs(n.norm() - 1) > 1e-3) n = (n / largest).normalized();
-  }
-}
-
-// What no method can use is refused before any of them sees it.
-void require_body_points(const std::vector<Vec3>& points, ReconstructMethod method,
-                         const std::string& name) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].allFinite()) continue;
-    fail_input(name, fmt::format("point {} is not finite", i), "remove it");
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double far = points[i].cwiseAbs().maxCoeff();
-    if (far >= kFarthest)
-      fail_input(name, fmt::format("point {} lies {:.3g} m away", i, far), "remove it");
-  }
-  require_surface_points(points, name);
-  if (points.size() < kLeastPoints) {
-    fail_input(name, fmt::format("only {} different points", points.size()),
-               fmt::format("scan at least {}, better some hundred", kLeastPoints));
-  }
-  if (method == ReconstructMethod::kAuto || method == ReconstructMethod::kHeight) return;
-  const LocalPlane plane = fit_plane(points);
-  if (plane.spread[0] < kFlat * plane.spread[2]) {
-    fail_input(name, "all points lie in one plane",
-               "scan the sides too, or use --method height with --base-depth");
-  }
-}
-
-// The direction that is up, from the normals when it is to be found.
-Vec3 find_up(const PointCloud& cloud, const ReconstructOptions& options) {
-  if (options.up) return options.up->normalized();
-  Vec3 mean = Vec3::Zero();
-  for (const Vec3& n : cloud.normals) mean += n;
-  mean /= static_cast<double>(cloud.normals.size());
-  // A scan from all round has no mean normal, one from above a long one.
-  if (mean.norm() < 0.3 || mean.z() > 0.5 * mean.norm()) return Vec3::UnitZ();
-  return mean.normalized();
-}
+constexpr double kFarOff = 0.25;  // of the spacing: others are tried when points lie farther off
+constexpr double kNoises = 3;     // ... unless that is the scan's own thickness
+constexpr double kFaces = 2000;   // wished when --edge is not given
 
 PointCloud rotated(const PointCloud& cloud, const Eigen::Matrix3d& r) {
   PointCloud turned = cloud;
   for (Vec3& p : turned.points) p = r * p;
   for (Vec3& n : turned.normals) n = r * n;
   return turned;
-}
-
-std::string percent(double share) {
-  return fmt::format("{:.0f} %", 100 * share);
-}
-
-// Chooses the method and says why; sets has_base.
-void choose_method(const ScanView& view, const ReconstructOptions& options,
-                   ReconstructReport& report) {
-  const bool all_round = view.under_cover > kSeenBelow;
-  const bool has_sides = view.ring_cover >= 0.7;
-  // Of the walls between the lowest points and a bottom clearly below them nothing was seen: what
-  // was is a height over the plan view.
-  const double unseen = options.base ? view.low - *options.base : options.base_depth.value_or(0);
-  const bool upper_side = view.steep_share < kFewSteep && unseen > 2 * view.spacing;
-  report.has_base = !(all_round && options.no_base);
-  if (options.method != ReconstructMethod::kAuto) {
-    report.method = options.method;
-    report.why = "asked for";
-    if (options.method == ReconstructMethod::kHeight) report.has_base = true;
-  } else if (all_round) {
-    report.method = ReconstructMethod::kPoisson;
-    report.why = percent(view.under_cover) + " of the plan view was seen from below too";
-  } else if (has_sides && upper_side) {
-    report.method = ReconstructMethod::kHeight;
-    report.why = fmt::format(
-        "{:.2g} % of the points are steep, and the bottom lies {:.2g} m below the lowest",
-        100 * view.steep_share, unseen);
-  } else if (has_sides) {
-    report.method = ReconstructMethod::kPoisson;
-    report.why = "side walls reach down in " + percent(view.ring_cover) + " of the directions";
-  } else {
-    report.method = ReconstructMethod::kHeight;
-    report.why = "side walls reach down in only " + percent(view.ring_cover) + " of the directions";
-  }
-}
-
-void choose_base(const ScanView& view, const ReconstructOptions& options, const std::string& name,
-                 ReconstructReport& report) {
-  if (options.base) {
-    report.base = *options.base;
-    report.base_why = "as given";
-    if (report.base > view.low + 0.5 * (view.high - view.low)) {
-      fail_input(name,
-                 fmt::format("the base at {:.6g} m lies above half of the body, which spans {:.6g} "
-                             "to {:.6g} m",
-                             report.base, view.low, view.high),
-                 "give --base below the points, in metres");
-    }
-    return;
-  }
-  if (options.base_depth) {
-    report.base = view.low - *options.base_depth;
-    report.base_why = fmt::format("{:.6g} m below the lowest points", *options.base_depth);
-    return;
-  }
-  if (view.under_cover > kSeenBelow && report.method != ReconstructMethod::kHeight) {
-    report.base = view.low + kRest * (view.high - view.low);
-    report.base_why =
-        "cut flat as a support 5 % above the lowest points; --no-base leaves it round";
-    return;
-  }
-  // Scanners stop short of the table; a lowest level within the reach of sampling above the frame's
-  // own plane means that plane.
-  const double reach = std::max(2 * view.spacing, 0.05 * (view.high - view.low));
-  if (std::abs(view.low) < reach && !report.tilted) {
-    report.base = 0;
-    report.base_why = fmt::format("the frame's z = 0, {:.2g} m from the lowest points", view.low);
-  } else if (report.method != ReconstructMethod::kHeight) {
-    report.base = view.low;
-    report.base_why = "the lowest level of the points; --base sets another";
-  } else {
-    const double depth = 0.25 * std::sqrt(view.area);
-    report.base = view.low - depth;
-    report.base_why =
-        fmt::format("a guess, {:.2g} m below the lowest points; --base-depth sets it", depth);
-  }
-}
-
-// How far a body goes on beyond the points.
-double beyond_points(const ScanView& view, const ReconstructOptions& options, double base) {
-  if (options.beyond >= 0) return options.beyond;
-  return std::min((view.low + view.high) / 2 - base, 0.5 * std::sqrt(view.area));
 }
 
 // Fails with kNoConvergence where the result is no body: our fault, not the input's.
@@ -336,31 +175,10 @@ ReconstructMethod method_named(const std::string& name) {
                            : static_cast<ReconstructMethod>(at - names.begin());
 }
 
-void check_size(const std::vector<Vec3>& points, const std::string& unit, const std::string& name) {
-  double size = 0;
-  std::vector<double> along(points.size());
-  const auto cut = static_cast<std::size_t>(0.02 * static_cast<double>(points.size()));
-  for (int k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < points.size(); ++i) along[i] = points[i][k];
-    std::sort(along.begin(), along.end());
-    if (!along.empty()) size = std::max(size, along[along.size() - 1 - cut] - along[cut]);
-  }
-  if (size > 5) {
-    fail_input(name, fmt::format("the surface is {:.3g} m wide when read in {}", size, unit),
-               "give its unit, as --unit mm");
-  }
-  if (size < 1e-3 && size > 0) {
-    fail_input(name, fmt::format("the surface is {:.3g} mm wide when read in {}", 1e3 * size, unit),
-               "give its unit, as --unit m");
-  }
-}
-
 Surface reconstruct(const PointCloud& cloud, const ReconstructOptions& options,
                     const std::string& name, ReconstructReport& report) {
   report = {};
-  PointCloud scan = cloud;
-  make_tame(scan);
-  scan = without_doubles(scan);
+  PointCloud scan = tame_points(cloud);
   require_body_points(scan.points, options.method, name);
   if (scan.normals.empty()) {
     NormalsReport normals;
