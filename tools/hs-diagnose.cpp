@@ -3,6 +3,7 @@
 #include "common_options.h"
 #include "diagnose/diagnosis_table.h"
 #include "experiment/plausible.h"
+#include "fit/fit_words.h"
 #include "plan/press_plan.h"
 #include "shared_flags.h"
 
@@ -146,6 +147,8 @@ int run(const Arguments& arguments) {
   progress.reset();
   if (const std::string unfit = unfit_words(w); !unfit.empty())
     say(arguments, "hs-diagnose", unfit);
+  for (const std::string& known : known_words(model, w.dataset))
+    say(arguments, "hs-diagnose", known);
   DiagnoseOptions diagnose_options;
   diagnose_options.folds = static_cast<int>(arguments[flag::folds]);
   diagnose_options.flips = static_cast<int>(arguments[flag::flips]);

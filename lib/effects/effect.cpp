@@ -47,6 +47,10 @@ std::vector<std::vector<double>> Effect::starts(const DataSummary&, int terms) c
   return {start};
 }
 
+std::vector<double> Effect::known(const DataSummary&) const {
+  return {};
+}
+
 void add_feature(Feature kind, const Values& values, const EffectCard& card,
                  MaterialSpec& material) {
   FeatureSpec spec{{kind, {}}, {}};

@@ -171,6 +171,7 @@ struct DataSummary {
   double temperature = 20;    // to count from [degC]
   double depth = 2e-3;        // deepest displacement [m]
   double tool_radius = 4e-3;  // [m]
+  double ball_radius = 0;     // [m] of a tool that is declared a ball; 0: another
   std::vector<PlaceGain> places;
   Vec3 low = Vec3::Constant(-10), high = Vec3::Constant(10);  // the body's box [m]
   // The move that brings the contact points onto the scanned surface; zero where they lie on it.
@@ -223,6 +224,9 @@ class Effect {
   // Starts for a fit of `terms` terms, each as many values as one parameter set. Default: the
   // card's.
   virtual std::vector<std::vector<double>> starts(const DataSummary& data, int terms) const;
+  // What is known of it before a fit, as values of one parameter set: the effect is in the first
+  // model and not fitted. Default: nothing.
+  virtual std::vector<double> known(const DataSummary& data) const;
   // Bounds of one parameter set for a fit to such data, within the card's. Default: the card's.
   virtual std::vector<std::pair<double, double>> limits(const DataSummary& data) const;
 };

@@ -336,6 +336,10 @@ class Tip : public Effect {
   std::vector<std::vector<double>> starts(const DataSummary&, int) const override {
     return {{20}, {100}, {400}};
   }
+  std::vector<double> known(const DataSummary& data) const override {
+    if (data.ball_radius <= 0) return {};
+    return {1 / data.ball_radius};
+  }
 
  private:
   // Where the straight way from the last place in the air crosses the surface.

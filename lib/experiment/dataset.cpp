@@ -184,6 +184,8 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   summary.has_time = !dataset.recording.t.empty();
   summary.modulus = modulus;
   summary.tool_radius = dataset.setups.front().tool_radius;
+  if (dataset.tools() == 1 && dataset.recording.metadata.find("tool") == "sphere")
+    summary.ball_radius = summary.tool_radius;
   summary.peak_force = 1e-12;
   const std::vector<double>& temp = dataset.recording.temp;
   if (!temp.empty())

@@ -66,11 +66,30 @@ bool comes_back(const PressView& view) {
 
 }  // namespace
 
-Model elastic_model(const Experiment& experiment, const Selection& selection) {
+std::vector<const Effect*> known_but_lacking(const Model& model, const Dataset& dataset) {
+  const DataSummary summary = summarise(dataset, 1);
+  std::vector<const Effect*> effects;
+  for (const Effect* effect : catalogue())
+    if (!model.has(effect->card().name) && !effect->known(summary).empty())
+      effects.push_back(effect);
+  return effects;
+}
+
+Model elastic_model(const Experiment& experiment, const Selection& selection,
+                    const std::vector<std::string>& added) {
   const Dataset& dataset = experiment.dataset;
   const Effect& elastic = body_effect();
+  const DataSummary summary = summarise(dataset, 1);
   Model model;
-  model.parameters = effect_rows(elastic, 1, elastic.starts(summarise(dataset, 1), 1).front());
+  model.parameters = effect_rows(elastic, 1, elastic.starts(summary, 1).front());
+  for (const Effect* effect : known_but_lacking(model, dataset)) {
+    if (std::find(added.begin(), added.end(), effect->card().name) != added.end()) continue;
+    for (Parameter p : effect_rows(*effect, 1, effect->known(summary))) {
+      p.state = ParameterState::kFixed;
+      p.upper = std::max(p.upper, p.value);
+      model.parameters.push_back(p);
+    }
+  }
   const Eigen::VectorXd f = solved_forces(model, experiment, selection, false).f;
   const double power = f.squaredNorm();
   if (power <= 0)

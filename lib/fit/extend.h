@@ -16,8 +16,12 @@ struct ExtendOptions {
   double floor = 0;
 };
 
-// Elastic with E from the overall gain of the forces and nu at its start.
-Model elastic_model(const Experiment& experiment, const Selection& selection);
+// Elastic with E from the overall gain of the forces and nu at its start, and with what is known of
+// other effects before a fit (Effect::known()), but for those that will be `added`.
+Model elastic_model(const Experiment& experiment, const Selection& selection,
+                    const std::vector<std::string>& added = {});
+// Effects that are known before a fit and that a model lacks.
+std::vector<const Effect*> known_but_lacking(const Model& model, const Dataset& dataset);
 
 // Starts of `fitted` with `effect` added (an effect already there gets one more term where it has
 // terms). Uses only the chosen episodes. Error(kUsage) when it is there and cannot be repeated,

@@ -68,7 +68,7 @@ Starts build_starts(const FitRequest& request, const Experiment& w, const Select
                     const Linearisation& known) {
   Model model = request.start;
   if (model.parameters.empty()) {
-    model = elastic_model(w, selection);
+    model = elastic_model(w, selection, request.add);
     for (const std::string& what : request.fix)
       if (what.find("nu") != std::string::npos) set_state(model, what, ParameterState::kFixed);
   }

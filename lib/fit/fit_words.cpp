@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/counted.h"
+#include "effects/catalogue.h"
 #include "estimate/identifiability.h"
 #include "experiment/plausible.h"
 #include "model/body_parameters.h"
@@ -37,6 +38,31 @@ std::vector<std::string> hardly_known(const Model& model) {
   return names;
 }
 
+std::vector<std::string> known_words(const Model& model, const Dataset& dataset) {
+  std::vector<std::string> lines;
+  const DataSummary summary = summarise(dataset, 1);
+  for (const Effect* effect : catalogue()) {
+    const std::vector<double> values = effect->known(summary);
+    const EffectCard& card = effect->card();
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const ParameterCard& p = card.parameters[k];
+      const std::string said = fmt::format("{} {} = {:.4g} {}", card.name, p.name, values[k],
+                                           p.unit == "1" ? "" : p.unit);
+      const Parameter* own = model.find(card.name, 0, p.name);
+      if (own == nullptr)
+        lines.push_back(fmt::format(
+            "the recording's header says {}, which the model lacks: its other values take that up "
+            "(identify it without --model, or --add {})",
+            said, card.name));
+      else if (own->state == ParameterState::kFixed && own->value == values[k])
+        lines.push_back(fmt::format(
+            "{} is what the recording's header says of the tool, and not fitted (--add {} does)",
+            said, card.name));
+    }
+  }
+  return lines;
+}
+
 std::vector<std::string> fit_lines(const Experiment& w, const Fit& result, double held_out,
                                    const std::string& by, double force_rms) {
   std::vector<std::string> lines;
@@ -58,6 +84,7 @@ std::vector<std::string> fit_lines(const Experiment& w, const Fit& result, doubl
         std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error)));
   }
   if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
+  for (const std::string& known : known_words(result.model, w.dataset)) line(known);
   const auto warn = [&](const std::vector<std::string>& names, const char* what) {
     constexpr std::size_t kMost = 4;
     for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);

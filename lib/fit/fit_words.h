@@ -16,6 +16,10 @@ namespace hapsim {
 std::vector<std::string> fit_lines(const Experiment& experiment, const Fit& fitted, double held_out,
                                    const std::string& by, double force_rms);
 
+// What the recording's header says of effects (Effect::known()), where the model has it unfitted or
+// lacks it.
+std::vector<std::string> known_words(const Model& model, const Dataset& dataset);
+
 // Moduli whose standard error is more than half their value, and a Poisson's ratio known to no
 // better than half its range.
 std::vector<std::string> hardly_known(const Model& model);

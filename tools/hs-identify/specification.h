@@ -56,6 +56,10 @@ inline ToolSpec identify_specification() {
       "(" +
           unshared(&EffectCard::one_body) + ") or to one tool (" + unshared(&EffectCard::one_tool) +
           ") is refused where there are several.",
+      "What the recording's header says of the tool is used: with `tool: sphere` a new model "
+      "presses "
+      "with a ball of tool_radius, whose curvature (tip) is fixed there and not fitted, unless tip "
+      "is among the effects.",
       "Effects: " + effect_names() + "."};
   spec.options = experiment_flags();
   std::erase_if(spec.options, [](const Option& o) { return o.name() == flag::body.name; });
