@@ -1,152 +1,14 @@
 // A tool with a spherical tip: the contact grows with the depth until the whole tool is in contact.
 #include <algorithm>
-#include <cmath>
-#include <optional>
 
-#include "effects/effect_step.h"
 #include "effects/effects.h"
 #include "effects/local_contact.h"
+#include "effects/tip_law.h"
+#include "effects/tip_step.h"
 
 namespace hapsim {
+namespace tip {
 namespace {
-
-// Contact radius over the tool's, beta = min(1, sqrt(z/kappa)/a), at depth z; its integral from 0,
-// which is the mean stiffness times z; and the derivatives of both.
-struct Growth {
-  double beta = 0, by_z = 0, by_kappa = 0;
-  double integral = 0, integral_by_kappa = 0;
-};
-
-Growth growth(double z, double kappa, double a) {
-  Growth g;
-  if (z <= 0) return g;
-  const double full = kappa * a * a;
-  if (z >= full) {
-    g.beta = 1;
-    g.integral = z - full / 3;
-    g.integral_by_kappa = -a * a / 3;
-    return g;
-  }
-  g.beta = std::sqrt(z / full);
-  g.by_z = g.beta / (2 * z);
-  g.by_kappa = -g.beta / (2 * kappa);
-  g.integral = 2 * z * g.beta / 3;
-  g.integral_by_kappa = -g.integral / (2 * kappa);
-  return g;
-}
-
-// Mean of beta between two depths, and its derivatives.
-struct MeanGrowth {
-  double value = 0, by_low = 0, by_high = 0, by_kappa = 0;
-};
-
-MeanGrowth mean_growth(double low, double high, double kappa, double a) {
-  const double step = high - low;
-  MeanGrowth mean;
-  if (step <= 1e-7 * high) {  // the difference would cancel; the middle errs by the step squared
-    const Growth middle = growth((low + high) / 2, kappa, a);
-    mean.value = middle.beta;
-    mean.by_low = mean.by_high = middle.by_z / 2;
-    mean.by_kappa = middle.by_kappa;
-    return mean;
-  }
-  const Growth l = growth(low, kappa, a), h = growth(high, kappa, a);
-  mean.value = (h.integral - l.integral) / step;
-  mean.by_high = (h.beta - mean.value) / step;
-  mean.by_low = (mean.value - l.beta) / step;
-  mean.by_kappa = (h.integral_by_kappa - l.integral_by_kappa) / step;
-  return mean;
-}
-
-// A point of the way in: the ring of the tip that touches at depth z did so at the sideways place
-// `side`, when the tangential force over k_t was `force`.
-struct Ring {
-  double z = 0;
-  Vec3 side = Vec3::Zero(), force = Vec3::Zero();
-};
-
-// Tangential force over k_t at depth z and sideways place `side`.
-struct Tangential {
-  Vec3 value = Vec3::Zero(), by_z = Vec3::Zero();
-  double by_side = 0;
-  bool leaving = false;
-  // Leaving: the ring at the contact's border, between which rings of the path it lies and how far.
-  Ring touched;
-  std::size_t segment = 0;
-  double share = 0;
-  MeanGrowth mean;
-};
-
-// A ring carries what the tool moved sideways since it touched, and lets go when it parts: the sum
-// over the rings in contact. `path` runs from the first touch to the last sample, its depths do not
-// fall.
-template <class Path>
-Tangential tangential(const Path& path, double z, const Vec3& side, double kappa, double a) {
-  Tangential t;
-  const Ring& last = path[path.size() - 1];
-  if (z >= last.z) {
-    const MeanGrowth mean = mean_growth(last.z, z, kappa, a);
-    t.value = last.force + mean.value * (side - last.side);
-    t.by_z = mean.by_high * (side - last.side);
-    t.by_side = mean.value;
-    return t;
-  }
-  std::size_t k = 0;  // the last ring that is not deeper, or the first of all
-  for (std::size_t end = path.size(); end - k > 1;) {
-    const std::size_t middle = k + (end - k) / 2;
-    (path[middle].z > z ? end : k) = middle;
-  }
-  const Ring &low = path[k], &high = path[k + 1];
-  t.leaving = true;
-  t.segment = k;
-  t.share = (z - low.z) / (high.z - low.z);
-  t.mean = mean_growth(low.z, z, kappa, a);
-  t.touched.z = z;
-  t.touched.side = low.side + t.share * (high.side - low.side);
-  t.touched.force = low.force + t.mean.value * (t.touched.side - low.side);
-  const Growth here = growth(z, kappa, a);
-  t.value = t.touched.force + here.beta * (side - t.touched.side);
-  t.by_z = here.by_z * (side - t.touched.side);
-  t.by_side = here.beta;
-  return t;
-}
-
-// The tip on the way `path` into the material.
-template <class Path>
-struct TipLaw {
-  const Path& path;
-  const LocalContact& contact;
-  const Vec3& n;
-  double kappa, a;
-  Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - n * n.transpose();
-
-  LocalForce operator()(const Vec3& x) const {
-    LocalForce f;
-    const double z = -x.dot(n), k_n = contact.disc().normal, k_t = contact.disc().tangential;
-    if (z <= 0) return f;
-    const Growth g = growth(z, kappa, a);
-    const Tangential t = tangential(path, z, across * x, kappa, a);
-    f.F = k_t * t.value - k_n * g.integral * n;
-    f.tangent =
-        k_n * g.beta * n * n.transpose() + k_t * t.by_side * across - k_t * t.by_z * n.transpose();
-    return f;
-  }
-};
-
-// The sideways place where the straight way from `before`, in the air, to u crosses the surface.
-struct FirstTouch {
-  double above = 0, all = 0, share = 0;
-  Vec3 side = Vec3::Zero();
-};
-FirstTouch first_touch(const Vec3& n, const Vec3& before, const Vec3& u) {
-  FirstTouch touch;
-  touch.above = std::max(0.0, before.dot(n));
-  touch.all = touch.above - u.dot(n);
-  touch.share = touch.above / touch.all;
-  const Vec3 place = before + touch.share * (u - before);
-  touch.side = place - n * (n.transpose() * place);
-  return touch;
-}
 
 // A ring with its derivatives by the columns.
 struct Level : Ring {
@@ -165,99 +27,6 @@ Level border_level(const std::vector<Level>& path, const Tangential& t) {
                   (border.side - low.side) * (t.mean.by_low * low.dz);
   return border;
 }
-
-// The way in as numbers in a loop's memory: their count, then the rings. When it is full every
-// second ring is forgotten, those at its ends apart.
-class PathMemory {
- public:
-  static constexpr std::size_t kMost = 4096, kNumbers = 1 + 7 * kMost;
-  explicit PathMemory(double* memory) : memory_(memory) {}
-  std::size_t size() const { return static_cast<std::size_t>(memory_[0]); }
-  bool empty() const { return memory_[0] == 0; }
-  void clear() { memory_[0] = 0; }
-  Ring operator[](std::size_t k) const {
-    const double* ring = at(k);
-    return {ring[0], Eigen::Map<const Vec3>(ring + 1), Eigen::Map<const Vec3>(ring + 4)};
-  }
-  void pop_back() { --memory_[0]; }
-  void push_back(const Ring& ring) {
-    if (size() == kMost) forget_half();
-    put(size(), ring);
-    ++memory_[0];
-  }
-  // The same, in stead of a last ring as deep as this and as the one before it, which no other asks
-  // for: a tool that is held still adds nothing.
-  void go_on(const Ring& ring, double still) {
-    if (size() > 1 && ring.z - at(size() - 2)[0] <= still) pop_back();
-    push_back(ring);
-  }
-
- private:
-  double* at(std::size_t k) const { return memory_ + 1 + 7 * k; }
-  void put(std::size_t k, const Ring& ring) {
-    at(k)[0] = ring.z;
-    Eigen::Map<Vec3>(at(k) + 1) = ring.side;
-    Eigen::Map<Vec3>(at(k) + 4) = ring.force;
-  }
-  void forget_half() {
-    std::size_t kept = 1;
-    for (std::size_t k = 2; k < kMost - 1; k += 2) put(kept++, (*this)[k]);
-    put(kept++, (*this)[kMost - 1]);
-    memory_[0] = static_cast<double>(kept);
-  }
-  double* memory_;
-};
-
-// Remembers the last displacement and the way in.
-class TipStep : public EffectStep {
- public:
-  TipStep(double kappa, double radius) : kappa_(kappa), radius_(radius) {}
-  std::size_t memory() const override { return 3 + PathMemory::kNumbers; }
-  void take_place(const StepPlace& place) noexcept override {
-    stiffness_ = place.contact;
-    normal_ = place.normal;
-    contact_.emplace(stiffness_, normal_, radius_);
-  }
-  void move(StepSample& sample, double* memory) noexcept override {
-    Eigen::Map<Vec3> before(memory);
-    PathMemory path(memory + 3);
-    if (sample.first) {
-      before.setZero();
-      path.clear();
-    }
-    const Vec3 tool = sample.u;
-    if (sample.in_air || !contact_ || tool.dot(normal_) >= 0) {
-      path.clear();
-      sample.u.setZero();
-    } else {
-      if (path.empty()) path.push_back({0, first_touch(normal_, before, tool).side, Vec3::Zero()});
-      press(tool, path, sample.u);
-    }
-    before = tool;
-  }
-
- private:
-  // Where no equilibrium is found the tool is a flat one for that sample.
-  void press(const Vec3& tool, PathMemory& path, Vec3& u) const noexcept {
-    const TipLaw<PathMemory> law{path, *contact_, normal_, kappa_, radius_};
-    Vec3 x = tool;
-    LocalForce force;
-    if (!contact_->find(law, tool, x, force)) return;
-    u = tool - x + contact_->disc_way(force.F);
-    const double z = std::max(0.0, -x.dot(normal_));
-    const Tangential t = tangential(path, z, law.across * x, kappa_, radius_);
-    if (t.leaving) {
-      while (path.size() > 1 && path[path.size() - 1].z > z) path.pop_back();
-      path.push_back(t.touched);
-    }
-    path.go_on({z, law.across * x, t.value}, 1e-13 * radius_);
-  }
-
-  double kappa_, radius_;
-  Vec3 normal_ = Vec3::UnitZ();
-  ContactStiffness stiffness_;
-  std::optional<LocalContact> contact_;  // of stiffness_
-};
 
 class Tip : public Effect {
  public:
@@ -325,7 +94,7 @@ class Tip : public Effect {
                                    const StepContext& context) const override {
     const double kappa = find_value(values, "kappa").value;
     if (kappa <= 0) return nullptr;
-    return std::make_unique<TipStep>(kappa, context.tool_radius);
+    return make_step(kappa, context.tool_radius);
   }
 
   bool full(const Values& values, double, FullSpec& spec) const override {
@@ -433,9 +202,10 @@ class Tip : public Effect {
 };
 
 }  // namespace
+}  // namespace tip
 
 const Effect& tip_effect() {
-  static const Tip effect;
+  static const tip::Tip effect;
   return effect;
 }
 
