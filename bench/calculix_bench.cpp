@@ -93,8 +93,10 @@ int main(int argc, char** argv) {
   fs::create_directory(folder);
   fmt::print("{:>8} {:>5} {:>6} {:<28} {:>8} {:>6} {:>10} {:>6}\n", "tets", "order", "patch",
              "program", "s", "MB", "force N", "ratio");
-  for (const auto& [tets, order] :
+  for (const auto& body :
        {std::pair<std::size_t, int>{20000, 1}, {100000, 1}, {6000, 2}, {20000, 2}}) {
+    const std::size_t tets = body.first;
+    const int order = body.second;
     if (argc > 3 && std::atoi(argv[3]) != order) continue;
     const TetMesh mesh = pressed_block(tets, order);
     write_ours(folder, mesh);

@@ -105,7 +105,7 @@ std::size_t first_row(const std::vector<RawRow>& rows, std::size_t width) {
     longest = std::max(longest, i + 1 - runs.back().first);
   }
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    const auto [first, end] = runs[r];
+    const std::size_t first = runs[r].first, end = runs[r].second;
     if (10 * (end - first) >= longest || r + 1 == runs.size()) return first;
     const auto other_header = [&](const RawRow& row) {
       return count_numbers(row) == 0 && known_words(row.cells) >= 2 &&
