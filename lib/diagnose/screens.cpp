@@ -58,6 +58,9 @@ struct Screens::Screen {
         base(make_baseline(all.fitted.model, ground, {})) {}
 };
 
+Screens::Screens(const Baseline& base, const TrialGround& ground, const Departures& departures)
+    : base_(base), ground_(ground), where_(departures.where) {}
+
 Screens::~Screens() = default;
 
 std::optional<Screens::Tried> Screens::try_effect(const Effect& effect, double worth,

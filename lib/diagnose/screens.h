@@ -18,8 +18,7 @@ bool has_many_places(const Dataset& dataset);
 // that departs most. Made when first asked for; the arguments must outlive it.
 class Screens {
  public:
-  Screens(const Baseline& base, const TrialGround& ground, const Departures& departures)
-      : base_(base), ground_(ground), where_(departures.where) {}
+  Screens(const Baseline& base, const TrialGround& ground, const Departures& departures);
   ~Screens();
   Screens(const Screens&) = delete;
   Screens& operator=(const Screens&) = delete;
