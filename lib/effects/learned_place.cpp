@@ -39,7 +39,8 @@ class LearnedPlace : public Effect {
         .equation =
             "f = f_before exp(G(x) + H(x) ln(d/depth)), G(x) = sum_i g_i k(|x - x_i|), H alike, k "
             "= (1 - share) m(r/range) + share m(r/fine) + nugget (r < 0.1 mm), m Matern's "
-            "correlation of order 5/2, d the depth along the normal",
+            "correlation of order 5/2, d the depth along the normal (of a flat tool that is as "
+            "deep)",
         .source =
             "Gaussian process (Rasmussen and Williams, Gaussian Processes for Machine Learning, "
             "2006), its scales those under which each place is likeliest given the others",

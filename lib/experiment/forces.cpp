@@ -55,10 +55,10 @@ void add_memory(const PressView& view, const std::vector<MaxwellStiffness>& rela
   }
 }
 
-// One episode through all effects: from the tool's motion to the sensor's reading.
-Signal episode_forces(const std::vector<EffectInstance>& effects, const MaterialSpec& material,
-                      const PositionStiffness& s, const Episode& episode, const Vec3& position,
-                      Eigen::Index columns, bool derivatives) {
+// A press as the body sees it: its motion has passed all effects that change it.
+PressView press_on_body(const std::vector<EffectInstance>& effects, const MaterialSpec& material,
+                        const PositionStiffness& s, const Episode& episode, const Vec3& position,
+                        Eigen::Index columns, bool derivatives) {
   PressView view = episode.view;
   view.modulus = material.modulus[0];
   view.modulus_column = derivatives ? material.modulus_column[0] : -1;
@@ -67,6 +67,15 @@ Signal episode_forces(const std::vector<EffectInstance>& effects, const Material
   for (const EffectInstance& i : effects) i.effect->move(view, i.values, motion);
   view.u = std::move(motion.u);
   view.du = std::move(motion.du);
+  return view;
+}
+
+// One episode through all effects: from the tool's motion to the sensor's reading.
+Signal episode_forces(const std::vector<EffectInstance>& effects, const MaterialSpec& material,
+                      const PositionStiffness& s, const Episode& episode, const Vec3& position,
+                      Eigen::Index columns, bool derivatives) {
+  const PressView view =
+      press_on_body(effects, material, s, episode, position, columns, derivatives);
   const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
   Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
   for (std::size_t i = 0; i < view.size(); ++i) {
@@ -195,6 +204,21 @@ Signal model_forces(const Model& model, const Dataset& dataset, const StiffnessA
   constexpr Eigen::Index kWorthThreads = 3 * 2000;
   in_parallel(selection.size(), total < kWorthThreads ? 1 : threads, one);
   return all;
+}
+
+std::vector<Vec3> motion_on_body(const Model& model, const Experiment& experiment,
+                                 const Linearisation& about, const Selection& selection) {
+  const std::vector<EffectInstance> effects = effect_instances(model, false);
+  const MaterialSpec material = material_of(model);
+  std::vector<Vec3> motion;
+  for (const int e : selection) {
+    const Episode& episode = experiment.dataset.episodes[e];
+    const auto p = static_cast<std::size_t>(episode.position);
+    const PressView view = press_on_body(effects, material, about.at(p, material), episode,
+                                         experiment.dataset.positions[p], 0, false);
+    motion.insert(motion.end(), view.u.begin(), view.u.end());
+  }
+  return motion;
 }
 
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection) {

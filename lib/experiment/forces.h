@@ -50,6 +50,11 @@ Signal model_forces(const Model& model, const Dataset& dataset, const StiffnessA
                     const Selection& selection, bool derivatives, int threads = 1,
                     Eigen::Index more = 0);
 
+// How a tool that is flat and rigid would move for the body's forces, one vector a row [m]: the
+// recorded motion after all effects that change it.
+std::vector<Vec3> motion_on_body(const Model& model, const Experiment& experiment,
+                                 const Linearisation& about, const Selection& selection);
+
 // The measured forces in the same order.
 Eigen::VectorXd measured_forces(const Dataset& dataset, const Selection& selection);
 

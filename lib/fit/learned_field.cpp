@@ -19,7 +19,8 @@ constexpr std::size_t kFewest = 10;
 // place that hardly answers says little.
 constexpr double kWideFactor = 3, kWidePower = 1.5;
 
-// One pressed place: the model's force without the field, the measured one, and the depth.
+// One pressed place: the model's force without the field, the measured one, and the depth as the
+// body sees it.
 struct PlaceData {
   Vec3 point = Vec3::Zero();
   std::vector<Vec3> model, measured;
@@ -41,6 +42,10 @@ std::vector<PlaceData> place_data(const Model& model, const Experiment& experime
   // What the sensor adds is not the place's.
   const Eigen::VectorXd target = measured_forces(dataset, selection) + f -
                                  model_forces(all, experiment, about, selection, false).f;
+  const std::vector<Vec3> motion = motion_on_body(body, experiment, about, selection);
+  const auto depth_of = [&](Eigen::Index row, const Episode& episode) {
+    return -motion[static_cast<std::size_t>(row / 3)].dot(episode.view.normal);
+  };
   // The factor holds where the forces are: a mean depth in which the two numbers hardly go
   // together.
   double weight = 0, logs = 0;
@@ -48,7 +53,7 @@ std::vector<PlaceData> place_data(const Model& model, const Experiment& experime
   for (const int e : selection) {
     const Episode& episode = dataset.episodes[e];
     for (std::size_t i = 0; i < episode.rows.size(); ++i, at += 3) {
-      const double d = -episode.view.u[i].dot(episode.view.normal);
+      const double d = depth_of(at, episode);
       if (episode.view.in_air[i] || d <= 0) continue;
       const double w = f.segment<3>(at).squaredNorm();
       weight += w;
@@ -76,7 +81,7 @@ std::vector<PlaceData> place_data(const Model& model, const Experiment& experime
       if (episode.view.in_air[i]) continue;
       place.model.emplace_back(f.segment<3>(at));
       place.measured.emplace_back(target.segment<3>(at));
-      place.log_depth.push_back(scale.log_depth(-episode.view.u[i].dot(episode.view.normal))[0]);
+      place.log_depth.push_back(scale.log_depth(depth_of(at, episode))[0]);
     }
   }
   std::erase_if(places, [](const PlaceData& p) {

@@ -129,6 +129,33 @@ TEST_F(LearnedField, ForetellsPlacesLeftOutWithinItsBand) {
   EXPECT_GE(inside, 0.85 * counted);
 }
 
+// Under a ball the body sees another depth than the recording's.
+TEST_F(LearnedField, TakesTheDepthThatTheBodySees) {
+  const Selection all = all_episodes(w().dataset);
+  Model ball = elastic();
+  for (Parameter p : effect_rows(require_effect("tip"), 1, {300})) {
+    p.state = ParameterState::kFixed;
+    ball.parameters.push_back(p);
+  }
+  const Linearisation about = w().places.solve(material_of(ball));
+  const Eigen::VectorXd f = model_forces(ball, w(), about, all, false).f;
+  const std::vector<Vec3> motion = motion_on_body(ball, w(), about, all);
+  Random random(12);
+  for (std::size_t row = 0; row < w().dataset.rows(); ++row) {
+    const Vec3& p = w().dataset.recording.position[row];
+    const double factor =
+        std::exp(log_factor(p) + power(p) * std::log(motion[row].norm() / kDepth));
+    for (int k = 0; k < 3; ++k)
+      w().dataset.recording.f[row][k] =
+          factor * f[3 * static_cast<Eigen::Index>(row) + k] + kNoise * random.normal();
+  }
+  Model model = ball;
+  for (const Parameter& p : effect_rows(field_effect(), 1, {})) model.parameters.push_back(p);
+  const Fit fitted = fit(model, w(), all, {kNoise, 0.01, true});
+  EXPECT_LT(fitted.error.pooled, 1.1 * kNoise);
+  measure();
+}
+
 TEST_F(LearnedField, IsInTheModelFile) {
   measure();
   const Fit fitted = fit(with_field(), w(), all_episodes(w().dataset), {kNoise, 0.01, true});
