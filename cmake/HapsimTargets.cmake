@@ -19,46 +19,68 @@ function(hapsim_flags target)
     $<$<CXX_COMPILER_ID:GNU>:-Wno-array-bounds>)
 endfunction()
 
-# What nearly every file includes, compiled once: half of the time of a typical file.
-add_library(hapsim_pch OBJECT ${CMAKE_CURRENT_LIST_DIR}/pch.cpp)
-target_link_libraries(hapsim_pch PRIVATE Eigen3::Eigen fmt::fmt)
-target_precompile_headers(hapsim_pch PRIVATE <algorithm> <array> <cmath> <functional> <limits> <map>
-  <memory> <optional> <ostream> <string> <utility> <vector> <Eigen/Dense> <fmt/format.h>)
-hapsim_flags(hapsim_pch)
+# hapsim_quick(<target>): what computes little in a release is optimised little, and compiles in two thirds
+# of the time. Results are the same bytes: no option here lets a compiler change arithmetic.
+function(hapsim_quick target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
+# What nearly every file includes, compiled once: half of the time of a typical file. A precompiled header
+# brings the optimisation it was compiled with.
+foreach(pch hapsim_pch hapsim_pch_quick)
+  add_library(${pch} OBJECT ${CMAKE_CURRENT_LIST_DIR}/pch.cpp)
+  target_link_libraries(${pch} PRIVATE Eigen3::Eigen fmt::fmt)
+  target_precompile_headers(${pch} PRIVATE <algorithm> <array> <cmath> <functional> <limits> <map>
+    <memory> <optional> <ostream> <string> <utility> <vector> <fmt/format.h>
+    ${PROJECT_SOURCE_DIR}/lib/base/dense_decompositions.h)
+  hapsim_flags(${pch})
+endforeach()
+hapsim_quick(hapsim_pch_quick)
 
 # Rooms compiled as one unit each share what they instantiate of Eigen. Files then share one anonymous
 # namespace, and one edit compiles a room: for builds that begin from nothing.
 option(HAPSIM_WHOLE_ROOMS "Compile each room of lib at once" OFF)
 
-# hapsim_layer(<name> [APART] SOURCES a.cpp ... [CGAL b.cpp ...] USES layer ... [LINKS foreign ...]): a
-# room of lib as a library; APART, always file by file. What stands under CGAL is compiled with its flags
-# (-frounding-math), which nothing else is built with; users of the library see none of CGAL's headers,
-# but GMP and MPFR must be linked. CGAL's files that instantiate the same templates share a UNITY_GROUP:
-# each template is compiled once.
+# hapsim_layer(<name> [APART] [QUICK] SOURCES a.cpp ... [CGAL b.cpp ...] [CGAL_QUICK c.cpp ...] USES layer ...
+# [LINKS foreign ...]): a room of lib as a library; APART, always file by file; QUICK, see hapsim_quick. What
+# stands under CGAL is compiled with its flags (-frounding-math), which nothing else is built with; users of
+# the library see none of CGAL's headers, but GMP and MPFR must be linked. CGAL's files that instantiate the
+# same templates share a UNITY_GROUP: each template is compiled once, and CGAL read once.
 function(hapsim_layer name)
-  cmake_parse_arguments(arg "APART" "" "SOURCES;CGAL;USES;LINKS" ${ARGN})
+  cmake_parse_arguments(arg "APART;QUICK" "" "SOURCES;CGAL;CGAL_QUICK;USES;LINKS" ${ARGN})
   list(TRANSFORM arg_USES PREPEND hapsim_)
-  if(arg_CGAL)
-    add_library(hapsim_${name}_cgal OBJECT ${arg_CGAL})
-    target_include_directories(hapsim_${name}_cgal PRIVATE ${PROJECT_SOURCE_DIR}/lib)
-    target_compile_definitions(hapsim_${name}_cgal PRIVATE CGAL_EIGEN3_ENABLED)
-    target_link_libraries(hapsim_${name}_cgal PRIVATE ${arg_USES} CGAL::CGAL Eigen3::Eigen fmt::fmt)
-    hapsim_flags(hapsim_${name}_cgal)
+  foreach(kind CGAL CGAL_QUICK)
+    if(NOT arg_${kind})
+      continue()
+    endif()
+    string(TOLOWER hapsim_${name}_${kind} target)
+    add_library(${target} OBJECT ${arg_${kind}})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+    target_compile_definitions(${target} PRIVATE CGAL_EIGEN3_ENABLED)
+    target_link_libraries(${target} PRIVATE ${arg_USES} CGAL::CGAL Eigen3::Eigen fmt::fmt)
+    hapsim_flags(${target})
     # g++ 12 warns falsely inside CGAL.
-    target_compile_options(hapsim_${name}_cgal PRIVATE
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-    set_target_properties(hapsim_${name}_cgal PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-    list(APPEND arg_SOURCES $<TARGET_OBJECTS:hapsim_${name}_cgal>)
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    list(APPEND arg_SOURCES $<TARGET_OBJECTS:${target}>)
+  endforeach()
+  if(arg_CGAL_QUICK)
+    hapsim_quick(hapsim_${name}_cgal_quick)
   endif()
   add_library(hapsim_${name} STATIC ${arg_SOURCES})
   target_include_directories(hapsim_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/lib> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/hapsim>)
   target_link_libraries(hapsim_${name} PUBLIC ${arg_USES} PRIVATE ${arg_LINKS})
-  if(arg_CGAL)
+  if(arg_CGAL OR arg_CGAL_QUICK)
     target_link_libraries(hapsim_${name} INTERFACE $<LINK_ONLY:CGAL::CGAL>)
   endif()
   hapsim_flags(hapsim_${name})
-  target_precompile_headers(hapsim_${name} REUSE_FROM hapsim_pch)
+  set(pch hapsim_pch)
+  if(arg_QUICK)
+    set(pch hapsim_pch_quick)
+    hapsim_quick(hapsim_${name})
+  endif()
+  target_precompile_headers(hapsim_${name} REUSE_FROM ${pch})
   if(HAPSIM_WHOLE_ROOMS AND NOT arg_APART)
     set_target_properties(hapsim_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
     # What is private to a file included here is private to it still.
@@ -83,7 +105,8 @@ function(hapsim_tool name)
   list(TRANSFORM arg_USES PREPEND hapsim_)
   target_link_libraries(${name} PRIVATE hapsim_cli ${arg_USES})
   hapsim_flags(${name})
-  target_precompile_headers(${name} REUSE_FROM hapsim_pch)
+  hapsim_quick(${name})
+  target_precompile_headers(${name} REUSE_FROM hapsim_pch_quick)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
   # Man page and completions: made by the tool, each where its shell looks for it on Debian.

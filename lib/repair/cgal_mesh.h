@@ -1,4 +1,4 @@
-// Between Surface and CGAL's mesh; for the units of hapsim_geometry_cgal alone.
+// Between Surface and the mesh of CGAL; for files that are compiled with it alone.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
