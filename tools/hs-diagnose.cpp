@@ -105,8 +105,11 @@ ToolSpec specification() {
          "complete, incomplete, ambiguous, unexplained"},
         {"rmse_now, rmse_after", "error without and with the effect [N]"},
         {"heldout_now, heldout_after",
-         "the same on positions left out of the fit [N]; after only for effects that "
-         "pass the other tests"},
+         "the same on positions left out of the fit; of fewer than " +
+             std::to_string(kLeastPresses) +
+             " presses on the rest of each, learned from its first part, and on presses left out "
+             "(the metadata heldout_by says which) [N]; after only for effects that pass the other "
+             "tests"},
         {"p_value", "chance of a false alarm, all effects tried counted"},
         {"confused_with", "effects that do as well, separated by spaces; `shape`: a wrong body"},
         {"where", "where and when it acts"},

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "diagnose/departures.h"
 #include "diagnose/few_presses.h"
+#include "diagnose/foretold.h"
 #include "diagnose/rivals_together.h"
 #include "diagnose/superfluous.h"
 #include "diagnose/try_effects.h"
@@ -196,14 +197,17 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
 }
 
-void search_few(Baseline& base, const TrialGround& g, const Folds& folds,
-                const DiagnoseOptions& options, Diagnosis& d) {
+void search_few(Baseline& base, const TrialGround& g, const DiagnoseOptions& options,
+                Diagnosis& d) {
   const FewPresses few = diagnose_few_presses(base, g, options);
   d.findings = few.findings;
   put_in_order(d.findings);
   d.findings.insert(d.findings.end(), few.untestable.begin(), few.untestable.end());
   d.rivals = few.rivals;
-  base = make_baseline(few.end.model, g, folds);
+  base = make_baseline(few.end.model, g, {});
+  d.held_out = few.held_out;
+  d.held_out_end = few.held_out_end;
+  d.held_out_by = unseen_by(g.dataset, options.folds);
 }
 
 }  // namespace
@@ -239,7 +243,8 @@ std::string verdict_name(ModelVerdict verdict) {
 namespace {
 
 Diagnosis with_allowance(const Model& model, const TrialGround& g, const DiagnoseOptions& options) {
-  const Folds folds = make_folds(g.dataset, options.folds);
+  const bool few_presses = g.dataset.episodes.size() < kLeastPresses;
+  const Folds folds = few_presses ? Folds{} : make_folds(g.dataset, options.folds);
   Baseline base = make_baseline(model, g, folds);
   if (!base.fitted.converged)
     fail_numerics(g.dataset.recording.name, "the model does not fit: " + base.fitted.message,
@@ -256,12 +261,14 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   const Eigen::VectorXd measured = measured_forces(g.dataset, all_episodes(g.dataset));
   d.force_rms = force_error(g.dataset, measured);
 
-  const bool few_presses = g.dataset.episodes.size() < kLeastPresses;
-  (few_presses ? search_few : search)(base, g, folds, options, d);
+  if (few_presses)
+    search_few(base, g, options, d);
+  else
+    search(base, g, folds, options, d);
   const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.error;
-  d.held_out_end = base.held_out.error;
+  if (!few_presses) d.held_out_end = base.held_out.error;
   const Selection all = all_episodes(g.dataset);
   const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
   Eigen::VectorXd left = measured - f;

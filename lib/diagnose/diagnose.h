@@ -39,6 +39,7 @@ struct Finding {
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   bool one_more_term = false;
+  bool admitted = false;     // of few presses: by what is unseen
   bool every_site = false;   // regions: a stiffness that changes from position to position
   bool within_form = false;  // no more than an approximate law in the model may leave
   bool by_presses = false;   // held_out_* are of unseen presses: it helps no unseen position

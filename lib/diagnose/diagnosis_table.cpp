@@ -32,6 +32,7 @@ void write_diagnosis(std::ostream& out, const Diagnosis& d, const DiagnosedFiles
   metadata.set("floor", format_number(d.floor));
   metadata.set("shape_error", format_number(d.shape.before));
   metadata.set("seed", seed);
+  if (!d.held_out_by.empty()) metadata.set("heldout_by", d.held_out_by);
   CsvWriter csv(
       out, metadata,
       {"rank", "effect", "verdict", "rmse_now", "rmse_after", "heldout_now", "heldout_after",

@@ -115,7 +115,6 @@ const EffectSet* EffectSets::keep(const EffectNames& names, const Fit& fitted) {
                     model_forces(fitted, ground_.experiment, all, false).f,
                 fitted.model.free_parameters().size()};
   const EffectSet* kept = &all_.emplace(names, std::move(set)).first->second;
-  singles_ += names.size() == 1;
   if (least_ == nullptr || fitted.error.pooled < least_->fitted.error.pooled) {
     least_ = kept;
     memory_ = autocorrelation_time(kept->residual, ground_);

@@ -42,8 +42,7 @@ class EffectSets {
   double criterion(const EffectSet& set) const;
   // Effects that these data cannot test on top of the model alone, and why.
   const std::map<std::string, std::string>& lack() const { return lack_; }
-  bool departs() const { return departs_; }       // some position asks for another stiffness
-  std::size_t tried() const { return singles_; }  // effects, on top of the model alone
+  bool departs() const { return departs_; }  // some position asks for another stiffness
 
  private:
   const EffectSet* keep(const EffectNames& names, const Fit& fitted);
@@ -55,7 +54,6 @@ class EffectSets {
   std::map<EffectNames, EffectSet> all_;
   std::map<EffectNames, std::string> refused_;
   std::map<std::string, std::string> lack_;
-  std::size_t singles_ = 0;
   const EffectSet* least_ = nullptr;  // that errs least
   double memory_ = 1, independent_ = 1;
 };

@@ -37,9 +37,10 @@ inline constexpr double kLikeNoise = 1.1;
 inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
 // Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
-// of effects are then judged by an F test of this level, all effects tried counted.
+// of effects are then judged by what the first parts of the presses foretell of the rest, whose
+// error has to fall by that share.
 inline constexpr std::size_t kLeastPresses = 6;
-inline constexpr double kFewPressesLevel = 0.01;
+inline constexpr double kForetoldFall = 0.05;
 
 // The gates in words, with their numbers: paragraphs of --help and the man page.
 inline std::vector<std::string> gates_in_words() {
@@ -69,13 +70,19 @@ inline std::vector<std::string> gates_in_words() {
           100 * kMostOfIt, 100 * kPlainFall, 100 * gates.rival_fall, 100 * (kAlike - 1), kNoRival,
           gates.most_effects),
       fmt::format(
-          "Fewer than {} presses have too few signs to flip, so they are judged by their course in "
-          "time: sets of effects are grown side by side and ranked as above by independent "
-          "samples, "
-          "and an effect of the best set is missing when the set without it errs more than chance "
-          "allows (F test, all effects tried counted, {:g} %). That says nothing of other places, "
-          "and regions and offsets by press need {} presses.",
-          least, 100 * kFewPressesLevel, least)};
+          "Fewer than {} presses have too few signs to flip, so they are judged by prediction: "
+          "sets "
+          "of effects are grown side by side and ranked as above by independent samples, and an "
+          "effect is missing when the set with it, learned from the first part of each press "
+          "alone, "
+          "foretells the rest with an error lower by {:g} % or more, and so much likelier that "
+          "chance does as well in less than {:g} % (samples that err alike count as "
+          "one); when whole presses that were left out of the fit, if there are "
+          "several, err less by {:g} % or more; and when the criterion gains as above. The unseen "
+          "error is that of these rests and presses. That says nothing of other places, and "
+          "regions "
+          "and offsets by press need {} presses.",
+          least, 100 * kForetoldFall, 100 * gates.p_value, 100 * gates.held_out_fall, least)};
 }
 
 }  // namespace hapsim

@@ -1,8 +1,10 @@
 #include "diagnose/improve.h"
 
-#include <cmath>
+#include <algorithm>
+#include <optional>
 
 #include "base/error.h"
+#include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
 #include "effects/catalogue.h"
 #include "model/model_edit.h"
@@ -37,6 +39,21 @@ double remaining(const ImprovementStep& before, const ImprovementStep& after,
   return by(folds, Map::kKnown);
 }
 
+Forecasts::Names added_by(const std::vector<ImprovementStep>& steps) {
+  Forecasts::Names names;
+  for (const ImprovementStep& step : steps)
+    if (!step.added.empty()) names.push_back(step.added);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string refused_of(const std::vector<ImprovementStep>& steps, std::size_t from) {
+  std::string names;
+  for (std::size_t k = from; k < steps.size(); ++k)
+    names += (names.empty() ? "" : ", ") + steps[k].added;
+  return names;
+}
+
 struct Ended {};  // by the watch of the fits
 
 }  // namespace
@@ -48,11 +65,14 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
   };
   const TrialGround ground(fine, fine.allowance());
   const Selection all = all_episodes(fine.dataset);
-  const Folds folds = make_folds(fine.dataset, options.diagnose.folds);
+  const bool few = fine.dataset.episodes.size() < kLeastPresses;
+  const Folds folds = few ? Folds{} : make_folds(fine.dataset, options.diagnose.folds);
   ExtendOptions extend;
   extend.noise = fine.noise.value;
   extend.floor = fine.floor;
   Improvement result;
+  result.by_rest = few;
+  result.unseen = few ? unseen_by(fine.dataset, options.diagnose.folds) : folds.by;
   const Model first = start.parameters.empty() ? elastic_model(fine, all) : start;
   tell("fitting " + effects_label(first));
   result.steps.push_back(fitted_step("", {first}, ground, folds, options));
@@ -62,6 +82,11 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
     fail_numerics(fine.dataset.recording.name,
                   "the fit did not converge: " + result.steps.front().fitted.message,
                   "start from a simpler model, or fix a parameter");
+  std::optional<Judge> judge;
+  if (few) {
+    judge.emplace(result.steps.front().fitted, ground, options.diagnose);
+    result.steps.front().held_out = judge->error({});
+  }
   DiagnoseOptions watched = options.diagnose;
   watched.progress = [&](const std::string& what) {
     if (options.diagnose.progress) options.diagnose.progress(what);
@@ -75,7 +100,7 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
       result.stopped = true;
       return result;
     }
-    bool grown = false;
+    const std::size_t kept = result.steps.size();
     for (const Finding& finding : result.last.findings) {
       if (finding.verdict != Verdict::kMissing) continue;
       tell("adding " + finding.effect);
@@ -86,19 +111,26 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
                       ground, folds, options);
       result.stopped = step.fitted.stopped;
       if (result.stopped) return result;
-      // Without anything to hold out the diagnosis decides alone.
       const bool helps =
-          step.fitted.converged &&
-          (std::isnan(step.held_out.pooled) || remaining(before, step, finding, ground, folds) <=
-                                                   1 - options.diagnose.gates.held_out_fall);
+          step.fitted.converged && (few || remaining(before, step, finding, ground, folds) <=
+                                               1 - options.diagnose.gates.held_out_fall);
       if (!helps) {
         result.refused = finding.effect;
         return result;
       }
       result.steps.push_back(std::move(step));
-      grown = true;
+      if (few) result.steps.back().held_out = judge->error(added_by(result.steps));
     }
-    if (!grown) break;
+    if (result.steps.size() == kept) break;
+    if (!few) continue;
+    // What hides another may help only beside it: of few presses all that is missing is judged
+    // together.
+    const std::vector<ImprovementStep> smaller(
+        result.steps.begin(), result.steps.begin() + static_cast<std::ptrdiff_t>(kept));
+    if (judge->admits(judge->of(added_by(smaller), added_by(result.steps)))) continue;
+    result.refused = refused_of(result.steps, kept);
+    result.steps = smaller;
+    return result;
   }
   return result;
 }

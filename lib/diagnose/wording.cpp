@@ -132,8 +132,13 @@ std::string step_words(const ImprovementStep& step, double noise) {
 std::string end_words(const Improvement& improvement) {
   if (!improvement.refused.empty())
     return improvement.refused +
-           " was called missing but does not help on unseen presses: left out";
-  return verdict_name(improvement.last.verdict) + ": " + improvement.last.explanation;
+           (improvement.by_rest
+                ? " was called missing but does not foretell the " + improvement.unseen +
+                      ": left out"
+                : " was called missing but does not help on unseen presses: left out");
+  const std::string by =
+      improvement.unseen.empty() ? "" : " (judged on unseen data: " + improvement.unseen + ")";
+  return verdict_name(improvement.last.verdict) + by + ": " + improvement.last.explanation;
 }
 
 }  // namespace hapsim

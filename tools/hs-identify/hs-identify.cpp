@@ -165,7 +165,7 @@ int run(const Arguments& arguments) {
     result = improvement.steps.back().fitted;
     unseen = improvement.steps.back().held_out;
     cut_short = improvement.stopped ? "the model was improved" : "";
-    folds = make_folds(w.dataset, static_cast<int>(arguments[flag::folds]));
+    folds.by = improvement.unseen;
   } else {
     Starts starts = build_starts(plan, w, all, fit_options, extend);
     require_enough_data(starts.models.front(), w.dataset, all);
@@ -193,7 +193,10 @@ int run(const Arguments& arguments) {
   const double held_out = unseen.told();
   Model& model = result.model;
   record_fit(result, plan.start.metadata, w);
-  if (!std::isnan(held_out)) model.metadata.set("heldout", format_number(held_out));
+  if (!std::isnan(held_out)) {
+    model.metadata.set("heldout", format_number(held_out));
+    model.metadata.set("heldout_by", folds.by);
+  }
   if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
   for (const std::string& line : fit_lines(w, result, held_out, folds.by, force_rms))
     say(arguments, "hs-identify", line);

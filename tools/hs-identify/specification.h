@@ -68,7 +68,9 @@ inline ToolSpec identify_specification() {
        .value = "LIST",
        .help =
            "Effects of a new model, separated by commas. auto: elastic, or --model, is diagnosed "
-           "and what is missing added, as long as that helps on unseen presses.",
+           "and what is missing added, as long as that helps on unseen presses; of few presses, "
+           "as long as it foretells the rest of each from its first part (hs-diagnose(1)). What "
+           "judged is told and written as the metadata heldout_by.",
        .group = "Model",
        .default_text = body_effect().card().name,
        .repeatable = true},

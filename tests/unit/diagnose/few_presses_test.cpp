@@ -8,7 +8,10 @@
 #include "base/random.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/effect_sets.h"
+#include "diagnose/held_out.h"
+#include "diagnose/improve.h"
 #include "effects/catalogue.h"
+#include "fit/forecasts.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -125,6 +128,100 @@ TEST(FewPresses, NothingIsFoundInNothing) {
   }
   std::printf("%d false alarms in 20 presses\n", alarms);
   EXPECT_LE(alarms, 1);
+}
+
+// What fits all rows may start from all rows: what foretells may not. The rest of the press is
+// changed and changes no forecast.
+TEST(Forecasts, KnowNothingOfWhatTheyForetell) {
+  const Experiment w = experiment({1.5, 0.5, {{0.25, 0.5}, {0.25, 8}}}, 1);
+  std::vector<UnseenPart> parts = rests_of_presses(w);
+  ASSERT_EQ(parts.size(), 5u);  // one of the way in, four of the hold
+  const std::size_t which = 3;
+  Experiment other = w;
+  for (const Eigen::Index row : parts[which].rows)
+    other.dataset.recording.f[w.dataset.episodes[0].rows[static_cast<std::size_t>(row)]] *= 2;
+  const TrialGround ground(w, w.allowance()), changed(other, other.allowance());
+  const FitOptions options = trial_fit_options(ground);
+  const Forecasts::Names names{"hyperelastic", "viscoelastic"};
+  Forecasts one(make_baseline(start_of(w), ground, {}).fitted, w, {parts[which]}, options);
+  Forecasts two(make_baseline(start_of(w), changed, {}).fitted, other,
+                {rests_of_presses(other)[which]}, options);
+  const Eigen::VectorXd a = one.left(names).front(), b = two.left(names).front();
+  for (std::size_t i = 0; i < parts[which].rows.size(); ++i) {
+    const int row = w.dataset.episodes[0].rows[static_cast<std::size_t>(parts[which].rows[i])];
+    const auto at = 3 * static_cast<Eigen::Index>(i);
+    const Vec3 told = w.dataset.recording.f[row] - a.segment<3>(at);
+    const Vec3 told_after = other.dataset.recording.f[row] - b.segment<3>(at);
+    EXPECT_LT((told - told_after).norm(), 1e-6 * told.norm());
+  }
+}
+
+// A residual with a structure that no effect has: a force that swings. A drift and other companions
+// take much of it away in the fit and foretell nothing.
+TEST(FewPresses, AStructuredResidualTemptsNoCompanion) {
+  int companions = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Experiment w = experiment({1, 0.6, {{0.4, 1}}}, seed);
+    Dataset& dataset = w.dataset;
+    for (std::size_t i = 0; i < dataset.rows(); ++i)
+      dataset.recording.f[i].z() +=
+          0.06 * std::sin(2 * M_PI *
+                          (dataset.recording.t[i] / (9 + static_cast<double>(seed)) +
+                           0.25 * static_cast<double>(seed)));
+    const Diagnosis d = diagnose(start_of(w), w, w.allowance(), {});
+    std::vector<std::string> named = with_verdict(d, Verdict::kMissing);
+    EXPECT_TRUE(holds(named, "viscoelastic"));
+    companions += std::any_of(named.begin(), named.end(),
+                              [](const std::string& name) { return name != "viscoelastic"; });
+    std::printf("%s\n", d.explanation.c_str());
+  }
+  std::printf("%d of 4 with a companion\n", companions);
+  EXPECT_EQ(companions, 0);
+}
+
+TEST(FewPresses, TheRestOfThePressIsTheUnseenError) {
+  const Experiment w = experiment({1, 0.6, {{0.4, 1}}}, 1);
+  const Diagnosis d = diagnose(start_of(w), w, w.allowance(), {});
+  EXPECT_EQ(d.held_out_by, "rest of each press");
+  EXPECT_GT(d.held_out.told(), 0.2);
+  EXPECT_LT(d.held_out_end.told(), 0.02);
+  EXPECT_LT(d.findings.front().held_out_after.told(), 0.02);
+  ImproveOptions options;
+  options.fit.noise = w.noise.value;
+  options.fit.floor = w.floor;
+  const Improvement improved = improve(start_of(w), w, w, options);
+  EXPECT_EQ(improved.unseen, "rest of each press");
+  ASSERT_EQ(improved.steps.size(), 2u);
+  EXPECT_EQ(improved.steps.back().added, "viscoelastic");
+  EXPECT_LT(improved.steps.back().held_out.told(), 0.1 * improved.steps.front().held_out.told());
+}
+
+// Of several, whole presses are left out as well, and both have to be foretold.
+TEST(FewPresses, OfThreePressesWholeOnesAreLeftOutToo) {
+  const Material m{1, 0.6, {{0.4, 1}}};
+  Recording three = press(m, 1);
+  for (int k = 2; k <= 3; ++k) {
+    const Recording more = press(m, static_cast<std::uint64_t>(k));
+    for (std::size_t i = 0; i < more.t.size(); ++i) {
+      three.line.push_back(static_cast<long>(three.line.size()) + 2);
+      three.press.push_back(k);
+      three.t.push_back(more.t[i] + 100 * k);
+      three.position.push_back(more.position[i]);
+      three.u.push_back(more.u[i]);
+      three.f.push_back(more.f[i]);
+    }
+  }
+  ExperimentOptions options;
+  options.rim_edge = 0.3;
+  options.noise = m.noise;
+  options.floor = 0.01;
+  const Experiment w =
+      make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), three, options);
+  EXPECT_EQ(presses_left_out(w, 6).size(), 3u);
+  const Diagnosis d = diagnose(start_of(w), w, w.allowance(), {});
+  EXPECT_EQ(d.held_out_by, "rest of each press and presses");
+  EXPECT_EQ(with_verdict(d, Verdict::kMissing), std::vector<std::string>{"viscoelastic"});
+  EXPECT_LT(d.held_out_end.told(), 0.02);
 }
 
 // The finite elements of one set's layer are no basis for what another set's layer does.
