@@ -74,14 +74,14 @@ Fit Forecasts::learn_bare(const UnseenPart& part) const {
   Model start = bare_;
   try {
     const Model elastic = elastic_model(part.known, part.seen);
-    std::vector<Parameter*> body;
-    for (Parameter& p : start.parameters)
-      if (p.effect == body_effect().card().name) body.push_back(&p);
-    if (body.size() == elastic.parameters.size())  // one region
-      for (Parameter* p : body)
-        if (const Parameter* first = elastic.find(p->effect, p->region, p->name);
-            first != nullptr && p->state == ParameterState::kFree)
-          p->value = std::clamp(first->value, p->lower, p->upper);
+    const bool one_region = std::all_of(start.parameters.begin(), start.parameters.end(),
+                                        [](const Parameter& p) { return p.region == 0; });
+    for (Parameter& p : start.parameters) {
+      if (!one_region || p.effect != body_effect().card().name) continue;
+      if (const Parameter* first = elastic.find(p.effect, p.region, p.name);
+          first != nullptr && p.state == ParameterState::kFree)
+        p.value = std::clamp(first->value, p.lower, p.upper);
+    }
   } catch (const Error& error) {  // the known rows do not press the body
     if (error.code() != ExitCode::kBadInput) throw;
   }
