@@ -9,7 +9,8 @@ namespace flag {
 inline constexpr FileFlag body{"--body"}, model{"--model"};
 inline constexpr LengthFlag tool_radius{"--tool-radius"};
 inline constexpr ForceFlag noise{"--noise"};
-inline constexpr NumberFlag floor{"--floor"}, rim_edge{"--rim-edge"}, nu{"--nu"};
+inline constexpr NumberFlag floor{"--floor"}, rim_edge{"--rim-edge"}, nu{"--nu"},
+    accuracy{"--accuracy"};
 inline constexpr IntegerFlag threads{"--threads"};
 inline constexpr TextFlag cache{"--cache"};
 inline constexpr TimesFlag times{"--times"};

@@ -142,7 +142,7 @@ void ContactCache::trim(double limit_bytes) const {
   double total = 0;
   std::error_code ignored;
   for (const auto& item : fs::directory_iterator(directory_, ignored)) {
-    if (item.path().extension() != ".contact") continue;
+    if (item.path().extension() != ".contact" && item.path().extension() != ".field") continue;
     Entry entry{item.last_write_time(ignored), static_cast<double>(item.file_size(ignored)),
                 item.path()};
     total += entry.size;

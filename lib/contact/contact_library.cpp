@@ -1,7 +1,10 @@
 #include "contact/contact_library.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "linalg/blas.h"
 #include "tetmesh/contact_unfit.h"
@@ -76,6 +79,13 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
   content_ = base_hash_;
   content_.add(options.draft ? 1.0 : 0.0);
   free_surface_ = free_surface(base_);
+  std::vector<int> node;
+  const Surface own = boundary_surface(body, &node);
+  assert(own.faces.size() == base_.fine.faces.size());
+  for (const Triangle& face : own.faces)
+    bonded_.push_back(std::all_of(face.begin(), face.end(), [&](int v) {
+      return body.fixed[static_cast<std::size_t>(node[static_cast<std::size_t>(v)])] != 0;
+    }));
 }
 
 std::string ContactLibrary::bodies_key(const Vec3& position) const {
@@ -134,6 +144,44 @@ std::vector<StiffnessSolution> ContactLibrary::solve_all(const std::vector<Vec3>
       cache_.store(hash.hex(), results[p * m + k]);
     }
     if (bodies && keep) put_bodies(positions[p], std::move(bodies));
+    if (options_.step) options_.step();
+  });
+  return results;
+}
+
+std::vector<std::optional<SampledContact>> ContactLibrary::sample(const std::vector<Vec3>& places,
+                                                                  const Material& material,
+                                                                  const std::string& description,
+                                                                  ContactLevel level,
+                                                                  bool keep) const {
+  ContentHash common = key_of(material, "sample " + description);
+  common.add(level == ContactLevel::kFine     ? 1
+             : level == ContactLevel::kCoarse ? kCoarser
+                                              : kSampled);
+  std::vector<std::optional<SampledContact>> results(places.size());
+  in_parallel(places.size(), options_.threads, [&](std::size_t p) {
+    ContentHash hash = common;
+    hash.add(places[p].data(), sizeof(double) * 3);
+    if (const auto found = cache_.load(hash.hex())) {
+      results[p] = {found->point, found->normal, found->K};
+    } else {
+      const std::shared_ptr<ContactBodies> bodies =
+          keep ? take_bodies(places[p]) : fresh_bodies(places[p]);
+      try {
+        results[p] = bodies->sample(material, level);
+      } catch (const Error& error) {
+        if (error.code() != ExitCode::kBadInput) throw;
+      }
+      if (results[p]) {
+        StiffnessSolution entry{};
+        entry.K = results[p]->K;
+        entry.dK_dnu = entry.coarse_change = entry.coarse_dK_dnu = Eigen::Matrix3d::Zero();
+        entry.point = results[p]->point;
+        entry.normal = results[p]->normal;
+        cache_.store(hash.hex(), entry);
+        if (keep) put_bodies(places[p], bodies);
+      }
+    }
     if (options_.step) options_.step();
   });
   return results;

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,15 @@ class ContactLibrary {
                                        const Material& material,
                                        const std::string& description) const;
 
+  // The stiffness alone, on one mesh of each place;
+  // nothing where the tool cannot be laid on or the place cannot be meshed. `keep`: the meshes stay
+  // for later materials.
+  std::vector<std::optional<SampledContact>> sample(const std::vector<Vec3>& places,
+                                                    const Material& material,
+                                                    const std::string& description,
+                                                    ContactLevel level, bool keep) const;
+  const std::vector<std::uint8_t>& bonded() const { return bonded_; }  // one a face of surface()
+
   // What features do at each position, to first order.
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
       const std::vector<Vec3>& positions) const;
@@ -106,6 +116,7 @@ class ContactLibrary {
   ContactLibraryOptions options_;
   ContactCache cache_;
   ContentHash base_hash_, content_;
+  std::vector<std::uint8_t> bonded_;  // one a face of surface()
   std::shared_ptr<const SurfaceTree> free_surface_;
 };
 

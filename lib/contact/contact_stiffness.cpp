@@ -85,7 +85,7 @@ ContactBodies::~ContactBodies() = default;
 
 ContactBodies::Level& ContactBodies::level(int k) {
   if (!levels_[k]) {
-    const double factor = k == 0 ? 1 : kCoarser;
+    const double factor = k == 0 ? 1 : k == 1 ? kCoarser : kSampled;
     levels_[k] = std::make_unique<Level>(base_, contact_, radius_, factor * rim_edge_ * radius_,
                                          factor * kGrowth * rim_edge_ / kRimEdge);
   }
@@ -169,6 +169,23 @@ FeaturedBody& ContactBodies::featured(int k) {
   if (!surface_) surface_ = free_surface(base_);
   if (!featured_[k]) featured_[k] = std::make_unique<FeaturedBody>(level(k).contact, surface_);
   return *featured_[k];
+}
+
+SampledContact ContactBodies::sample(const Material& material, ContactLevel which) {
+  const int k = static_cast<int>(which);
+  Level& own = level(k);
+  SampledContact result{own.contact.point, own.contact.normal, Eigen::Matrix3d::Zero()};
+  if (material.group_of || !material.features.empty()) {
+    result.K = featured(k).solve(material).K;
+    return result;
+  }
+  const Lame unit = lame(1, material.nu);
+  const double modulus = material.modulus[0];
+  ElasticBody& body = own.body();
+  body.factorise(
+      std::vector<Lame>(own.contact.mesh.tets.size(), {modulus * unit.lambda, modulus * unit.mu}));
+  result.K = body.solve(Eigen::Matrix3d::Identity()).reaction;
+  return result;
 }
 
 void ContactBodies::forget_systems() {

@@ -60,8 +60,19 @@ struct StiffnessSolution {
 constexpr double kRimEdge = 1.0 / 6;
 constexpr double kGrowth = 0.4;
 constexpr double kCoarser = 1.5;
+// Of the meshes that are for samples between which the stiffness is interpolated: an eighth of the
+// finer one's cost, and within some 0.6 % of it but for a common factor.
+constexpr double kSampled = 2;
 // Relative uncertainty of the normal stiffness [-]: a bound that the error keeps in 95 of 100.
 double mesh_uncertainty(const StiffnessSolution& solution);
+
+// Which mesh of a position.
+enum class ContactLevel { kFine, kCoarse, kSample };
+
+struct SampledContact {
+  Vec3 point, normal;  // on the surface [m]; outward, unit
+  Eigen::Matrix3d K;   // [N/m]
+};
 
 // The homogeneous body of E = 1 at one Poisson's ratio: stiffness and its derivative by nu [m].
 struct UnitPair {
@@ -74,7 +85,7 @@ std::shared_ptr<const SurfaceTree> free_surface(const ContactBase& base);
 class FeatureEstimate;
 class FeaturedBody;
 
-// Both meshes of a position, made when first needed, to be solved for several materials.
+// The meshes of a position, made when first needed, to be solved for several materials.
 class ContactBodies {
  public:
   ContactBodies(const ContactBase& base, const Vec3& contact, double radius,
@@ -91,6 +102,8 @@ class ContactBodies {
   // by up to 2 % where two regions differ by a factor of three.
   StiffnessSolution solve_corrected(const Material& material, const UnitPair& fine,
                                     const UnitPair& coarse);
+  // The stiffness alone on one mesh, of any material.
+  SampledContact sample(const Material& material, ContactLevel which);
   void forget_systems();  // that the last two keep
   // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh, which
   // it shares.
@@ -105,8 +118,8 @@ class ContactBodies {
   double radius_, rim_edge_;
   std::shared_ptr<const SurfaceTree> surface_;
   FeaturedBody& featured(int k);
-  std::unique_ptr<FeaturedBody> featured_[2];
-  std::unique_ptr<Level> levels_[2];  // fine, coarse
+  std::unique_ptr<FeaturedBody> featured_[3];
+  std::unique_ptr<Level> levels_[3];  // by ContactLevel
 };
 
 }  // namespace hapsim

@@ -59,6 +59,7 @@ ForceLoopState ForceLoop::state() const {
 void ForceLoop::restore(const ForceLoopState& state) noexcept {
   state_ = state;
   restore_tool(state.tool);
+  set_quality(state_.uncertainty, state_.sampled);
   if (state_.placed)
     for (const Running& s : steps_) s.step->take_place(state_.place);
 }
@@ -66,6 +67,11 @@ void ForceLoop::restore(const ForceLoopState& state) noexcept {
 void ForceLoop::take_place(const Place& place) noexcept {
   state_.place = body_.facts().at(place.face, place.point, place.normal);
   state_.placed = true;
+  const StiffnessField& field = body_.field();
+  const FieldEntry entry = field.entry_at(field.locate(place.face, place.point));
+  state_.uncertainty = entry.uncertainty;
+  state_.sampled = entry.sampled;
+  set_quality(state_.uncertainty, state_.sampled);
   if (body_.is_regional()) body_.maxwell_at(place.face, place.point, state_.maxwell.data());
   for (const Running& s : steps_) s.step->take_place(state_.place);
 }

@@ -14,9 +14,11 @@ namespace hapsim {
 // All that a loop remembers: plain data, to be stored and gone on from.
 struct ForceLoopState {
   ToolState tool;
-  StepPlace place;      // contact point on the surface, and what is known of the body there
-  bool placed = false;  // there was one
-  double t = 0;         // of the last sample [s]
+  StepPlace place;         // contact point on the surface, and what is known of the body there
+  bool placed = false;     // there was one
+  double uncertainty = 0;  // ToolLoop::uncertainty()
+  bool sampled = true;     // not kBeyondPlaces
+  double t = 0;            // of the last sample [s]
   double press = 0, session = 0;  // when this press and the whole began [s]
   int number = 0;                 // of the press, from 1; 0: there was no sample yet
   bool begun = false;             // the press has had a sample

@@ -55,8 +55,10 @@ void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOpt
     }
     line.u = loop.pressed();
     line.beyond = loop.beyond();
+    line.uncertainty = loop.uncertainty() * force.norm();
+    if (line.beyond & kBeyondPlaces) ++report.off;
     if (line.beyond & kBeyondHeld) ++report.held;
-    if (line.beyond != 0) ++report.deep;
+    if (line.beyond & (kBeyondDepth | kBeyondHeld)) ++report.deep;
     in.write_force(text, line, force);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.flush();

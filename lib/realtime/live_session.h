@@ -20,7 +20,8 @@ struct LiveReport {
   LatencyHistogram latency;
   std::int64_t misses = 0;          // forces later than one period after their line was due
   std::int64_t deep = 0, held = 0;  // lines that are beyond what is valid, and of these those held
-  // What is said of these; "" where there is none.
+  std::int64_t off = 0;             // lines whose place contact meshes cannot be made for
+  // What is said of the deep ones; "" where there is none.
   std::string depth_summary() const;
 };
 

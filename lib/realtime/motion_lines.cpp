@@ -101,6 +101,10 @@ void MotionLines::write_force(std::string& buffer, const MotionLine& line,
     buffer += ',';
     append(buffer, line.temperature);
   }
+  if (uncertain_) {
+    buffer += ',';
+    append(buffer, line.uncertainty);
+  }
   buffer += '\n';
 }
 
@@ -108,6 +112,7 @@ std::vector<std::string> MotionLines::force_columns() const {
   std::vector<std::string> columns = kForceColumns;
   columns.emplace_back("beyond");
   if (warm_) columns.emplace_back("temp");
+  if (uncertain_) columns.emplace_back("uncertainty");
   return columns;
 }
 

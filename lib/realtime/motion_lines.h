@@ -34,6 +34,8 @@ class MotionLines : public MotionSource {
   bool next(MotionLine& line) override;
   // Of what write_force() writes: kForceColumns, beyond, and temp where it is read.
   std::vector<std::string> force_columns() const;
+  // From now on each force line ends in its uncertainty.
+  void tell_uncertainty() { uncertain_ = true; }
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override;
   long line() const { return csv_.line(); }
   Vec3 force() const { return {value_[kFx], value_[kFy], value_[kFz]}; }  // of the last line [N]
@@ -45,6 +47,7 @@ class MotionLines : public MotionSource {
   std::vector<int> meaning_;  // column of the file -> Column, kColumns: passed over
   std::array<double, kColumns> value_{};
   std::vector<std::string_view> fields_;
+  bool uncertain_ = false;
   bool known_ = false, warm_ = false;  // contact points, temperatures
   std::size_t tool_of(std::string_view id);
   int id_column_ = -1;

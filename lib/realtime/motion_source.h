@@ -18,7 +18,8 @@ struct MotionLine {
   Vec3 u = Vec3::Zero();      // [m]
   bool in_air = false;
   double temperature = std::numeric_limits<double>::quiet_NaN();  // [degC]; NaN: not known
-  int beyond = 0;  // of what answers it: ToolLoop::beyond()
+  int beyond = 0;          // of what answers it: ToolLoop::beyond()
+  double uncertainty = 0;  // standard, of the length of its force [N]
 };
 
 // What next() promises of a motion, one sample after the other.

@@ -8,10 +8,11 @@ namespace hapsim {
 PlaceFacts::PlaceFacts(const StiffnessField& field, const MaterialSpec& material,
                        const std::vector<KnownStiffness>& known)
     : field_(field), nu_(material.nu) {
-  for (const Vec3& v : field.surface().vertices)
-    modulus_.push_back(material.local
-                           ? local_modulus(material, v).value
-                           : material.modulus[static_cast<std::size_t>(region_at(material, v))]);
+  for (const FieldEntry& entry : field.entries())
+    modulus_.push_back(
+        material.local
+            ? local_modulus(material, entry.point).value
+            : material.modulus[static_cast<std::size_t>(region_at(material, entry.point))]);
   for (const KnownStiffness& k : known) known_.emplace_back(k.point, k.normal);
 }
 
@@ -24,12 +25,11 @@ StepPlace PlaceFacts::at(int face, const Vec3& point, const Vec3& normal) const 
       place.normal = its;
       break;
     }
-  place.contact.K = field_.at(face, point);
+  const StiffnessField::Place table = field_.locate(face, point);
+  place.contact.K = field_.at(table);
   place.contact.nu = nu_;
-  const Vec3 weight = field_.weights(face, point);
-  const Triangle& t = field_.surface().faces[face];
-  place.contact.modulus =
-      weight[0] * modulus_[t[0]] + weight[1] * modulus_[t[1]] + weight[2] * modulus_[t[2]];
+  place.contact.modulus = 0;
+  for (int k = 0; k < 3; ++k) place.contact.modulus += table.weight[k] * modulus_[table.entry[k]];
   return place;
 }
 

@@ -15,14 +15,14 @@ class PlaceFacts {
              const std::vector<KnownStiffness>& known);
 
   // The place at a point of a face, where the surface has this normal; no table search, so it
-  // allocates and throws nothing. The modulus is straight between vertices, as the stiffness; the
+  // allocates and throws nothing. The modulus is straight between entries, as the stiffness; the
   // normal is that of a known contact within kSamePlace.
   StepPlace at(int face, const Vec3& point, const Vec3& normal) const noexcept;
 
  private:
   const StiffnessField& field_;
   double nu_;
-  std::vector<double> modulus_;               // by vertex of the field's surface [Pa]
+  std::vector<double> modulus_;               // by entry of the field [Pa]
   std::vector<std::pair<Vec3, Vec3>> known_;  // points and normals
 };
 

@@ -1,93 +1,121 @@
 #include "realtime/prepared_body.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
+#include "io/stream.h"
 #include "simulate/regional_relaxation.h"
 
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kMostLeftOut = 24;  // contacts, spread over all of them
+// A new layout of fields, or another way to sample, gets a new number.
+constexpr double kFieldVersion = 1;
+// Places where the some thirty materials of regional relaxation are solved.
+constexpr std::size_t kRegionalPlaces = 40;
+constexpr std::size_t kEntriesAtOnce = 256;
 
-// The corners' mesh: the field puts the tool's own neighbourhood in, which is where second order
-// counts. Middles become nodes that no tetrahedron uses, which are held.
-TetMesh corners_only(TetMesh mesh) {
-  mesh.order = 1;
-  for (auto& t : mesh.tets) std::fill(t.begin() + 4, t.end(), -1);
-  return mesh;
+ContactLibraryOptions library_options(const PreparedBodyOptions& options) {
+  ContactLibraryOptions library;
+  library.threads = options.threads;
+  library.cache = options.cache;
+  library.rim_edge = options.rim_edge;
+  return library;
 }
 
-// The field of one material on a mesh whose sparsity is analysed once.
-class FieldMaker {
- public:
-  FieldMaker(const TetMesh& mesh, const PreparedBodyOptions& options)
-      : mesh_(mesh), options_(options), compliance_(mesh, Dilatation::kPointwise) {}
+// A contact that feels its own region alone stands on a body of that modulus.
+bool is_unit(const MaterialSpec& material) {
+  return material.local || material.modulus.size() == 1;
+}
 
-  std::unique_ptr<StiffnessField> field(const MaterialSpec& material,
-                                        const StiffnessField* like = nullptr) {
-    const auto modulus_at = [&](const Vec3& p) {
-      return material.local ? local_modulus(material, p).value
-                            : material.modulus[static_cast<std::size_t>(region_at(material, p))];
+// Its moduli over the first, or the unit material.
+SampledMaterial sampled(const MaterialSpec& material) {
+  SampledMaterial result;
+  result.field.nu = result.solid.nu = material.nu;
+  if (is_unit(material)) {
+    result.field.modulus = [](const Vec3&) { return 1.0; };
+    result.solid.modulus = {1.0};
+  } else {
+    result.solid.modulus.clear();
+    for (const double modulus : material.modulus)
+      result.solid.modulus.push_back(modulus / material.modulus[0]);
+    result.field.modulus = [material](const Vec3& p) {
+      return material.modulus[static_cast<std::size_t>(region_at(material, p))] /
+             material.modulus[0];
     };
-    // A contact that feels its own region alone stands on a body of that modulus.
-    const bool apart = material.local || material.modulus.size() == 1;
-    if (!apart || !condensed_) {
-      std::vector<Lame> constants;
-      constants.reserve(mesh_.tets.size());
-      const Lame unit = lame(1, material.nu);
-      for (const auto& t : mesh_.tets) {
-        const Vec3 centre =
-            (mesh_.nodes[t[0]] + mesh_.nodes[t[1]] + mesh_.nodes[t[2]] + mesh_.nodes[t[3]]) / 4;
-        const double modulus = apart ? 1 : modulus_at(centre);
-        constants.push_back({modulus * unit.lambda, modulus * unit.mu});
-      }
-      compliance_.factorise(constants, options_.threads);
-      condensed_ = apart;
+    result.solid.group_of = [material](const Vec3& p) { return region_at(material, p); };
+    ContentHash regions;
+    for (std::size_t k = 0; k < material.key_point.size(); ++k) {
+      regions.add(material.key_point[k].x());
+      regions.add(material.key_point[k].y());
+      regions.add(material.key_region[k]);
     }
-    about_ = {material.nu, modulus_at, apart};
-    if (options_.contacts) known_ = options_.contacts(material);
-    return std::make_unique<StiffnessField>(mesh_, compliance_, about_, options_.tool_radius,
-                                            known_, like);
+    result.description = regions.hex();
   }
-  // Of the last field's known contacts, each from those that lie farther off than the tool's
-  // radius.
-  LeftOut left_out() const {
-    LeftOut result;
-    const std::size_t every = (known_.size() + kMostLeftOut - 1) / kMostLeftOut;
-    double squares = 0;
-    for (std::size_t k = 0; k < known_.size(); k += every) {
-      std::vector<KnownStiffness> others;
-      for (const KnownStiffness& o : known_)
-        if ((o.point - known_[k].point).norm() > options_.tool_radius) others.push_back(o);
-      if (others.empty()) continue;
-      const StiffnessField field(mesh_, compliance_, about_, options_.tool_radius, others);
-      const SurfacePoint place = nearest_point(field.surface(), known_[k].point);
-      const double error =
-          (field.at(place.face, place.point) - known_[k].K).norm() / known_[k].K.norm();
-      squares += error * error;
-      result.worst = std::max(result.worst, error);
-      ++result.contacts;
-    }
-    if (result.contacts > 0) result.rms = std::sqrt(squares / static_cast<double>(result.contacts));
-    return result;
-  }
-  const std::vector<KnownStiffness>& known() const { return known_; }  // of the last field
-  std::size_t unknowns() const { return static_cast<std::size_t>(compliance_.matrix().rows()); }
+  for (const FeatureSpec& f : material.features) result.solid.features.push_back(f.feature);
+  return result;
+}
 
- private:
-  const TetMesh& mesh_;
-  const PreparedBodyOptions& options_;
-  SurfaceCompliance compliance_;
-  FieldMaterial about_;
-  std::vector<KnownStiffness> known_;
-  bool condensed_ = false;  // of unit modulus: serves any
-};
+double scale_at(const MaterialSpec& material, const Vec3& p) {
+  return material.local ? local_modulus(material, p).value : material.modulus[0];
+}
+
+// Of all that a field depends on.
+std::string key_of(const TetMesh& body, const SampledMaterial& material,
+                   const std::vector<KnownStiffness>& known, const PreparedBodyOptions& options) {
+  ContentHash key;
+  key.add(kFieldVersion);
+  std::vector<int> node;
+  const Surface surface = boundary_surface(body, &node);
+  for (const Vec3& p : surface.vertices) key.add(p.data(), 3 * sizeof(double));
+  for (const Triangle& f : surface.faces) key.add(f.data(), sizeof f);
+  for (const int n : node) key.add(&body.fixed[static_cast<std::size_t>(n)], 1);
+  for (const double value : {options.tool_radius, options.rim_edge, kGrowth, kSampled})
+    key.add(value);
+  key.add(material.solid.nu);
+  for (const double modulus : material.solid.modulus) key.add(modulus);
+  for (const BodyFeature& feature : material.solid.features) {
+    key.add(static_cast<double>(feature.kind));
+    for (const double value : feature.value) key.add(value);
+  }
+  key.add(material.description);
+  for (const KnownStiffness& k : known) {
+    key.add(k.point.data(), 3 * sizeof(double));
+    key.add(k.K.data(), 9 * sizeof(double));
+  }
+  key.add(options.tolerance);
+  key.add(static_cast<double>(options.most_samples));
+  return key.hex();
+}
+
+std::unique_ptr<StiffnessField> load_field(const std::string& path) {
+  if (path.empty() || !std::filesystem::exists(path)) return nullptr;
+  try {
+    return std::make_unique<StiffnessField>(Input(path).read_all());
+  } catch (const Error&) {
+    return nullptr;  // damaged: it is made again
+  }
+}
+
+void store_field(const std::string& path, const StiffnessField& field) {
+  if (path.empty()) return;
+  try {
+    Output file(path);
+    file.write(field.bytes());
+    file.commit();
+  } catch (const Error&) {
+    // A full or read-only cache costs time, not the result.
+  }
+}
 
 }  // namespace
 
@@ -96,40 +124,86 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     : effects_(effect_instances(model, false)),
       tool_radius_(options.tool_radius),
       heals_(options.heals) {
-  const TetMesh mesh = corners_only(body);
   const MaterialSpec material = material_of(model);
   modulus_ = material.modulus[0];
   const bool moved = material.shift != Vec3::Zero() || material.rotation != Vec3::Zero();
-  if ((moved || !material.features.empty()) && !options.contacts)
-    fail_input(model.name,
-               moved ? "the body has moved, which its own mesh does not know"
-                     : "the body has features that its own mesh does not show",
+  if (moved && !options.contacts)
+    fail_input(model.name, "the body has moved, which its own mesh does not know",
                "have the contacts solved finely: hs-simulate --live --contacts data.csv");
   const ModelRelaxation relaxation = relaxation_of(model, material);
-  FieldMaker maker(mesh, options);
-  field_ = maker.field(material);
-  surface_unknowns_ = maker.unknowns();
-  left_out_ = maker.left_out();
-  facts_ = std::make_unique<PlaceFacts>(*field_, material, maker.known());
   terms_ = relaxation.common;
+  const SampledMaterial solid = sampled(material);
+  std::vector<KnownStiffness> known =
+      options.contacts ? options.contacts(material) : std::vector<KnownStiffness>{};
+  for (KnownStiffness& k : known) k.K /= scale_at(material, k.point);
+  const std::string path =
+      options.cache.empty() ? std::string()
+                            : options.cache + "/" + key_of(body, solid, known, options) + ".field";
+  field_ = load_field(path);
+  std::unique_ptr<const FieldSampling> sampling;
+  if (!field_ || !relaxation.regional.empty()) {
+    const auto library =
+        std::make_shared<const ContactLibrary>(body, options.tool_radius, library_options(options));
+    std::vector<Vec3> places;
+    for (const KnownStiffness& k : known) places.push_back(k.point);
+    FieldSamplingOptions how{options.tolerance, options.most_samples, {}};
+    if (options.progress) how.sampled = options.progress(options.most_samples);
+    sampling = std::make_unique<FieldSampling>(library, options.tool_radius, solid, places, how);
+  }
+  if (!field_) {
+    field_ = std::make_unique<StiffnessField>(boundary_surface(body), *sampling, known,
+                                              options.tool_radius, options.threads);
+    store_field(path, *field_);
+  }
+  field_->scale([&](const Vec3& p) { return scale_at(material, p); });
+  facts_ = std::make_unique<PlaceFacts>(*field_, material, known);
   if (!relaxation.regional.empty())
-    prepare_regional(relaxation.regional, material,
-                     [&](const MaterialSpec& m) { return maker.field(m, field_.get()); });
+    prepare_regional(relaxation.regional, material, *sampling, options);
   if (is_regional() && terms_.size() > static_cast<std::size_t>(kMostTerms))
     fail_input(model.name, "the model has " + std::to_string(terms_.size()) + " relaxation times",
                "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");
 }
 
-void PreparedBody::prepare_regional(
-    const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
-    const std::function<std::unique_ptr<StiffnessField>(const MaterialSpec&)>& field_for) {
+void PreparedBody::prepare_regional(const std::vector<RegionRelaxation>& regions,
+                                    const MaterialSpec& relaxed, const FieldSampling& sampling,
+                                    const PreparedBodyOptions& options) {
   assert(terms_.empty());  // an effect's terms are common or regional
-  const std::size_t vertices = field_->surface().vertices.size();
+  const std::vector<FieldEntry>& entries = field_->entries();
+  const auto estimate = [&](const MaterialSpec& material) {
+    const SampledMaterial solid = sampled(material);
+    const std::unique_ptr<PlaceModel> model = sampling.model_of(solid, kRegionalPlaces);
+    const PlaceViews views = sampling.views().with(solid.field);
+    std::vector<Eigen::Matrix3d> K(entries.size());
+    in_parallel((entries.size() + kEntriesAtOnce - 1) / kEntriesAtOnce, options.threads,
+                [&](std::size_t block) {
+                  std::vector<PlaceView> seen;
+                  const std::size_t first = block * kEntriesAtOnce,
+                                    last = std::min(first + kEntriesAtOnce, entries.size());
+                  for (std::size_t i = first; i < last; ++i)
+                    seen.push_back(views.at(entries[i].point));
+                  const std::vector<PlaceEstimate> estimates = model->at(seen, false);
+                  for (std::size_t i = first; i < last; ++i)
+                    K[i] = scale_at(material, entries[i].point) * estimates[i - first].K;
+                });
+    return K;
+  };
+  // What the material does is smooth: it is taken from few places, about the field of the relaxed
+  // one, K = S K_few S' with S the map that takes the relaxed stiffness of few places to the
+  // field's.
+  std::vector<Eigen::Matrix3d> S = estimate(relaxed);
+  for (std::size_t i = 0; i < S.size(); ++i) {
+    const Eigen::Matrix3d few = S[i].llt().matrixL(), all = entries[i].K.llt().matrixL();
+    S[i] = all * few.inverse();
+  }
   const auto solve = [&](const MaterialSpec& material) {
-    const std::unique_ptr<StiffnessField> field = field_for(material);
-    std::vector<Eigen::Matrix3d> K;
-    for (std::size_t v = 0; v < vertices; ++v) K.push_back(field->at_vertex(static_cast<int>(v)));
+    std::vector<Eigen::Matrix3d> K = estimate(material);
+    for (std::size_t i = 0; i < K.size(); ++i) K[i] = (S[i] * K[i] * S[i].transpose()).eval();
+    if (options.contacts) {
+      const std::vector<KnownStiffness> known = options.contacts(material);
+      for (std::size_t k = 0; k < known.size(); ++k)
+        K[static_cast<std::size_t>(field_->known()[k])] = known[k].K;
+    }
     return K;
   };
   const std::vector<PositionStiffness> stiffness =
@@ -141,13 +215,13 @@ void PreparedBody::prepare_regional(
 }
 
 void PreparedBody::maxwell_at(int face, const Vec3& point, Eigen::Matrix3d* K) const noexcept {
-  const Vec3 weight = field_->weights(face, point);
-  const Triangle& t = field_->surface().faces[face];
+  const StiffnessField::Place place = field_->locate(face, point);
   const std::size_t terms = terms_.size();
-  for (std::size_t j = 0; j < terms; ++j)
-    K[j] = weight[0] * maxwell_[static_cast<std::size_t>(t[0]) * terms + j] +
-           weight[1] * maxwell_[static_cast<std::size_t>(t[1]) * terms + j] +
-           weight[2] * maxwell_[static_cast<std::size_t>(t[2]) * terms + j];
+  for (std::size_t j = 0; j < terms; ++j) {
+    K[j].setZero();
+    for (int k = 0; k < 3; ++k)
+      K[j] += place.weight[k] * maxwell_[static_cast<std::size_t>(place.entry[k]) * terms + j];
+  }
 }
 
 std::vector<KnownStiffness> known_contacts(const Places& places, const MaterialSpec& material) {

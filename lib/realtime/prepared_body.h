@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "experiment/forces.h"
@@ -16,28 +17,26 @@ namespace hapsim {
 
 struct PreparedBodyOptions {
   double tool_radius = 0;  // of the flat tool [m]
-  // Finely solved contacts for a material, see known_contacts(); none where it is not set. Asked
-  // once, or for some thirty materials where regions relax each in its own way.
+  // Places whose stiffness is the batch mode's own, see known_contacts(); none where it is not set.
+  // Asked once, or for some thirty materials where regions relax each in its own way.
   std::function<std::vector<KnownStiffness>(const MaterialSpec&)> contacts;
-  int threads = 1;     // of the condensation's dense part
-  bool heals = false;  // the body recovers between presses (metadata `recovery: full`)
+  int threads = 0;             // 0: as many as the machine has
+  bool heals = false;          // the body recovers between presses (metadata `recovery: full`)
+  std::string cache;           // directory of prepared fields and samples, "" for none
+  double rim_edge = kRimEdge;  // of the contact meshes, over the tool's radius
+  double tolerance = 0.02;     // relative error of the force between samples, root mean square
+  std::size_t most_samples = kMostSamples;  // the tolerance may then not be reached
+  std::function<std::function<void()>(std::size_t)> progress;  // from the most, a step function
 };
 
-// How far the stiffness is off at known contacts that were left out, from those that were not:
-// |K - K_known| / |K_known| in the norm of Frobenius.
-struct LeftOut {
-  std::size_t contacts = 0;  // that were; 0: there are not two, and nothing is known
-  double rms = 0, worst = 0;
-};
-
-// Reads nothing, and holds all that a loop reads: never changed after, so any number of loops and
-// threads may share one. Cost: one factorisation and condensation of the body's mesh (its corners,
-// of first order); some thirty where regions relax each in its own way. Up to 24 known contacts
-// are left out in turn, for which the field alone is made again.
+// Reads nothing but the cache, and holds all that a loop reads: never changed after, so any number
+// of loops and threads may share one. Cost: 0.05 to 0.1 s of a processor for each sample, thirty
+// times that for 40 of them where regions relax each in its own way; nothing once the field
+// is in the cache.
 class PreparedBody {
  public:
-  // Error(kBadInput): more than kMostTerms regional Maxwell elements; features of the body, or a
-  // move, without contacts that know of them; body without a closed surface.
+  // Error(kBadInput): more than kMostTerms regional Maxwell elements; a move of the body without
+  // contacts that know of it; body without a closed surface, or that the tool fits nowhere.
   // Error(kNoConvergence): body not held.
   PreparedBody(const TetMesh& body, const Model& model, const PreparedBodyOptions& options);
 
@@ -54,28 +53,23 @@ class PreparedBody {
   bool heals() const { return heals_; }
   double modulus() const { return modulus_; }  // E of region 0 [Pa]
   const PlaceFacts& facts() const { return *facts_; }
-  // Of regional relaxation: what the Maxwell elements leave of the stiffness, the worst vertex's,
+  // Of regional relaxation: what the Maxwell elements leave of the stiffness, the worst entry's,
   // relative to it.
   double misfit() const { return misfit_; }
-  std::size_t surface_unknowns() const { return surface_unknowns_; }
-  const LeftOut& left_out() const { return left_out_; }
 
   static constexpr int kMostTerms = 32;
 
  private:
-  void prepare_regional(
-      const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
-      const std::function<std::unique_ptr<StiffnessField>(const MaterialSpec&)>& field_for);
+  void prepare_regional(const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
+                        const FieldSampling& sampling, const PreparedBodyOptions& options);
 
   std::vector<EffectInstance> effects_;
   double tool_radius_ = 0, modulus_ = 0;
   bool heals_ = false;
   std::unique_ptr<PlaceFacts> facts_;
   std::vector<MaxwellTerm> terms_;
-  std::vector<Eigen::Matrix3d> maxwell_;  // [vertex * terms + term]
+  std::vector<Eigen::Matrix3d> maxwell_;  // [entry * terms + term]
   double misfit_ = 0;
-  std::size_t surface_unknowns_ = 0;
-  LeftOut left_out_;
   std::unique_ptr<StiffnessField> field_;
   std::unique_ptr<SignedDistance> distance_;
 };

@@ -223,6 +223,7 @@ void SeveralTools::feel(double t) noexcept {
     feel.u += held;
     way.head<3>() += held;
     feel.beyond = tool.loop.beyond() | (close ? kBeyondClose : 0);
+    feel.uncertainty = tool.loop.uncertainty() * feel.force.norm();
     feel.torque = tool.torque.advance(t, -(tool.K.bottomRows<3>() * way));
   }
 }

@@ -2,64 +2,70 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <functional>
+#include <string>
 #include <vector>
 
-#include "solid/surface_compliance.h"
+#include "realtime/field_sampling.h"
 
 namespace hapsim {
 
-// The compliance of a half-space under a bonded rigid disc [m/N], normal outward and unit: along it
-// (1 - 2 nu) / (4 G a ln(3 - 4 nu)) (Mossakovskii, PMM 18, 1954), across it (2 - nu) / (8 G a)
-// (Johnson, Contact Mechanics, 3.7 and 7.2).
-Eigen::Matrix3d disc_compliance(double modulus, double nu, double radius, const Vec3& normal);
-
-// A contact whose stiffness is known better than the body's own mesh gives it.
+// A contact whose stiffness is known better than the samples give it.
 struct KnownStiffness {
   Vec3 point, normal;  // on the surface [m]; outward, unit
   Eigen::Matrix3d K;   // [N/m], symmetric positive definite
 };
 
-struct FieldMaterial {
-  double nu = 0.3;
-  std::function<double(const Vec3&)> modulus;  // E [Pa] about a place
-  // The compliance was condensed for E = 1 everywhere: a contact feels its own place's modulus as
-  // if the whole body had it.
-  bool unit_compliance = false;
+struct FieldEntry {
+  Vec3 point = Vec3::Zero();
+  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // [N/m]
+  double uncertainty = 0;                       // relative standard uncertainty of the force
+  bool sampled = true;  // false: where contact meshes cannot be made, beside the support
 };
 
-// One 3x3 stiffness a vertex, straight in between, so continuous on the whole surface. The body's
-// mesh is coarser than the tool, so a vertex's stiffness is put together: the condensed compliance
-// of the nodes under the tool, less that of a disc as large as the area these nodes stand for, plus
-// that of the tool's own disc (a half-space's, steeper at edges by the solid angle of the body
-// there). A vertex that is held keeps the last term only. Known contacts become vertices with their
-// own stiffness; their correction S (symmetric, S K S is what is known) acts on the other vertices,
-// turned into their normals, by inverse squares of the distances.
+// Entries at the corners of every face and, where the stiffness is not straight between them, on a
+// lattice over the face, 2, 4, ... to 64 steps along its edges; straight in between. Known contacts
+// become corners with their own stiffness.
 class StiffnessField {
  public:
-  // `compliance` of `mesh` (first order), factorised. Error(kBadInput): a known contact off the
-  // surface by more than a tenth of its size, or not positive definite. `like`: a field of another
-  // material on the same mesh, whose choices are kept, so that the stiffness is a smooth function
-  // of the material.
-  StiffnessField(const TetMesh& mesh, const SurfaceCompliance& compliance,
-                 const FieldMaterial& material, double tool_radius,
-                 const std::vector<KnownStiffness>& known = {},
-                 const StiffnessField* like = nullptr);
+  // Three entries and their weights, which are not negative and sum to one.
+  struct Place {
+    std::array<int, 3> entry;
+    Vec3 weight;
+  };
+
+  // From samples. Error(kBadInput): a known contact off the surface by more than a tenth of its
+  // size, or not positive definite.
+  StiffnessField(const Surface& surface, const FieldSampling& sampling,
+                 const std::vector<KnownStiffness>& known, double tool_radius, int threads);
+  // A table that bytes() wrote. Error(kBadInput): damaged, or of another layout.
+  explicit StiffnessField(const std::string& bytes);
+  std::string bytes() const;
 
   // The body's boundary, split where contacts are known.
   const Surface& surface() const { return surface_; }
-  const Eigen::Matrix3d& at_vertex(int vertex) const { return K_[vertex]; }
-  // At a point of a face of surface() [N/m]; a table look-up: allocates and throws nothing.
-  Eigen::Matrix3d at(int face, const Vec3& point) const noexcept;
-  // Of the face's corners there: not negative, they sum to one.
-  Vec3 weights(int face, const Vec3& point) const noexcept;
+  const std::vector<FieldEntry>& entries() const { return entries_; }
+  std::size_t samples() const { return samples_; }
+  double expected_error() const { return expected_; }       // relative, root mean square
+  const std::vector<int>& known() const { return known_; }  // entries, as they were given
+  // Multiplies each entry's stiffness by a positive number of its point.
+  void scale(const std::function<double(const Vec3&)>& factor);
+
+  // At a point of a face of surface(): look-ups that allocate and throw nothing.
+  Place locate(int face, const Vec3& point) const noexcept;
+  Eigen::Matrix3d at(const Place& place) const noexcept;  // [N/m]
+  Eigen::Matrix3d at(int face, const Vec3& point) const noexcept { return at(locate(face, point)); }
+  FieldEntry entry_at(const Place& place) const noexcept;
 
  private:
-  void correct(const std::vector<KnownStiffness>& known);
-
   Surface surface_;
-  std::vector<Eigen::Matrix3d> K_;
-  std::vector<char> plain_;  // one a vertex of the mesh; 1: the nodes' own stiffness, no disc's
+  std::vector<int> first_, steps_;  // by face: of lattice_, row by row, corner 0 to corners 1 and 2
+  std::vector<int> lattice_;        // entries
+  std::vector<FieldEntry> entries_;
+  std::vector<int> known_;
+  std::size_t samples_ = 0;
+  double expected_ = 0;
 };
 
 }  // namespace hapsim

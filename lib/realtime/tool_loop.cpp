@@ -56,6 +56,7 @@ void ToolLoop::touch(const Place& place) noexcept {
 Vec3 ToolLoop::press_within(double t, const Vec3& u) noexcept {
   const double share = way_.share(u);
   beyond_ = share > kValidShare || way_.depth(u) > options_.fitted_depth ? kBeyondDepth : 0;
+  if (!sampled_) beyond_ |= kBeyondPlaces;
   pressed_ = u;
   if (share > kHeldShare) {
     beyond_ |= kBeyondHeld;

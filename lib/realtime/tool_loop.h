@@ -19,7 +19,8 @@ struct ToolLoopOptions {
 // What a force is said to be beyond: bits of ToolLoop::beyond().
 enum Beyond : int {
   kBeyondDepth = 1,  // deeper than fitted, or than kValidShare of the way through the body
-  kBeyondHeld = 2    // it is that of kHeldShare of that way, where the tool is held to be
+  kBeyondHeld = 2,   // it is that of kHeldShare of that way, where the tool is held to be
+  kBeyondPlaces = 4  // where contact meshes cannot be made: beside the support
 };
 
 // Finds the contact and hands displacements to a model. step(), begin() and press() allocate
@@ -49,6 +50,8 @@ class ToolLoop {
   // nothing is known of the way through it.
   int beyond() const { return beyond_; }
   const Vec3& pressed() const { return pressed_; }
+  // Relative standard uncertainty of the force that the place leaves; 0 where it is not known.
+  double uncertainty() const { return uncertainty_; }
 
  protected:
   // Where the tool presses. Without a surface the normal is zero and the face -1.
@@ -62,6 +65,10 @@ class ToolLoop {
   // Away from the body, displaced by u from where it touched last (zero: not known).
   virtual Vec3 advance_in_air(double t, const Vec3& u) noexcept;
   double temperature() const { return temperature_; }
+  // What take_place() knows of the place.
+  void set_quality(double uncertainty, bool sampled) noexcept {
+    uncertainty_ = uncertainty, sampled_ = sampled;
+  }
 
   void restore_tool(const ToolState& state) noexcept { contact_.restore(state); }
 
@@ -76,6 +83,8 @@ class ToolLoop {
   WayThrough way_;
   Vec3 pressed_ = Vec3::Zero();
   int beyond_ = 0;
+  double uncertainty_ = 0;
+  bool sampled_ = true;
   double temperature_ = std::numeric_limits<double>::quiet_NaN();
 };
 

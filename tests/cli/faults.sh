@@ -158,10 +158,10 @@ done
 awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"
   for (i = 0; i < 600; ++i) printf "1,%.3f,0.03,0.025,0.04,0,0,%.9g\n", i / 1000, -0.001 * (1 - cos(0.02 * i)) }' >hand.csv
 hs-tetmesh -q box.off --edge 0.015 -o coarse.ply
-hs-link --listen 0 --body coarse.ply --model model.csv --tool-radius 0.004 --idle 5 2>far.err &
+hs-link --listen 0 --accuracy 0.3 --body coarse.ply --model model.csv --tool-radius 0.004 --idle 5 2>far.err &
 far=$!
 until_true 60 grep -qs listening far.err
-operator="hs-link hand.csv --peer $(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err) --body coarse.ply -q"
+operator="hs-link hand.csv --accuracy 0.3 --peer $(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err) --body coarse.ply -q"
 $operator -o /dev/full 2>err; code=$?
 told '/dev/full' hs-link 5
 row 'output to a full device' hs-link "exit $code, $(cut -c1-60 err | head -n 1)"

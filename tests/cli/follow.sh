@@ -12,7 +12,7 @@ awk 'BEGIN { # presses of a second at 200 Hz, with air between them
     printf "%d,%.3f,%g,%g,0.04,%.9g,0,%.9g,%d\n", p, p + i / 200, 0.02 + 0.005 * (p % 5), 0.02 + 0.003 * (p % 4), air ? 0 : 0.0006 * s, air ? 0.01 : -0.003 * s, !air
   }
 }' >motion.csv
-"$bin/hs-simulate" --live motion.csv --body body.ply --model model.csv -q -o clean.csv 2>err || complain 'no forces'
+"$bin/hs-simulate" --live --accuracy 0.3 motion.csv --body body.ply --model model.csv -q -o clean.csv 2>err || complain 'no forces'
 stream() { # KIND: noise, and after 14 s the change
   awk -F, -v OFS=, -v kind="$1" 'BEGIN { srand(3) } /^#/ { print; next } !h { h = 1; for (i = 1; i <= NF; ++i) c[$i] = i; print; next }
     { for (k = 0; k < 3; ++k) { f = c["fx"] + k; g = -6; for (j = 0; j < 12; ++j) g += rand()
@@ -20,7 +20,7 @@ stream() { # KIND: noise, and after 14 s the change
         if ($c["t"] > 14 && kind == "bias" && k == 2) $f += 0.1
         $f = sprintf("%.6f", $f + 0.01 * g) } print }' clean.csv
 }
-follow() { stream "$1" | "$bin/hs-compare" --follow - --body body.ply --model model.csv --rate 200 \
+follow() { stream "$1" | "$bin/hs-compare" --follow --accuracy 0.3 - --body body.ply --model model.csv --rate 200 \
   --learning 6 --events "$1.events" >"$1.out" 2>err || complain "$1 was not followed"; }
 for kind in none soft bias; do
   follow $kind
@@ -44,7 +44,7 @@ answered() { # every row of the stream, in the file that will be rows.csv
 }
 for signal in INT TERM; do
   rm -f rows.csv soft.events err  # words of the run before must not be waited for
-  env --default-signal=INT "$bin/hs-compare" --follow pipe --body body.ply --model model.csv --rate 200 \
+  env --default-signal=INT "$bin/hs-compare" --follow --accuracy 0.3 pipe --body body.ply --model model.csv --rate 200 \
     --learning 6 --events soft.events -o rows.csv 2>err &
   watching=$!
   exec {to}>pipe
@@ -57,15 +57,15 @@ for signal in INT TERM; do
     complain "SIG$signal loses rows or events"
 done
 rm -f rows.csv soft.events
-{ stream soft; echo 'x,30,0,0,0,0,0,0,0,0,0,1'; } | "$bin/hs-compare" --follow - --body body.ply --model model.csv \
+{ stream soft; echo 'x,30,0,0,0,0,0,0,0,0,0,1'; } | "$bin/hs-compare" --follow --accuracy 0.3 - --body body.ply --model model.csv \
   --rate 200 --learning 6 --events soft.events -o rows.csv -q 2>err
 (($? == 3)) && [[ $(grep -c '^[0-9]' rows.csv) == 4800 && $(wc -l <soft.events) == 2 ]] || complain 'a bad row loses those before it'
 # Nothing was watched, and that is told.
-stream none | "$bin/hs-compare" --follow - --body body.ply --model model.csv --rate 200 --learning 60 >rows.csv 2>err
+stream none | "$bin/hs-compare" --follow --accuracy 0.3 - --body body.ply --model model.csv --rate 200 --learning 60 >rows.csv 2>err
 grep -q 'nothing was watched: the usual error is learned from 60 s in contact, and there were 19.2 s' err || complain 'no word of learning'
 
 # The modulus from a stream, line by line.
-stream none | "$bin/hs-identify" --follow - --body body.ply --every 400 >estimates.csv 2>err || complain 'no estimates'
+stream none | "$bin/hs-identify" --follow --accuracy 0.3 - --body body.ply --every 400 >estimates.csv 2>err || complain 'no estimates'
 [[ $(grep -c '^[0-9]' estimates.csv) == 12 ]] || complain 'not a line every 400 rows'
 awk -F, '/^[0-9]/ { e = $3; s = $4 } END { exit !(e > 19980 && e < 20020 && s > 0 && s < 10) }' estimates.csv ||
   complain 'E was not found'
@@ -83,9 +83,9 @@ refuse() { # CODE TEXT ARGUMENTS...
 refuse 2 '--follow needs --model' --follow clean.csv --body body.ply
 refuse 2 'is of a stream' clean.csv --simulated clean.csv --events e.csv
 refuse 2 '--simulated is required' clean.csv
-refuse 3 'the rows come at some 200 Hz by their t, not 1000 Hz' --follow clean.csv --body body.ply --model model.csv
+refuse 3 'the rows come at some 200 Hz by their t, not 1000 Hz' --follow clean.csv --accuracy 0.3 --body body.ply --model model.csv
 awk -F, -v OFS=, '$2 == 6.5 { $8 = -0.3 } 1' clean.csv >deep.csv
-refuse 3 'a displacement of 0.3 m on a body of 0.0877 m' --follow deep.csv --body body.ply --model model.csv --rate 200 -q
-refuse 3 "'fx'" --follow motion.csv --body body.ply --model model.csv
+refuse 3 'a displacement of 0.3 m on a body of 0.0877 m' --follow deep.csv --accuracy 0.3 --body body.ply --model model.csv --rate 200 -q
+refuse 3 "'fx'" --follow motion.csv --accuracy 0.3 --body body.ply --model model.csv
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

@@ -46,15 +46,15 @@ use() { # TOOL BODY
   hs-export) "$tool" model.csv --body "$body" --format vtu -q -o made.vtu && mv made.vtu made.csv ;;
   hs-compare)
     "$tool" data.csv --simulated forces.csv --body "$body" --ply map.ply -q -o residuals.csv &&
-      "$tool" --follow data.csv --body "$body" --model model.csv --rate 20 -q -o made.csv && cat map.ply >>made.csv ;;
+      "$tool" --follow data.csv --accuracy 0.3 --body "$body" --model model.csv --rate 20 -q -o made.csv && cat map.ply >>made.csv ;;
   hs-fuse) "$tool" --live fast.csv --body "$body" --model model.csv --acfm acfm.csv -q -o live.csv && grep -c '^1,' live.csv >made.csv ;;
   hs-link)
     : >far.err  # the last one's words are not this one's
-    "$tool" --listen 0 --body "$body" --model model.csv --tool-radius 0.004 --idle 60 2>far.err &
+    "$tool" --listen 0 --accuracy 0.3 --body "$body" --model model.csv --tool-radius 0.004 --idle 60 2>far.err &
     local far=$! port=
     for _ in {1..600}; do grep -q listening far.err && break; sleep 0.05; done
     port=$(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err)
-    "$tool" fast.csv --peer "$port" --body "$body" --samples 20 -q -o felt.csv && grep -c '^1,' felt.csv >made.csv
+    "$tool" fast.csv --accuracy 0.3 --peer "$port" --body "$body" --samples 20 -q -o felt.csv && grep -c '^1,' felt.csv >made.csv
     local done=$?
     kill $far; wait $far
     (exit $done) ;;

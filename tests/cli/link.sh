@@ -11,14 +11,14 @@ awk 'BEGIN {
     printf "1,%.3f,0.03,0.025,0.04,0,0,%.9g\n", i / 1000, -0.001 * (1 - cos(0.02 * i))
 }' >motion.csv
 
-"$bin/hs-link" --listen 0 --body body.ply --model model.csv --tool-radius 0.004 --delay 0.02 \
+"$bin/hs-link" --listen 0 --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --delay 0.02 \
   --loss 0.02 --idle 4 2>far.err &
 far=$!
 until_true 60 grep -qs listening far.err
 port=$(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err)
 [[ -n $port ]] || complain 'the teleoperator does not say where it listens'
 for text in x HSL1 "$(printf 'HSL2%092d' 7)" "$(printf 'HSL1%092d' 7)"; do printf '%s' "$text" >/dev/udp/127.0.0.1/"$port"; done
-"$bin/hs-link" motion.csv --peer "$port" --body body.ply --delay 0.02 --jitter 0.005 --loss 0.02 \
+"$bin/hs-link" motion.csv --accuracy 0.3 --peer "$port" --body body.ply --delay 0.02 --jitter 0.005 --loss 0.02 \
   --samples 200 --identified identified.csv >felt.csv 2>err || complain 'the operator failed'
 wait $far || complain 'the teleoperator failed'
 [[ $(grep -c '^1,' felt.csv) == 1500 ]] || complain 'not every line was answered'

@@ -41,14 +41,14 @@ awk 'BEGIN {
   }
 }' >tip.csv
 run() { "$bin/$@" 2>err || complain "exit $?: $*"; }
-run hs-simulate --live tip.csv --body body.ply --model model.csv -q -o first.csv
+run hs-simulate --live --accuracy 0.3 tip.csv --body body.ply --model model.csv -q -o first.csv
 [[ $(awk -F, '/^[0-9]/ { print $1 }' first.csv | uniq | tr '\n' ' ') == '0 1 2 3 ' ]] ||
   complain "the touches are not presses: $(awk -F, '/^[0-9]/ { print $1 }' first.csv | uniq | tr '\n' ' ')"
 # At the contacts it found, finely solved, the lines it wrote have the forces of the batch mode; so have the tip's own.
 fine=(--body body.ply --model model.csv --rim-edge 0.3 -q)
-run hs-simulate --live tip.csv --contacts first.csv "${fine[@]}" -o live.csv
+run hs-simulate --live --accuracy 0.3 tip.csv --contacts first.csv "${fine[@]}" -o live.csv
 run hs-simulate live.csv "${fine[@]}" -o batch.csv
-run hs-simulate --live live.csv --contacts live.csv "${fine[@]}" -o again.csv
+run hs-simulate --live --accuracy 0.3 live.csv --contacts live.csv "${fine[@]}" -o again.csv
 column() { # FILE NAME...
   local file=$1
   shift
@@ -64,15 +64,15 @@ agree live.csv batch.csv || complain 'live differs from batch'
 agree live.csv again.csv || complain 'a tip differs from its presses'
 
 # Every tool reads it.
-run hs-simulate --live tip.csv --body body.ply --model elastic.csv -q -o elastic-live.csv
-run hs-simulate --live tip.csv --body body.ply --model elastic.csv --rate 100000 -q -o paced.csv
+run hs-simulate --live --accuracy 0.3 tip.csv --body body.ply --model elastic.csv -q -o elastic-live.csv
+run hs-simulate --live --accuracy 0.3 tip.csv --body body.ply --model elastic.csv --rate 100000 -q -o paced.csv
 for file in elastic-live.csv paced.csv; do
   run hs-simulate "$file" --body body.ply --model elastic.csv --rim-edge 0.3 -q -o s.csv
-  run hs-simulate --live "$file" --body body.ply --model elastic.csv -q -o s.csv
+  run hs-simulate --live "$file" --accuracy 0.3 --body body.ply --model elastic.csv -q -o s.csv
   run hs-identify "$file" --body body.ply --effects elastic --rim-edge 0.3 -q -o m.csv
-  run hs-identify --follow "$file" --body body.ply -q -o e.csv
-  run hs-compare "$file" --simulated s.csv -q -o c.csv
-  run hs-compare --follow "$file" --body body.ply --model elastic.csv --rate 200 --learning 0.5 -q -o f.csv
+  run hs-identify --follow "$file" --accuracy 0.3 --body body.ply -q -o e.csv
+  run hs-compare "$file" --body body.ply --model elastic.csv --rim-edge 0.3 -q -o c.csv
+  run hs-compare --follow "$file" --accuracy 0.3 --body body.ply --model elastic.csv --rate 200 --learning 0.5 -q -o f.csv
   run hs-identify "$file" --body body.ply --acfm 0 -q -o acfm.csv
   run hs-simulate --live tip.csv --model acfm.csv --body body.ply -q -o a.csv
   run hs-simulate a.csv --body body.ply --model elastic.csv --rim-edge 0.3 -q -o s.csv
@@ -95,7 +95,7 @@ for mode in '' --own-mesh --full; do
   deep 0.044 | "$bin/hs-simulate" - --body body.ply --model elastic.csv --rim-edge 0.3 $mode -o s.csv 2>err
   (($? == 3)) && grep -q 'goes through the body, which is 0.04 m thick there' err || complain "44 mm pass $mode"
 done
-deep 0.044 | "$bin/hs-simulate" --live - --body body.ply --model elastic.csv -o held.csv 2>err || complain 'live 44 mm'
+deep 0.044 | "$bin/hs-simulate" --live --accuracy 0.3 - --body body.ply --model elastic.csv -o held.csv 2>err || complain 'live 44 mm'
 grep -q 'of 2 the force is held at 90 %' err || complain 'held forces are not told'
 [[ $(column held.csv beyond | tr -d ' \n') == 00000111133 ]] || complain 'the depth is not flagged'
 column held.csv uz fz | awk 'NR == 3 { k = $2 / $1 } END { exit !($1 < -0.0355 && $1 > -0.0365 && ($2 / $1 / k - 1) ^ 2 < 1e-12) }' || complain 'what is held is not the force of 36 mm'

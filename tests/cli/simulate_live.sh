@@ -20,7 +20,7 @@ common=(--body body.ply --model model.csv --rim-edge 0.3)
 
 # The same numbers as the batch mode, to 1e-6 of the largest force.
 "$bin/hs-simulate" motion.csv "${common[@]}" -q -o batch.csv 2>err || complain 'the batch mode failed'
-"$bin/hs-simulate" --live --contacts motion.csv "${common[@]}" <motion.csv >live.csv 2>err ||
+"$bin/hs-simulate" --live --accuracy 0.3 --contacts motion.csv "${common[@]}" <motion.csv >live.csv 2>err ||
   complain 'the live mode failed'
 grep -q 'each of 3 contacts left out in turn, its force is [0-9.]* % off' err && grep -q '^# off_contacts: 0' live.csv ||
   complain 'how far it is off between contacts is not told'
@@ -59,12 +59,12 @@ END
 two=(--body body.ply --model regions.csv --rim-edge 0.3)
 "$bin/hs-simulate" motion.csv "${two[@]}" -o regions-batch.csv 2>err || complain 'batch of regions failed'
 grep -q 'relax each in its own way: [0-9]* Maxwell elements' err || complain 'the elements are not told'
-"$bin/hs-simulate" --live --contacts motion.csv "${two[@]}" <motion.csv >regions-live.csv 2>err ||
+"$bin/hs-simulate" --live --accuracy 0.3 --contacts motion.csv "${two[@]}" <motion.csv >regions-live.csv 2>err ||
   complain 'live regions failed'
 agree regions-batch.csv regions-live.csv || complain 'live differs from batch in regions that relax'
 
 # Each force comes before the next line is sent.
-coproc live { "$bin/hs-simulate" --live "${common[@]}" --tool-radius 0.004 -q 2>err; }
+coproc live { "$bin/hs-simulate" --live --accuracy 0.3 "${common[@]}" --tool-radius 0.004 -q 2>err; }
 exec {to}>&"${live[1]}" {from}<&"${live[0]}"
 printf 't,x,y,z\n' >&"$to"
 header=
@@ -80,14 +80,14 @@ wait
 
 # A body of second order serves as well: the same forces where the contacts are solved finely.
 "$bin/hs-tetmesh" box.off --edge 0.012 --order 2 -q -o body2.ply || complain 'no body of second order'
-"$bin/hs-simulate" --live --contacts motion.csv --body body2.ply --model model.csv --rim-edge 0.3 \
+"$bin/hs-simulate" --live --accuracy 0.3 --contacts motion.csv --body body2.ply --model model.csv --rim-edge 0.3 \
   motion.csv -q -o second.csv 2>err || complain 'live on second order failed'
 agree batch.csv second.csv 2e-3 || complain 'second order differs'
 
 # A bad line: one error with its line, exit 3, the forces before it written, to a file too.
 { cat motion.csv; echo '4,0,0.03,0.025,0.04,0,0,much'; } >bad.csv
 for target in - kept.csv; do
-  "$bin/hs-simulate" --live bad.csv "${common[@]}" -q -o "$target" >out.csv 2>err
+  "$bin/hs-simulate" --live --accuracy 0.3 bad.csv "${common[@]}" -q -o "$target" >out.csv 2>err
   code=$?
   [[ $target == - ]] || mv kept.csv out.csv
   ((code == 3)) || complain "exit code $code for a bad line"
@@ -97,7 +97,7 @@ done
 
 # A closed pipe ends quietly.
 yes '0,0.03,0.025,0.039' | { echo t,x,y,z; cat; } |
-  "$bin/hs-simulate" --live "${common[@]}" --tool-radius 0.004 -q 2>err | head -5 >out.csv
+  "$bin/hs-simulate" --live --accuracy 0.3 "${common[@]}" --tool-radius 0.004 -q 2>err | head -5 >out.csv
 [[ $(wc -l <out.csv) == 5 && ! -s err ]] || complain 'a closed pipe is not quiet'
 
 # Records: the same forces as the lines, to the last bit; a cut one is an error.
@@ -108,9 +108,9 @@ rows = [l.split(",") for l in open(sys.argv[1]) if l[0] not in "#p"]
 for r in rows:
     sys.stdout.buffer.write(struct.pack("<ii7d", int(r[0]), 1, *map(float, r[1:8])))
 END
-"$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q <motion.bin >forces.bin 2>err ||
+"$bin/hs-simulate" --live --accuracy 0.3 --binary press "${common[@]}" --tool-radius 0.004 -q <motion.bin >forces.bin 2>err ||
   complain 'records failed'
-"$bin/hs-simulate" --live motion.csv "${common[@]}" -q >lines.csv 2>err || complain 'lines failed'
+"$bin/hs-simulate" --live --accuracy 0.3 motion.csv "${common[@]}" -q >lines.csv 2>err || complain 'lines failed'
 python3 - <<'END' || complain 'records and lines differ'
 import struct
 data = open("forces.bin", "rb").read()
@@ -121,12 +121,12 @@ for k, line in enumerate(lines):
     assert (press, contact) == (int(line[0]), int(line[11]))
     assert numbers == [float(x) for x in line[1:11]]
 END
-head -c 100 motion.bin | "$bin/hs-simulate" --live --binary press "${common[@]}" --tool-radius 0.004 -q >out.bin 2>err
+head -c 100 motion.bin | "$bin/hs-simulate" --live --accuracy 0.3 --binary press "${common[@]}" --tool-radius 0.004 -q >out.bin 2>err
 (($? == 3)) && grep -q '^hs-simulate: stdin: record 2: it has 36 bytes of 64' err &&
   [[ $(wc -c <out.bin) == 88 ]] || complain 'a cut record'
 
 # Paced by the clock: 93 lines at 1 kHz take 92 ms or more.
-"$bin/hs-simulate" --live --rate 1000 motion.csv "${common[@]}" 2>err >out.csv || complain 'paced'
+"$bin/hs-simulate" --live --accuracy 0.3 --rate 1000 motion.csv "${common[@]}" 2>err >out.csv || complain 'paced'
 grep -Eq 'memory (not )?locked' err && grep -q 'of 93 later than a period' err || complain 'the pace'
 
 refuse() { # CODE TEXT ARGUMENTS...
@@ -139,7 +139,22 @@ refuse() { # CODE TEXT ARGUMENTS...
 refuse 2 'live mode' motion.csv "${common[@]}" --rate 1000
 refuse 2 'live mode' motion.csv "${common[@]}" --binary tip
 refuse 2 'batch mode' --live motion.csv "${common[@]}" --add-noise 1
-{ head -n 3 model.csv; printf 'layer,0,%s,,0,10,fixed\n' thickness,0.003,m ratio,2,1; } >layer.csv
-refuse 3 'hs-simulate --live --contacts' --live motion.csv --body body.ply --model layer.csv
+refuse 2 'live mode' motion.csv "${common[@]}" --uncertainty
+refuse 2 'records have no place' --live --binary tip --uncertainty "${common[@]}" --tool-radius 0.004
+{ head -n 3 model.csv; printf 'shift,0,%s,,-1,1,fixed\n' dx,0.003,m dy,0,m dz,0,m rx,0,rad ry,0,rad rz,0,rad; } >shift.csv
+refuse 3 'hs-simulate --live --contacts' --live motion.csv --body body.ply --model shift.csv
+
+# A second start finds the field, and says the same; each force has its uncertainty, and beside the support it is
+# said that the place was not sampled.
+awk 'NR <= 2 || /^1,/ { print } END { for (i = 0; i < 5; ++i) printf "2,%g,0.03,0,0.002,0,%g,0\n", i, 1e-4 * i }' motion.csv >beside.csv
+for turn in first second; do
+  "$bin/hs-simulate" --live --accuracy 0.3 --uncertainty beside.csv "${common[@]}" -o $turn.csv 2>$turn.txt ||
+    complain 'no uncertainties'
+done
+cmp -s first.csv second.csv || complain 'the field of the cache is another'
+grep -q 'samples of the contact stiffness' second.txt && grep -q 'beside the support' second.txt || complain 'the summary'
+awk -F, '/^[0-9]/ { size = sqrt($9 ^ 2 + $10 ^ 2 + $11 ^ 2); share = size > 0 ? $14 / size : 0.1
+  if ($1 == 1 && ($13 % 8 >= 4 || share <= 0 || share > 0.5) || $1 == 2 && $13 % 8 < 4) ++wrong; ++n } END { exit !(n == 36 && !wrong) }' \
+  first.csv || complain 'the uncertainties or places'
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

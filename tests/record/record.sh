@@ -71,8 +71,8 @@ tidy() {
   local file
   while IFS= read -r -d '' file; do
     sed -Ei "s|$out|OUT|g; s|$root|ROOT|g; s|$shared|SHARED|g
-      s/condensed in [0-9.]+ ms/condensed in * ms/; s/([0-9]+ samples: median ).*/\1*/" "$file"
-  done < <(grep -rlIZE -- "$out|$root|$shared|condensed in|samples: median" . || true)
+      s/ready in [0-9.e+-]+ s:/ready in * s:/; s/([0-9]+ samples: median ).*/\1*/" "$file"
+  done < <(grep -rlIZE -- "$out|$root|$shared|ready in|samples: median" . || true)
   ! grep -rlF -- "$out" . || { echo "record: these files of $group hold the name of OUT" >&2; exit 1; }
 }
 

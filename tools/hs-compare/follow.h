@@ -11,6 +11,7 @@
 #include "io/csv.h"
 #include "mesh/tetmesh.h"
 #include "model/model_edit.h"
+#include "prepared_options.h"
 #include "realtime/motion_lines.h"
 #include "stream_options.h"
 #include "watch/rate_check.h"
@@ -29,6 +30,7 @@ inline std::vector<Option> follow_flags() {
        .group = "Follow",
        .minimum = 1e-6,
        .maximum = 1},
+      accuracy_option("Follow"),
       {.flag = flag::rate,
        .value = "HZ",
        .help = "Follow: rows a second.",
@@ -74,11 +76,14 @@ inline int run_follow(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines lines(input, true);
   lines.require_contact_points("press,t,x,y,z,ux,uy,uz,fx,fy,fz");
-  PreparedBodyOptions options;
-  options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
+  std::shared_ptr<Progress> progress;
+  PreparedBodyOptions options = prepared_options(
+      arguments, stream_radius(arguments, lines.metadata(), input.name()), progress);
   lines.within(mesh.nodes);
   options.heals = lines.metadata().find("recovery").value_or("") == "full";
   const PreparedBody body(mesh, model, options);
+  progress.reset();
+  tell_accuracy(arguments, "hs-compare", body.field());
   WatchOptions watch_options;
   watch_options.test.rate = arguments[flag::rate];
   watch_options.test.learning = arguments[flag::learning];

@@ -10,6 +10,7 @@
 #include "common_options.h"
 #include "hs-identify/flags.h"
 #include "io/csv.h"
+#include "prepared_options.h"
 #include "realtime/motion_lines.h"
 #include "stream_options.h"
 #include "watch/identified_material.h"
@@ -23,6 +24,7 @@ inline std::vector<Option> follow_flags() {
        .help = "Identifies E, and the moduli of relaxation at the times of --times, from a "
                "stream of rows, and writes a line of estimates every --every rows at once.",
        .group = "Follow"},
+      accuracy_option("Follow"),
       {.flag = flag::every,
        .value = "N",
        .help = "Follow: rows from one line of estimates to the next.",
@@ -48,10 +50,13 @@ inline int run_follow(const Arguments& arguments) {
   MotionLines lines(input, true);
   lines.require_contact_points("press,t,x,y,z,ux,uy,uz,fx,fy,fz");
   lines.allow_tools();
-  PreparedBodyOptions options;
-  options.tool_radius = stream_radius(arguments, lines.metadata(), input.name());
+  std::shared_ptr<Progress> progress;
+  const PreparedBodyOptions options = prepared_options(
+      arguments, stream_radius(arguments, lines.metadata(), input.name()), progress);
   lines.within(mesh.nodes);
   const PreparedBody body(mesh, unit_model(arguments[flag::nu]), options);
+  progress.reset();
+  tell_accuracy(arguments, "hs-identify", body.field());
   struct Followed {  // a tool
     UnitResponse response;
     int press;

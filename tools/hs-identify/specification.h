@@ -49,7 +49,7 @@ inline ToolSpec identify_specification() {
       "directions, and answers in well under a microsecond. Recordings or forces of hs-simulate "
       "serve alike. A direction that was not moved is derived from the others.",
       "--follow identifies from a stream while it comes: forces are linear in the moduli, so unit "
-      "forces of the body's own mesh and least squares that grow row by row cost about one force "
+      "forces of the prepared body and least squares that grow row by row cost about one force "
       "evaluation a row. SIGINT or SIGTERM ends the stream; what was told until then is written.",
       "Recordings of several bodies of one material, or by tools of several radii, are fitted "
       "together with --data and --body: all share the parameters. What belongs to one body "

@@ -8,6 +8,7 @@
 #include "hs-link/closed.h"
 #include "hs-link/teleoperator.h"
 #include "io/csv.h"
+#include "prepared_options.h"
 #include "realtime/latency.h"
 #include "realtime/motion_feed.h"
 #include "realtime/motion_lines.h"
@@ -172,8 +173,9 @@ inline int run_operator(const Arguments& arguments) {
   Input input(arguments.input());
   MotionLines motion(input);
   motion.require_contact_points("press,t,x,y,z,ux,uy,uz");
-  PreparedBodyOptions options;
-  options.tool_radius = stream_radius(arguments, motion.metadata(), input.name());
+  std::shared_ptr<Progress> progress;
+  const PreparedBodyOptions options = prepared_options(
+      arguments, stream_radius(arguments, motion.metadata(), input.name()), progress);
   const std::vector<double> times =
       parse_relaxation_times(arguments.list(flag::times), flag::times.name);
   const double nu = arguments[flag::nu], asked_rate = arguments[flag::rate];
@@ -185,6 +187,8 @@ inline int run_operator(const Arguments& arguments) {
   operator_options.limits = safety_limits(arguments);
   const TetMesh mesh = load_body(arguments);
   const PreparedBody body(mesh, unit_model(nu), options);
+  progress.reset();
+  tell_accuracy(arguments, "hs-link", body.field());
   motion.within(mesh.nodes);
   UnitResponse response(body, times);
   Terms terms = link_terms(mesh, options.tool_radius);

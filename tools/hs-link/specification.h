@@ -3,6 +3,7 @@
 
 #include "common_options.h"
 #include "hs-link/flags.h"
+#include "prepared_options.h"
 #include "safety_options.h"
 #include "stream_options.h"
 
@@ -162,6 +163,7 @@ inline ToolSpec link_specification() {
        .default_text = "5",
        .minimum = 0,
        .maximum = 1e6}};
+  spec.options.push_back(accuracy_option("Body"));
   for (const Option& option : online_flags("Operator")) spec.options.push_back(option);
   for (const Option& option : safety_flags()) spec.options.push_back(option);
   spec.tables = {{"Output of the operator",

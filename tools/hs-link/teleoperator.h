@@ -8,6 +8,7 @@
 #include "io/interrupt.h"
 #include "link/impaired_channel.h"
 #include "link/telepresence.h"
+#include "prepared_options.h"
 #include "realtime/force_loop.h"
 #include "realtime/real_time.h"
 #include "safety_options.h"
@@ -27,10 +28,13 @@ inline int run_teleoperator(const Arguments& arguments) {
   const SafetyLimits limits = safety_limits(arguments);
   Input model_input(arguments[flag::model]);
   const Model model = read_model(model_input);
-  PreparedBodyOptions options;
-  options.tool_radius = arguments[flag::tool_radius];
+  std::shared_ptr<Progress> progress;
+  const PreparedBodyOptions options =
+      prepared_options(arguments, arguments[flag::tool_radius], progress);
   const TetMesh mesh = load_body(arguments);
   const PreparedBody body(mesh, model, options);
+  progress.reset();
+  tell_accuracy(arguments, "hs-link", body.field());
   ToolLoopOptions hand;
   hand.sensor = false;
   hand.fitted_depth = fitted_depth(model);

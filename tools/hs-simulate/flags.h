@@ -9,7 +9,7 @@ namespace flag {
 inline constexpr ForceFlag add_noise{"--add-noise"};
 inline constexpr IntegerFlag seed{"--seed"}, tools{"--tools"};
 inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
-    force_control{"--force-control"}, live{"--live"};
+    force_control{"--force-control"}, live{"--live"}, uncertainty{"--uncertainty"};
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
 inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
 inline constexpr FileFlag contacts{"--contacts"};

@@ -184,8 +184,8 @@ int run(const Arguments& arguments) {
     if (acfm) return run_live_acfm(arguments, *acfm);
     return run_live_mode(arguments, model);
   }
-  for (const AnyFlag& flag :
-       AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools, flag::hand})
+  for (const AnyFlag& flag : AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools,
+                                      flag::hand, flag::accuracy, flag::uncertainty})
     if (arguments.given(flag))
       fail_usage(flag + " is of the live mode", "add --live, or leave it out");
   hand_limits(arguments);

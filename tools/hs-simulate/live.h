@@ -12,6 +12,7 @@
 #include "hand.h"
 #include "hs-simulate/flags.h"
 #include "model/model_edit.h"
+#include "prepared_options.h"
 #include "realtime/force_loop.h"
 #include "realtime/live_session.h"
 #include "realtime/live_tools.h"
@@ -48,6 +49,8 @@ struct LiveInput {
     if (binary && arguments.given(flag::tools))
       fail_usage("--tools is of lines", "records say themselves of how many tools they are");
     if (binary) {
+      if (arguments.given(flag::uncertainty))
+        fail_usage("records have no place for --uncertainty", "leave out --binary, or it");
       const std::string kind = arguments[flag::binary];
       if (kind == "extended") {
         auto records = std::make_unique<ToolRecords>(input);
@@ -69,6 +72,8 @@ struct LiveInput {
       auto lines = std::make_unique<ToolLines>(std::move(csv), input.name(), tools);
       metadata = lines->metadata();
       columns = lines->columns();
+      if (arguments.given(flag::uncertainty))
+        fail_usage("lines of several tools have no place for --uncertainty", "leave it out");
       several = std::move(lines);
       return;
     }
@@ -76,6 +81,7 @@ struct LiveInput {
       fail_input(input.name(), "there are several tools, and no column tool_id",
                  "say of each line which tool it is of");
     auto lines = std::make_unique<MotionLines>(std::move(csv), input.name(), false);
+    if (arguments.given(flag::uncertainty)) lines->tell_uncertainty();
     metadata = lines->metadata();
     columns = hand ? hand_columns(lines->force_columns()) : lines->force_columns();
     source = std::move(lines);
@@ -132,6 +138,11 @@ int answer_by(const Arguments& arguments, LiveInput& in, const std::string& labe
               fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
         say(arguments, "hs-simulate", text);
         tell_hand(arguments, "hs-simulate", in.felt);
+        if (report.off > 0)
+          say(arguments, "hs-simulate",
+              fmt::format("{} of {} lines press where no contact mesh can be made, beside the "
+                          "support: their forces are extrapolated",
+                          report.off, report.latency.count()));
         if (const std::string deep = report.depth_summary(); !deep.empty())
           say(arguments, "hs-simulate", deep);
       });
@@ -169,25 +180,18 @@ inline int answer_several(const Arguments& arguments, LiveInput& in, const TetMe
                    });
 }
 
-// How far forces are off between the contacts that were solved finely.
-inline std::string between_contacts(const LeftOut& left_out) {
-  if (left_out.contacts == 0)
-    return "off contacts that are solved finely the stiffness is that of the body's own mesh, and "
-           "how far it is off is not known; several --contacts tell";
-  return fmt::format(
-      "each of {} contacts left out in turn, its force is {:.1f} % off, {:.1f} % at the worst; "
-      "between contacts expect that or more",
-      left_out.contacts, 100 * left_out.rms, 100 * left_out.worst);
-}
-
 inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   LiveInput in(arguments);
-  PreparedBodyOptions options;
-  options.tool_radius = stream_radius(arguments, in.metadata, arguments.input());
   std::shared_ptr<Progress> progress;
   const std::optional<Experiment> fine = fine_contacts(arguments, mesh, model, progress);
   progress.reset();
+  PreparedBodyOptions options = prepared_options(
+      arguments, stream_radius(arguments, in.metadata, arguments.input()), progress);
+  const ExperimentOptions places = experiment_options(arguments, progress);
+  options.threads = places.threads;
+  options.cache = places.cache;
+  options.rim_edge = places.rim_edge;
   if (fine)
     options.contacts = [&](const MaterialSpec& material) {
       return known_contacts(fine->places, material);
@@ -195,14 +199,15 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   options.heals = in.heals();
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
+  progress.reset();
   in.within(mesh.nodes);
+  tell_accuracy(arguments, "hs-simulate", body.field());
+  in.metadata.set("off_contacts", format_number(body.field().expected_error()));
   say(arguments, "hs-simulate",
-      fmt::format("{} surface unknowns condensed in {:.1f} ms, {} contacts solved finely",
-                  body.surface_unknowns(), 1e-6 * static_cast<double>(monotonic_ns() - start),
-                  fine ? fine->dataset.positions.size() : 0));
-  say(arguments, "hs-simulate", between_contacts(body.left_out()));
-  if (body.left_out().contacts > 0)
-    in.metadata.set("off_contacts", format_number(body.left_out().rms));
+      fmt::format("ready in {:.2g} s: {} samples of the contact stiffness, between them {:.1f} % "
+                  "expected; {} contacts solved finely",
+                  1e-9 * static_cast<double>(monotonic_ns() - start), body.field().samples(),
+                  100 * body.field().expected_error(), fine ? fine->dataset.positions.size() : 0));
   if (body.is_regional())
     say(arguments, "hs-simulate",
         fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
@@ -216,6 +221,8 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
 }
 
 inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
+  if (arguments.given(flag::uncertainty))
+    fail_usage("--uncertainty is of finite elements, and this model has none", "leave it out");
   if (arguments.given(flag::contacts))
     fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
   LiveInput in(arguments);

@@ -45,7 +45,7 @@ awk -v OFS=, '/^#/ { print; next } !n++ { print $0, "t"; next } { print $0, n / 
   hs-simulate --live - --body block.ply --model boundary.csv -o /dev/null 2>live.txt
 {
   echo 'figure,thesis,ours'
-  sed -n 's/.*condensed in \([0-9.]*\) ms.*/two regions: made ready [ms],395,\1/p' live.txt
+  sed -n 's/.*ready in \([0-9.e+-]*\) s:.*/two regions: made ready [s],0.395,\1/p' live.txt
   sed -n 's/.*median \([0-9.]*\) us.*/\1/p' live.txt | awk '{ printf "two regions: a force [ms],15,%.4f\n", $1 / 1000 }'
   sed -n 's/.*: error \([0-9.]*\) N =.*/two regions: error with the boundary moved [N],0.1 to 0.3,\1/p' moved.txt
   echo "two regions: boundary off by [mm],a curve,$off"

@@ -101,14 +101,14 @@ done
 # What the thesis gives figures of: making ready, and a force.
 figures() { # KIND READY FORCE: the thesis's, beside ours
   hs-simulate --live "$1-1.motion.csv" --body cuboid.ply --model "$1-1.model.csv" -o /dev/null 2>said.txt
-  sed -n "s/.*condensed in \([0-9.]*\) ms.*/virtual cuboid: made ready ($1) [ms],$2,\1/p" said.txt
+  sed -n "s/.*ready in \([0-9.e+-]*\) s:.*/virtual cuboid: made ready ($1) [s],$2,\1/p" said.txt
   sed -n 's/.*median \([0-9.]*\) us.*/\1/p' said.txt |
     awk -v kind="$1" -v theirs="$3" '{ printf "virtual cuboid: a force (%s) [ms],%s,%.4f\n", kind, theirs, $1 / 1000 }'
 }
 {
   echo 'figure,thesis,ours'
-  figures elastic 95 15
-  figures viscoelastic 120 30
+  figures elastic 0.095 15
+  figures viscoelastic 0.12 30
 } >summary.csv
 
 plot() { # FILE TITLE NAME...

@@ -133,6 +133,8 @@ Model relaxing() {
 PreparedBodyOptions tool() {
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
+  options.most_samples = 16;
+  options.rim_edge = 0.5;  // no test of it: quick
   return options;
 }
 

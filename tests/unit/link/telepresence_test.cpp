@@ -31,6 +31,8 @@ const PreparedBody& body(const Model& model) {
   static std::vector<std::unique_ptr<PreparedBody>> kept;
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
+  options.most_samples = 16;
+  options.rim_edge = 0.5;  // no test of it: quick
   kept.push_back(std::make_unique<PreparedBody>(test::block_mesh({0.08, 0.08, 0.04}, 4, 4, 3, 1),
                                                 model, options));
   return *kept.back();

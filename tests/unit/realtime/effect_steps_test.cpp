@@ -21,6 +21,8 @@ const Experiment& experiment(bool straight) {
 std::unique_ptr<PreparedBody> prepared(const Model& model) {
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
+  options.most_samples = 16;
+  options.rim_edge = 0.5;  // no test of it: quick
   options.contacts = [](const MaterialSpec& m) {
     return known_contacts(experiment(true).places, m);
   };

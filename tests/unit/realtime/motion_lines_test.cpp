@@ -91,6 +91,8 @@ TEST(LiveSession, FlushesEachForceAndKeepsThoseBeforeABadLine) {
     if (effect->card().name == "elastic") model.parameters = effect_rows(*effect, 1, {2e4, 0.4});
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
+  options.most_samples = 16;
+  options.rim_edge = 0.5;  // no test of it: quick
   const PreparedBody body(test::block_mesh({0.08, 0.08, 0.04}, 4, 4, 3, 1), model, options);
   Input input = text(
       "t,x,y,z\n0,0.04,0.04,0.041\n0.001,0.04,0.04,0.0405\n0.002,0.04,0.04,0.0395\n0.003,oops,0,"

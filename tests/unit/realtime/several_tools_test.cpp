@@ -41,6 +41,8 @@ struct Prepared {
   static PreparedBodyOptions options(const std::vector<KnownStiffness>& known) {
     PreparedBodyOptions options;
     options.tool_radius = kRadius;
+    options.most_samples = 16;
+    options.rim_edge = 0.5;  // no test of it: quick
     if (!known.empty()) options.contacts = [known](const MaterialSpec&) { return known; };
     return options;
   }

@@ -1,0 +1,212 @@
+#include "realtime/field_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/random.h"
+
+namespace hapsim {
+namespace {
+
+constexpr std::size_t kFirst = 64;   // samples before there is a model,
+constexpr std::size_t kFewest = 24;  // and where much may be left unknown
+constexpr std::size_t kPool = 1200;  // places among which the next are chosen
+// One place of so many is solved on the finer mesh too: of the first ones, and of later ones.
+constexpr std::size_t kFirstBoth = 5, kBoth = 12;
+// So near to what is bonded, in tool radii, the meshes differ by more than a common factor.
+constexpr double kBesideSupport = 2.5;
+// The share of the pool's squares that may lie above (2.5 tolerances)^2.
+constexpr double kTail = 0.01;
+
+double clearance(const SurfaceTree& bonded, const Vec3& p) {
+  return bonded.surface().faces.empty() ? std::numeric_limits<double>::infinity()
+                                        : bonded.nearest(p).distance;
+}
+
+// As many of the places as far from each other as can be, greedily.
+std::vector<Vec3> spread(const std::vector<Vec3>& places, std::size_t count) {
+  std::vector<double> distance(places.size(), std::numeric_limits<double>::infinity());
+  std::vector<Vec3> chosen;
+  for (std::size_t next = 0; chosen.size() < std::min(count, places.size());) {
+    chosen.push_back(places[next]);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      distance[i] = std::min(distance[i], (places[i] - places[next]).norm());
+    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                    distance.begin());
+  }
+  return chosen;
+}
+
+Eigen::Vector2d along_and_across(const Eigen::Matrix3d& K, const Vec3& n) {
+  const double along = n.dot(K * n);
+  return {std::log(along), std::log((K.trace() - along) / 2)};
+}
+
+}  // namespace
+
+FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, double tool_radius,
+                             SampledMaterial material, const std::vector<Vec3>& known,
+                             const FieldSamplingOptions& options)
+    : library_(std::move(library)),
+      radius_(tool_radius),
+      material_(std::move(material)),
+      options_(options) {
+  const Surface& surface = library_->surface();
+  Surface held;
+  held.vertices = surface.vertices;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    if (library_->bonded()[f]) held.faces.push_back(surface.faces[f]);
+  bonded_ = std::make_unique<SurfaceTree>(std::move(held));
+  views_ = std::make_unique<PlaceViews>(surface, library_->bonded(), tool_radius, material_.field);
+  std::vector<Vec3> first = known;
+  const std::size_t begin = std::min(options_.tolerance < 0.1 ? kFirst : kFewest, options_.most);
+  for (const Vec3& p : spread(draw(20 * kFirst, 1), begin)) first.push_back(p);
+  add(first);
+  if (samples_.size() < begin / 4)
+    fail_input("", "the tool can be laid on hardly any place of this body",
+               "check the unit of the tool's radius, or bond less of the body");
+  for (std::uint64_t round = 2;; ++round) {
+    fit();
+    const std::vector<Vec3> pool = draw(kPool, round);
+    const std::vector<PlaceView> views = views_of(pool);
+    std::vector<double> squares;
+    for (const PlaceEstimate& e : model_->at(views, true))
+      squares.push_back(e.uncertainty * e.uncertainty);
+    double sum = 0;
+    for (const double s : squares) sum += s;
+    expected_ = std::sqrt(sum / static_cast<double>(squares.size()));
+    const auto tail =
+        squares.end() - 1 - static_cast<std::ptrdiff_t>(kTail * static_cast<double>(kPool));
+    std::nth_element(squares.begin(), tail, squares.end());
+    if ((expected_ <= options_.tolerance && std::sqrt(*tail) <= 2.5 * options_.tolerance) ||
+        tried() >= options_.most)
+      break;
+    const std::size_t count =
+        std::min(options_.most - tried(), std::max<std::size_t>(32, samples_.size() / 3));
+    std::vector<Vec3> next;
+    for (const std::size_t i : model_->most_wanted(views, count)) next.push_back(pool[i]);
+    add(next);
+  }
+}
+
+// Uniform over the touchable surface.
+std::vector<Vec3> FieldSampling::draw(std::size_t count, std::uint64_t seed) const {
+  const Surface& surface = library_->surface();
+  std::vector<double> up_to;
+  for (std::size_t f = 0; f < surface.faces.size(); ++f)
+    up_to.push_back((f > 0 ? up_to.back() : 0) +
+                    (library_->bonded()[f] ? 0 : face_normal(surface, static_cast<int>(f)).norm()));
+  Random random(seed);
+  std::vector<Vec3> places;
+  for (std::size_t tries = 0; places.size() < count && tries < 50 * count; ++tries) {
+    const double at = random.uniform() * up_to.back();
+    const auto f = static_cast<std::size_t>(std::upper_bound(up_to.begin(), up_to.end() - 1, at) -
+                                            up_to.begin());
+    const Triangle& t = surface.faces[f];
+    const double a = std::sqrt(random.uniform()), b = random.uniform();
+    const Vec3 p = (1 - a) * surface.vertices[t[0]] + a * (1 - b) * surface.vertices[t[1]] +
+                   a * b * surface.vertices[t[2]];
+    if (is_touchable(p)) places.push_back(p);
+  }
+  if (places.empty())
+    fail_input("", "the tool can be laid on no place of this body",
+               "check the unit of the tool's radius, or bond less of the body");
+  return places;
+}
+
+bool FieldSampling::is_touchable(const Vec3& point) const {
+  if (clearance(*bonded_, point) < radius_) return false;
+  double refused = std::numeric_limits<double>::infinity(), taken = refused;
+  for (const Vec3& p : refused_) refused = std::min(refused, (p - point).squaredNorm());
+  if (refused > radius_ * radius_) return true;
+  for (const Vec3& p : places_) taken = std::min(taken, (p - point).squaredNorm());
+  return taken < refused;
+}
+
+std::vector<PlaceView> FieldSampling::views_of(const std::vector<Vec3>& places) const {
+  std::vector<PlaceView> views(places.size());
+  in_parallel(places.size(), library_->threads(),
+              [&](std::size_t i) { views[i] = views_->at(places[i]); });
+  return views;
+}
+
+void FieldSampling::add(const std::vector<Vec3>& places) {
+  // Beside the support the finer mesh alone; elsewhere the samples' mesh, and here and there both.
+  std::vector<std::optional<SampledContact>> found(places.size()), fine(places.size());
+  const auto solve = [&](const std::vector<std::size_t>& which, ContactLevel level,
+                         std::vector<std::optional<SampledContact>>& into) {
+    std::vector<Vec3> where;
+    for (const std::size_t i : which) where.push_back(places[i]);
+    const auto solved =
+        library_->sample(where, material_.solid, material_.description, level, false);
+    for (std::size_t k = 0; k < which.size(); ++k) into[which[k]] = solved[k];
+  };
+  std::vector<std::size_t> beside, off, both;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    (clearance(*bonded_, places[i]) < kBesideSupport * radius_ ? beside : off).push_back(i);
+  solve(beside, ContactLevel::kFine, found);
+  solve(off, ContactLevel::kSample, found);
+  const std::size_t every = samples_.empty() ? kFirstBoth : kBoth;
+  for (std::size_t k = 0; k < off.size(); k += every)
+    if (found[off[k]]) both.push_back(off[k]);
+  solve(both, ContactLevel::kFine, fine);
+  for (const std::size_t i : both)
+    if (fine[i])
+      ratio_.push_back(along_and_across(fine[i]->K, fine[i]->normal) -
+                       along_and_across(found[i]->K, fine[i]->normal));
+  const std::vector<PlaceView> views = views_of(places);
+  const auto add_one = [&](std::size_t i, bool exact) {
+    if (options_.sampled) options_.sampled();
+    if (!found[i]) {
+      refused_.push_back(places[i]);
+      return;
+    }
+    places_.push_back(places[i]);
+    samples_.push_back({views[i], found[i]->K});
+    exact_.push_back(exact);
+  };
+  for (const std::size_t i : beside) add_one(i, true);
+  for (const std::size_t i : off) add_one(i, false);
+}
+
+Eigen::Matrix3d FieldSampling::corrected(const Eigen::Matrix3d& K, const Vec3& normal) const {
+  const double along = std::exp(finer_[0] / 2), across = std::exp(finer_[1] / 2);
+  const Eigen::Matrix3d n = normal * normal.transpose();
+  const Eigen::Matrix3d S = along * n + across * (Eigen::Matrix3d::Identity() - n);
+  return S * K * S;
+}
+
+void FieldSampling::fit() {
+  if (!ratio_.empty()) {
+    finer_.setZero();
+    for (const Eigen::Vector2d& r : ratio_) finer_ += r / static_cast<double>(ratio_.size());
+    double squares = 0;
+    for (const Eigen::Vector2d& r : ratio_) squares += (r - finer_).squaredNorm() / 2;
+    noise_ = std::sqrt(squares / static_cast<double>(ratio_.size()));
+  }
+  std::vector<StiffnessSample> samples = samples_;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (!exact_[i]) samples[i].K = corrected(samples[i].K, samples[i].view.normal);
+  model_ = std::make_unique<PlaceModel>(samples, noise_);
+}
+
+std::unique_ptr<PlaceModel> FieldSampling::model_of(const SampledMaterial& material,
+                                                    std::size_t most) const {
+  const std::vector<Vec3> places = spread(places_, most);
+  const auto coarse =
+      library_->sample(places, material.solid, material.description, ContactLevel::kSample, true);
+  const PlaceViews views = views_->with(material.field);
+  std::vector<StiffnessSample> samples;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (coarse[i]) {
+      StiffnessSample s{views.at(places[i]), coarse[i]->K};
+      s.K = corrected(s.K, s.view.normal);
+      samples.push_back(std::move(s));
+    }
+  return std::make_unique<PlaceModel>(samples, noise_, model_.get());
+}
+
+}  // namespace hapsim
