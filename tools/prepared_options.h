@@ -19,7 +19,7 @@ inline Option accuracy_option(const std::string& group) {
       .value = "SHARE",
       .help = group +
               ": relative error of the force between samples of the contact stiffness at which "
-              "no more are taken, root mean square over the surface; none beyond 240 of them, and "
+              "no more are taken, root mean square over the surface; none beyond 400 of them, and "
               "what was reached by then is said.",
       .group = group,
       .default_text = "0.02",

@@ -11,8 +11,8 @@
 
 namespace hapsim {
 
-// The budget of a body, some 10 to 20 s of two processors.
-constexpr std::size_t kMostSamples = 240;
+// The budget of a body, some 20 to 40 s of two processors.
+constexpr std::size_t kMostSamples = 400;
 
 struct FieldSamplingOptions {
   double tolerance = 0.02;  // relative error of the force, root mean square over the surface

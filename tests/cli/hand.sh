@@ -10,7 +10,7 @@ awk 'BEGIN {
   for (i = 0; i < 600; ++i)
     printf "1,%.3f,0.03,0.025,0.04,0,0,%.9g\n", i / 1000, -0.001 * (1 - cos(0.02 * i))
 }' >motion.csv
-live=("$bin/hs-simulate" --live --body body.ply --model model.csv)
+live=("$bin/hs-simulate" --live --accuracy 0.3 --body body.ply --model model.csv)
 
 # Within the limits, to the letter; at the end zero.
 "${live[@]}" motion.csv -q -o free.csv 2>err || complain 'no forces'

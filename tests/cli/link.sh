@@ -32,7 +32,7 @@ awk -F, '/^#/ { next } !n++ { next } $17 == 0 && ($9 != $18 || $10 != $19 || $11
 # teleoperator ARGUMENTS...: in the background, its process in `far` and its port in `port`
 teleoperator() {
   : >far.err
-  "$bin/hs-link" --listen 0 --body body.ply --model model.csv --tool-radius 0.004 --idle 20 "$@" 2>far.err &
+  "$bin/hs-link" --listen 0 --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --idle 60 "$@" 2>far.err &
   far=$!
   until_true 60 grep -qs listening far.err
   port=$(sed -n 's/.*listening at .*:\([0-9]*\)$/\1/p' far.err)
@@ -42,22 +42,22 @@ teleoperator() {
 [[ $(stat -c %a lab.key) == 600 && $(wc -c <lab.key) == 65 ]] || complain 'a key is for its owner'
 head -400 motion.csv >short.csv
 teleoperator --key lab.key
-"$bin/hs-link" short.csv --peer "localhost:$port" --body body.ply --key other.key --patience 0.5 >felt.csv 2>err
+"$bin/hs-link" short.csv --peer "localhost:$port" --accuracy 0.3 --body body.ply --key other.key --patience 0.5 >felt.csv 2>err
 [[ $? == 5 ]] && grep -q 'nothing answered' err || complain 'another key is answered'
-"$bin/hs-link" short.csv --peer "$port" --body body.ply --patience 0.5 >felt.csv 2>err
+"$bin/hs-link" short.csv --peer "$port" --accuracy 0.3 --body body.ply --patience 0.5 >felt.csv 2>err
 [[ $? == 5 ]] || complain 'no key is answered'
 "$bin/hs-tetmesh" <(awk 'NR > 2 && NF == 3 { $3 *= 4 } { print }' box.off) --edge 0.03 -q -o tall.ply || complain 'no tall body'
-"$bin/hs-link" short.csv --peer "$port" --body tall.ply --key lab.key >felt.csv 2>err
+"$bin/hs-link" short.csv --peer "$port" --accuracy 0.3 --body tall.ply --key lab.key >felt.csv 2>err
 [[ $? == 3 ]] && grep -q 'the teleoperator refuses: its body is another' err || complain 'another body is taken'
-"$bin/hs-link" short.csv --peer "$port" --body body.ply --key lab.key --tool-radius 0.005 >felt.csv 2>err
+"$bin/hs-link" short.csv --peer "$port" --accuracy 0.3 --body body.ply --key lab.key --tool-radius 0.005 >felt.csv 2>err
 [[ $? == 3 ]] && grep -q 'its tool has a radius of 4 mm and this one 5 mm' err || complain 'another tool is taken'
 sed 's/20000/30000/' model.csv >stiff.csv
-"$bin/hs-link" short.csv --peer "$port" --body body.ply --key lab.key --expect-model stiff.csv >felt.csv 2>err
+"$bin/hs-link" short.csv --peer "$port" --accuracy 0.3 --body body.ply --key lab.key --expect-model stiff.csv >felt.csv 2>err
 [[ $? == 3 ]] && grep -q 'its model is another' err || complain 'another model is taken'
-"$bin/hs-link" short.csv --peer "localhost:$port" --body body.ply --key lab.key --expect-model model.csv \
+"$bin/hs-link" short.csv --peer "localhost:$port" --accuracy 0.3 --body body.ply --key lab.key --expect-model model.csv \
   >felt.csv 2>err || complain 'the right key is refused'
 # Killed while it is felt: the force is zero after hold and ramp, and the code says it.
-"$bin/hs-link" motion.csv --peer "$port" --body body.ply --key lab.key >felt.csv 2>err &
+"$bin/hs-link" motion.csv --peer "$port" --accuracy 0.3 --body body.ply --key lab.key >felt.csv 2>err &
 near=$!
 until_true 60 rows_in felt.csv 500
 kill -KILL $far
@@ -70,11 +70,11 @@ wait $far 2>/dev/null
 if [[ -e /proc/net/if_inet6 ]] && grep -q '^0*1 ' /proc/net/if_inet6; then
   mkfifo live
   : >far.err
-  "$bin/hs-link" --listen '[::1]:0' --body body.ply --model model.csv --tool-radius 0.004 --key lab.key --idle 20 2>far.err &
+  "$bin/hs-link" --listen '[::1]:0' --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --key lab.key --idle 60 2>far.err &
   far=$!
   until_true 60 grep -qs listening far.err
   port=$(sed -n 's/.*listening at .*:\([0-9]*\)$/\1/p' far.err)
-  "$bin/hs-link" live --peer "[::1]:$port" --body body.ply --key lab.key --rate 0 >felt.csv 2>err &
+  "$bin/hs-link" live --peer "[::1]:$port" --accuracy 0.3 --body body.ply --key lab.key --rate 0 >felt.csv 2>err &
   near=$!
   exec {to}>live
   head -300 motion.csv >&"$to"
@@ -103,13 +103,13 @@ refuse 2 '0.0.0.0:0 is not this machine, and there is no key' --listen 0.0.0.0:0
 refuse 2 '192.0.2.1:9 is not this machine, and there is no key' motion.csv --peer 192.0.2.1:9 --body body.ply
 refuse 5 'lab.key: is there already' --make-key lab.key
 chmod 644 other.key
-refuse 5 'others than its owner may read' motion.csv --peer 1 --body body.ply --key other.key
+refuse 5 'others than its owner may read' motion.csv --peer 1 --accuracy 0.3 --body body.ply --key other.key
 refuse 2 'falls to zero within' motion.csv --peer 1 --body body.ply --max-force 500
 refuse 2 'a teleoperator needs --model' --listen 0 --body body.ply
 refuse 2 'is no relaxation time' motion.csv --peer 1 --body body.ply --times -1
-refuse 3 'z is' <(sed '5s/0.04,/x,/' motion.csv) --peer 1 --body body.ply
+refuse 3 'z is' <(sed '5s/0.04,/x,/' motion.csv) --peer 1 --accuracy 0.3 --body body.ply
 # Nobody there: no forces of zero that look like an answer.
-refuse 5 '127.0.0.1:1: nothing answered' motion.csv --peer 1 --body body.ply --patience 0.3 -q -o nobody.csv
+refuse 5 '127.0.0.1:1: nothing answered' motion.csv --peer 1 --accuracy 0.3 --body body.ply --patience 0.3 -q -o nobody.csv
 [[ ! -e nobody.csv ]] || complain 'forces that nobody answered are written'
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }

@@ -24,7 +24,7 @@ inline ToolSpec simulate_specification() {
       "beforehand: its stiffness is sampled on contact meshes as those of the batch mode, where "
       "edges, curvature, thin parts, the support and regions ask for it, and interpolated by a "
       "Gaussian process until what lies between the samples is expected to be within --accuracy. "
-      "At most 240 samples are taken, some 10 to 20 s of two processors, and it is said where they "
+      "At most 400 places are tried, some 20 to 40 s of two processors, and it is said where they "
       "do not reach that accuracy; a second start finds them in the cache. What the samples expect "
       "of themselves, root mean square over the surface, stands in the metadata off_contacts, as a "
       "share of the force. Within some two radii of a sharp edge contact meshes tilt the tool by "

@@ -34,6 +34,7 @@ const Sampled& sampled() {
     s.material.solid.nu = 0.45;
     FieldSamplingOptions how;
     how.tolerance = 0.05;
+    how.most = 120;
     s.sampling = std::make_unique<const FieldSampling>(s.library, kRadius, s.material,
                                                        std::vector<Vec3>{}, how);
     return s;
