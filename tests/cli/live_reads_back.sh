@@ -71,7 +71,7 @@ for file in elastic-live.csv paced.csv; do
   run hs-simulate --live "$file" --accuracy 0.3 --body body.ply --model elastic.csv -q -o s.csv
   run hs-identify "$file" --body body.ply --effects elastic --rim-edge 0.3 -q -o m.csv
   run hs-identify --follow "$file" --accuracy 0.3 --body body.ply -q -o e.csv
-  run hs-compare "$file" --body body.ply --model elastic.csv --rim-edge 0.3 -q -o c.csv
+  run hs-compare "$file" --simulated s.csv -q -o c.csv
   run hs-compare --follow "$file" --accuracy 0.3 --body body.ply --model elastic.csv --rate 200 --learning 0.5 -q -o f.csv
   run hs-identify "$file" --body body.ply --acfm 0 -q -o acfm.csv
   run hs-simulate --live tip.csv --model acfm.csv --body body.ply -q -o a.csv
