@@ -37,7 +37,7 @@ mkfifo slow
 hand=$!
 exec {to}>slow
 head -159 motion.csv >&"$to"
-at_zero() { tail -1 felt.csv | awk -F, '{ exit !(/^1,/ && $11 == 0 && int($14 / 64) % 2 == 1) }'; }
+at_zero() { tail -1 felt.csv | awk -F, '{ zero = /^1,/ && $11 == 0 && int($14 / 64) % 2 == 1 } END { exit !zero }'; }
 until_true 60 at_zero || complain 'a force of no motion is held'
 exec {to}>&-
 wait $hand

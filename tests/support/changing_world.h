@@ -30,7 +30,7 @@ inline std::unique_ptr<PreparedBody> prepared_dome(int cells, double modulus = 2
     model.parameters.push_back(p);
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
-  options.tolerance = 0.05;
+  options.tolerance = 0.02;
   return std::make_unique<PreparedBody>(dome_mesh(cells), model, options);
 }
 
