@@ -27,8 +27,8 @@ bool passes(const Finding& f, const Gates& gates, bool can_hold_out) {
 // What is learned from the data has no form that could be wrong, and gives way to an effect with
 // one that does about as well where nobody has pressed.
 bool learned_beats(const Finding& learned, const Finding& named) {
-  constexpr double kMuchLess = 0.9;  // of two errors
-  return learned.held_out_after.pooled < kMuchLess * named.held_out_after.pooled;
+  constexpr double kPlainlyLess = 0.9;  // of two errors
+  return learned.held_out_after.pooled < kPlainlyLess * named.held_out_after.pooled;
 }
 
 // The effect to add: of those that pass the gates the one with the largest gain. Offsets of each

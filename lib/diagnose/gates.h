@@ -71,16 +71,13 @@ inline std::vector<std::string> gates_in_words() {
           gates.most_effects),
       fmt::format(
           "Fewer than {} presses have too few signs to flip, so they are judged by prediction: "
-          "sets "
-          "of effects are grown side by side and ranked as above by independent samples, and an "
-          "effect is missing when the set with it, learned from the first part of each press "
-          "alone, "
-          "foretells the rest with an error lower by {:g} % or more, and so much likelier that "
-          "chance does as well in less than {:g} % (samples that err alike count as "
-          "one); when whole presses that were left out of the fit, if there are "
-          "several, err less by {:g} % or more; and when the criterion gains as above. The unseen "
-          "error is that of these rests and presses. That says nothing of other places, and "
-          "regions "
+          "sets of effects are grown side by side and ranked as above by independent samples, "
+          "and an effect is missing when the set with it, learned from the first part of each "
+          "press alone, foretells the rest with an error lower by {:g} % or more, and so much "
+          "likelier that chance does as well in less than {:g} % (samples that err alike count "
+          "as one); when whole presses that were left out of the fit, if there are several, "
+          "err less by {:g} % or more; and when the criterion gains as above. The unseen error "
+          "is that of these rests and presses. That says nothing of other places, and regions "
           "and offsets by press need {} presses.",
           least, 100 * kForetoldFall, 100 * gates.p_value, 100 * gates.held_out_fall, least)};
 }
