@@ -26,8 +26,11 @@ ToolSpec specification() {
       "Layers, inclusions, anisotropy, supports and regions are solved by finite elements on the "
       "coarser of a position's two meshes, and only where some position asks for "
       "another stiffness than the model's; hs-identify takes the finer one. Where there are more "
-      "than 60 positions, all but regions are settled on 24 of them first (spread over all, or "
-      "about the one that departs most), and solved for at all only where they could be rivals.",
+      "than " +
+          std::to_string(kManyPlaces) + " positions, all but regions are settled on " +
+          std::to_string(kScreened) +
+          " of them first (spread over all, or about the one that departs most), and solved for at "
+          "all only where they could be rivals.",
       "Force noise and a gain error by position for mesh and scanned shape (--floor) are taken "
       "into account, so a model is not blamed for them.",
       "Two effects that do equally well are rivals, unless both together leave nothing but noise "

@@ -42,6 +42,10 @@ inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 inline constexpr std::size_t kLeastPresses = 6;
 inline constexpr double kForetoldFall = 0.05;
 
+// Where there are more places than that, so many of them tell first which effects are worth finite
+// elements at all of them.
+inline constexpr std::size_t kManyPlaces = 60, kScreened = 24;
+
 // The gates in words, with their numbers: paragraphs of --help and the man page.
 inline std::vector<std::string> gates_in_words() {
   const Gates gates;

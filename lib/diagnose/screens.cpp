@@ -5,10 +5,10 @@
 #include <limits>
 #include <numeric>
 
+#include "diagnose/gates.h"
+
 namespace hapsim {
 namespace {
-
-constexpr std::size_t kManyPlaces = 60, kScreened = 24;
 
 // Places spread over all: each the farthest from those before it.
 std::vector<std::size_t> spread_places(const std::vector<Vec3>& positions, std::size_t count) {
