@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 
 load() { cut -d' ' -f1 /proc/loadavg; }
 machine() {
-  printf '%s, %s cores, %s GB, %s, load %s' "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)" "$(nproc)" \
+  printf '%s, %s cores, %s GB, %s, load %s' "$(sed -n '0,/^model name/s/^model name[^:]*: //p' /proc/cpuinfo)" "$(nproc)" \
     "$(awk '/^MemTotal/ { printf "%.0f", $2 / 1e6 }' /proc/meminfo)" "$(. /etc/os-release && echo "$PRETTY_NAME")" "$(load)"
 }
 commit() { # of what is in git; results do not change what is measured

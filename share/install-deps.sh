@@ -113,7 +113,7 @@ fi
 
 for name in $(slow_blas); do
   need_root
-  choice=$(update-alternatives --list "$name" | grep openblas | head -n 1) ||
+  choice=$(update-alternatives --list "$name" | awk '/openblas/ && !n++; END { exit !n }') ||
     fail "OpenBLAS offers no $name; is libopenblas0-pthread whole?"
   "${as_root[@]}" update-alternatives --set "$name" "$choice" >/dev/null
   say "$name is now OpenBLAS"

@@ -29,4 +29,4 @@ HAPSIM_BUILD_TIMES=$folder/times cmake --build "$folder/build" --parallel "$jobs
   --target "${@:-${tools[@]}}" >/dev/null
 awk -v jobs="$jobs" '{ user += $1; kernel += $2 }
   END { printf "%d units, %.0f s user, %.0f s system, by %d jobs\n", NR, user, kernel, jobs }' "$folder/times"
-sort -rn "$folder/times" | sed -E "s|$folder/build/||; s|$PWD/||" | head -10
+sort -rn "$folder/times" | sed -E "s|$folder/build/||; s|$PWD/||" | sed -n 1,10p

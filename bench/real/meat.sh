@@ -56,7 +56,7 @@ later() { # NAMES: median error [% of the peak] of the model with these effects 
 }
 one() { # TABLE NUMBER
   local table thick
-  table=$(ls "$folder"/meat_"$1"*.csv | head -n 1)
+  table=$(ls "$folder"/meat_"$1"*.csv | sed -n 1p)
   thick=$(awk -F, '$1 == 0 { print $4; exit }' "$table")
   step 60 hs-import "$table" --block "100x100x${thick}mm" --tool-radius 4mm --surface block.ply -o data.csv || return 1
   until=$(hold)

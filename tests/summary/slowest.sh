@@ -3,7 +3,8 @@
 # own records: Ninja's log before and after the build, and ctest's last log.
 set -euo pipefail
 before=$1 after=$2 log=$3
-top() { sort -rn | head -n 10 | awk '{ printf "  %8.1f s  %s\n", $1, $2 }'; }
+# All is read to its end: a reader that stops early kills its writer, and with it this script.
+top() { sort -rn | awk 'NR <= 10 { printf "  %8.1f s  %s\n", $1, $2 }'; }
 
 # A line of Ninja's log: start and end [ms] in its build, time of the file, file, hash. Lines that were there
 # before belong to earlier builds.

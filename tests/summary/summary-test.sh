@@ -20,6 +20,9 @@ entry() {
   fail 'the slowest'
 "$here/slowest.sh" after after log >out && grep -q 'nothing was compiled' out || fail 'nothing compiled'
 
+for ((i = 1; i <= 20000; ++i)); do printf '0\t%d\t2\tlib/a/CMakeFiles/a.dir/%d.cpp.o\tf\n' "$i" "$i"; done >many
+"$here/slowest.sh" before many log >out && [[ $(grep -c 'lib/a/' out) == 10 ]] || fail 'of many units ten are told'
+
 skips() { "$here/skipped.sh" log >out; }
 skips && grep -q 'nothing was skipped' out || fail 'nothing skipped'
 google() { printf '[ RUN      ] %s\na.cpp:3: Skipped\n%s\n[  SKIPPED ] %s (0 ms)\n[  SKIPPED ] 1 test, listed below:\n[  SKIPPED ] %s' "$1" "$2" "$1" "$1"; }
