@@ -26,7 +26,7 @@ Teleoperator::Teleoperator(ToolLoop& body, const SafetyLimits& limits, const Vec
       high_(high),
       size_((high - low).norm()),
       motion_(of_motion(limits, size_)),
-      force_(limits) {}
+      force_(of_any_energy(limits)) {}
 
 bool Teleoperator::is_possible(const Packet& motion) const noexcept {
   const Vec3 off = motion.first - motion.first.cwiseMax(low_).cwiseMin(high_);
@@ -127,6 +127,7 @@ Packet Operator::move(std::int64_t now, const MotionLine& line) noexcept {
   if (line.press != press_) {
     body_.begin(line.point);
     press_began_ = sent_ + 1;
+    safe_.begin_press();
     measured_.setZero();
   }
   press_ = line.press;

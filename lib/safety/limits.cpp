@@ -18,8 +18,9 @@ namespace {
 
 std::vector<std::pair<std::string, double*>> named(SafetyLimits& limits) {
   std::vector<std::pair<std::string, double*>> all{
-      {"force", &limits.force}, {"rate", &limits.rate}, {"power", &limits.power},
-      {"speed", &limits.speed}, {"hold", &limits.hold}, {"ramp", &limits.ramp}};
+      {"force", &limits.force},   {"rate", &limits.rate},      {"power", &limits.power},
+      {"speed", &limits.speed},   {"hold", &limits.hold},      {"ramp", &limits.ramp},
+      {"energy", &limits.energy}, {"damping", &limits.damping}};
   for (int k = 0; k < 3; ++k) {
     all.emplace_back(std::string(1, "xyz"[k]) + "_low", &limits.low[k]);
     all.emplace_back(std::string(1, "xyz"[k]) + "_high", &limits.high[k]);
@@ -38,6 +39,10 @@ std::pair<std::string, std::string> problem(const SafetyLimits& limits) {
   for (const auto& [name, value] : positive)
     if (!(value > 0))
       return {fmt::format("the limit of {} is {:g}", name, value), "give a positive one"};
+  for (const auto& [name, value] :
+       {std::pair{"energy", limits.energy}, std::pair{"damping", limits.damping}})
+    if (!(value >= 0))
+      return {fmt::format("the limit of {} is {:g}", name, value), "give none below zero"};
   if (limits.force > limits.rate * limits.ramp)
     return {fmt::format("a force of {:g} N falls to zero within {:g} s faster than {:g} N/s",
                         limits.force, limits.ramp, limits.rate),
@@ -69,9 +74,11 @@ SafetyLimits read_limits(Input& input, SafetyLimits limits) {
                                     [&](const auto& entry) { return entry.first == name; });
     if (found == all.end()) {
       const std::string near = nearest(name, names);
-      fail_input(where, "there is no limit " + shown(name),
-                 near.empty() ? "known are force, rate, power, speed, hold, ramp, x_low ... z_high"
-                              : "did you mean '" + near + "'?");
+      fail_input(
+          where, "there is no limit " + shown(name),
+          near.empty()
+              ? "known are force, rate, power, speed, hold, ramp, energy, damping, x_low ... z_high"
+              : "did you mean '" + near + "'?");
     }
     if (!parse_number(text, *found->second))
       fail_input(where, name + " is " + shown(text), "write a finite number in SI");

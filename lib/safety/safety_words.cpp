@@ -10,9 +10,9 @@ void SafetyCounts::add(const SafeSample& sample) noexcept {
 }
 
 std::string SafetyCounts::summary() const {
-  constexpr std::array<const char*, 8> kWords{
-      "force cut",       "change cut", "power cut", "outside the workspace",
-      "no valid sample", "held",       "ramped",    "ended"};
+  constexpr std::array<const char*, 9> kWords{
+      "force cut", "change cut", "power cut", "outside the workspace", "no valid sample", "held",
+      "ramped",    "ended",      "damped"};
   std::string text;
   for (std::size_t bit = 0; bit < flagged.size(); ++bit)
     if (flagged[bit] > 0)

@@ -62,7 +62,7 @@ SafetyLimits wide() {
   limits.rate = 1e5;
   limits.power = 1e5;
   limits.hold = 0.8;  // beyond what the network here takes
-  return limits;
+  return of_any_energy(limits);
 }
 
 // Both ends for `samples` ms, once they have shaken hands; `meddle` may do something at each.

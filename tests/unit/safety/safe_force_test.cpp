@@ -36,12 +36,30 @@ TEST(SafeForce, DoesNoMoreWorkThanAllowed) {
   SafetyLimits limits;
   limits.power = 0.5;
   limits.rate = 1e5;
-  SafeForce safe(limits);
+  SafeForce safe(of_any_energy(limits));
   safe.pass(0, kHere, {0, 0, 2});
   const SafeSample pushed = safe.pass(1e-3, {0, 0, 1e-3}, {0, 0, 2});  // 1 m/s along the force
   EXPECT_NEAR(pushed.force.z(), 0.5, 1e-9);
   EXPECT_EQ(pushed.flags, kSafePower);
   EXPECT_EQ(safe.pass(2e-3, kHere, {0, 0, 2}).flags, 0) << "against it the hand does the work";
+}
+
+TEST(SafeForce, GivesNoMoreEnergyThanAllowed) {
+  SafetyLimits limits;
+  EXPECT_NEAR(limits.energy_bound(), 0.06, 1e-12)
+      << "10 N to zero in 10 ms, a sample late, at 1 m/s";
+  SafeForce safe(limits);
+  double given = 0, last = 0, flagged = 0;
+  for (int i = 0; i < 2000; ++i) {  // it pushes a hand that goes with it
+    const SafeSample s = safe.pass(1e-3 * i, {0, 0, 1e-4 * i}, {0, 0, 5});
+    if (i > 0) given += 1e-4 * last;
+    last = s.force.z();
+    flagged += (s.flags & kSafeEnergy) != 0;
+    EXPECT_EQ(s.unlimited.z(), 5);
+  }
+  EXPECT_LT(given, 0.06 + 0.2 * 0.1);  // and what 1 N s/m took at 0.1 m/s
+  EXPECT_LT(std::abs(last), 0.2);
+  EXPECT_GT(flagged, 1900);
 }
 
 TEST(SafeForce, IsHeldThenRampedToZeroByTheClock) {
