@@ -7,7 +7,6 @@
 #include <optional>
 #include <ostream>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/tool.h"
@@ -29,17 +28,16 @@ inline std::vector<Option> hand_flags() {
        .help = "Live: the forces are for somebody's hand, and go through the limits below; what "
                "was asked for stands beside them (safety, ax, ay, az). See hs-safety(7).",
        .group = "Safety"}};
-  for (const Option& option : safety_flags())
-    if (std::string_view(option.flag.name) != flag::max_speed.name)
-      all.push_back(option);  // of tools led from afar
+  for (const Option& option : safety_flags()) all.push_back(option);
   return all;
 }
 
 // The limits where --hand is given.
 inline std::optional<SafetyLimits> hand_limits(const Arguments& arguments) {
-  if (arguments[flag::hand]) return safety_limits(arguments, false);
-  for (const AnyFlag& flag : AnyFlags{flag::device, flag::max_force, flag::max_rate,
-                                      flag::max_power, flag::hold, flag::ramp, flag::workspace})
+  if (arguments[flag::hand]) return safety_limits(arguments);
+  for (const AnyFlag& flag :
+       AnyFlags{flag::device, flag::max_force, flag::max_rate, flag::max_power, flag::max_speed,
+                flag::max_energy, flag::any_energy, flag::hold, flag::ramp, flag::workspace})
     if (arguments.given(flag))
       fail_usage(flag + " is a limit of --hand", "add --hand, or leave it out");
   return std::nullopt;
@@ -79,6 +77,7 @@ class HandSource : public MotionSource {
   }
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override {
     moved_ = now();
+    if (line.press != last_.press) safe_.begin_press();
     last_ = line;
     write(buffer, safe_.pass(moved_, tip_, force));
   }

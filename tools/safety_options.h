@@ -17,7 +17,8 @@ namespace flag {
 inline constexpr FileFlag device{"--device"};
 inline constexpr ForceFlag max_force{"--max-force"};
 inline constexpr NumberFlag max_rate{"--max-rate"}, max_power{"--max-power"},
-    max_speed{"--max-speed"};
+    max_speed{"--max-speed"}, max_energy{"--max-energy"};
+inline constexpr SwitchFlag any_energy{"--any-energy"};
 inline constexpr TimeFlag hold{"--hold"}, ramp{"--ramp"};
 inline constexpr LengthsFlag workspace{"--workspace"};
 }  // namespace flag
@@ -28,7 +29,7 @@ inline std::vector<Option> safety_flags() {
       {.flag = flag::device,
        .value = "FILE",
        .help = "Limits of the device at the hand: CSV limit,value with rows force, rate, power, "
-               "speed, hold, ramp, x_low, x_high, ... (SI). Flags go before it.",
+               "speed, hold, ramp, energy, damping, x_low, x_high, ... (SI). Flags go before it.",
        .group = "Safety"},
       {.flag = flag::max_force,
        .value = "N",
@@ -49,10 +50,22 @@ inline std::vector<Option> safety_flags() {
        .minimum = 1e-9},
       {.flag = flag::max_speed,
        .value = "M/S",
-       .help = "Fastest motion of a tool that is led from afar [m/s]; otherwise " +
+       .help = "Fastest motion of a tool that is led from afar, and of a hand whose energy has a "
+               "bound [m/s]; otherwise " +
                format_number(usual.speed) + ".",
        .group = "Safety",
        .minimum = 1e-6},
+      {.flag = flag::max_energy,
+       .value = "J",
+       .help = "Most energy that it may give to the hand beyond what the hand has put in [J]; "
+               "otherwise what the limits make inevitable, 1.25 x force x (force / (2 rate) + a "
+               "period) x speed, " +
+               format_number(usual.energy_bound()) + " of the usual ones.",
+       .group = "Safety",
+       .minimum = 1e-6},
+      {.flag = flag::any_energy,
+       .help = "Does not count it: to see what late forces do, not for a hand.",
+       .group = "Safety"},
       {.flag = flag::hold,
        .value = "S",
        .help = "How long a force goes on when nothing new comes [s]; otherwise " +
@@ -73,8 +86,7 @@ inline std::vector<Option> safety_flags() {
        .group = "Safety"}};
 }
 
-// `from_afar`: the tool has --max-speed.
-inline SafetyLimits safety_limits(const Arguments& arguments, bool from_afar = true) {
+inline SafetyLimits safety_limits(const Arguments& arguments) {
   SafetyLimits limits;
   if (arguments.given(flag::device)) {
     Input input(arguments[flag::device]);
@@ -86,7 +98,13 @@ inline SafetyLimits safety_limits(const Arguments& arguments, bool from_afar = t
   take(flag::max_force, limits.force);
   take(flag::max_rate, limits.rate);
   take(flag::max_power, limits.power);
-  if (from_afar) take(flag::max_speed, limits.speed);
+  take(flag::max_speed, limits.speed);
+  take(flag::max_energy, limits.energy);
+  if (arguments[flag::any_energy]) {
+    if (arguments.given(flag::max_energy))
+      fail_usage("--max-energy and --any-energy exclude each other", "leave one of them out");
+    limits = of_any_energy(limits);
+  }
   take(flag::hold, limits.hold);
   take(flag::ramp, limits.ramp);
   if (arguments.given(flag::workspace)) {

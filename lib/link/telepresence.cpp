@@ -10,6 +10,7 @@ namespace hapsim {
 namespace {
 
 constexpr std::size_t kRing = 4096;    // motions that may be on their way
+constexpr double kLetIn = 0.99;        // share from which the identified body is what is felt
 constexpr double kLongestPause = 0.1;  // between two motions that counts as time of the motion [s]
 
 double seconds(std::int64_t ns) {
@@ -137,6 +138,11 @@ Packet Operator::move(std::int64_t now, const MotionLine& line) noexcept {
     moduli_ += let_in * (estimate_.moduli - moduli_);
     share_ += let_in * (1 - share_);
     body_.set_moduli(moduli_);
+    // What the late forces owe is no matter of the body that is felt from here on.
+    if (share_ > kLetIn && !is_forgiven_) {
+      safe_.forgive();
+      is_forgiven_ = true;
+    }
   }
   const Vec3 predicted = body_.press(line.t, line.u, line.in_air);
   const Vec3 wanted =
@@ -146,6 +152,7 @@ Packet Operator::move(std::int64_t now, const MotionLine& line) noexcept {
   place_ = place;
   felt_ = heard_any_ ? safe_.pass(seconds(now), place, wanted, seconds(heard_))
                      : safe_.miss(seconds(now));
+  most_given_ = std::max(most_given_, -safe_.energy().reserve());
   Packet packet;
   packet.kind = Packet::Kind::kMotion;
   packet.number = ++sent_;

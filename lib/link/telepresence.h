@@ -85,6 +85,8 @@ class FeltRecord {
 // moduli from them (OnlineIdentification) and from then on feels what the identified body answers
 // at once (thesis 6.5, Algorithm 6.3). The change is let in without a jump. What the hand gets has
 // gone through SafeForce: without forces from the teleoperator it goes to zero, identified or not.
+// Late forces are active; the energy that they give has SafeForce's bound. Once the identified body
+// alone is felt, what they owe is forgiven, one time: so over a session the bound is twice that.
 // Nothing allocates once it is made.
 class Operator {
  public:
@@ -114,6 +116,10 @@ class Operator {
   // Energy that the hand has put in, and the peer's body has taken, as far as is known [J].
   double energy_in() const { return energy_; }
   double energy_there() const { return energy_there_; }
+  // How far the hand was ever ahead: what it got more than it, and its least damping, had put in
+  // since a press began [J].
+  double most_given() const { return most_given_; }
+  double period() const { return 1 / options_.rate; }
 
  private:
   struct Sent {
@@ -137,8 +143,10 @@ class Operator {
   std::int64_t heard_ = 0;
   bool heard_any_ = false, left_ = false;  // left: the teleoperator has said that it ends
   double share_ = 0;                       // of the prediction in what is felt
+  bool is_forgiven_ = false;               // what late forces owed, once
   long identified_ = -1, answered_ = 0;
   double next_ = 0, longest_ = 0, energy_ = 0, energy_there_ = 0;
+  double most_given_ = 0;
 };
 
 // How what was felt goes with the motion and with the body's own forces, over samples from..to in

@@ -52,12 +52,12 @@ double EnergyBudget::damping(double speed) const noexcept {
   return std::min(most, -reserve_ / (speed * speed * period_));
 }
 
-bool EnergyBudget::allows(double size) const noexcept {
-  return size * (size / (2 * rate_) + period_) * speed_ <= bound_ + reserve_;
+bool EnergyBudget::allows(double size, double share) const noexcept {
+  return size * (size / (2 * rate_) + period_) * speed_ <= share * bound_ + reserve_;
 }
 
-double EnergyBudget::most_force() const noexcept {
-  const double left = bound_ + reserve_;
+double EnergyBudget::most_force(double share) const noexcept {
+  const double left = share * bound_ + reserve_;
   if (!(left > 0)) return 0;
   const double slow = rate_ * period_;
   return std::sqrt(slow * slow + 2 * rate_ * left / speed_) - slow;

@@ -1,6 +1,8 @@
 // How much energy a force may still give to a hand: passivity, kept in time.
 #pragma once
 
+#include <algorithm>
+
 #include "base/vec3.h"
 #include "safety/limits.h"
 
@@ -23,7 +25,8 @@ namespace hapsim {
 // damping as credit: Colgate and Schenkel, J. Robotic Systems 14(1), 1997. Damping alone bounds
 // nothing where forces may change so fast only; so besides
 //   |f| (|f| / (2 rate) + period) speed <= B + reserve:
-// the force can be taken back, at its rate, before a hand that flees has got what is left.
+// the force can be taken back, at its rate, before a hand that flees has got what is left. What is
+// asked for may use kAsked of B; the rest is for the damping, by which the hand pays what it owes.
 class EnergyBudget {
  public:
   EnergyBudget(const SafetyLimits& limits, double period);
@@ -31,6 +34,8 @@ class EnergyBudget {
   // Another press: what the last one has put in is forgotten, what is owed is not. `force`: now
   // [N].
   void begin(const Vec3& force) noexcept;
+  // What is owed is forgiven: the bound holds anew from here.
+  void forgive() noexcept { reserve_ = std::max(reserve_, 0.0); }
   // The hand was moved by `dx` [m], to `position`, within `dt` [s] while `force` was on it [N].
   void move(const Vec3& position, const Vec3& dx, double dt, const Vec3& force) noexcept;
 
@@ -40,9 +45,11 @@ class EnergyBudget {
   // What damps a hand of that speed [m/s] now [N s/m]: never more than is owed within a period, and
   // zero where nothing is.
   double damping(double speed) const noexcept;
-  // Whether a force of that size can be taken back in time, and the largest that can [N].
-  bool allows(double size) const noexcept;
-  double most_force() const noexcept;
+  // Whether a force of that size can be taken back in time, and the largest that can [N], when it
+  // may use that `share` of the bound.
+  bool allows(double size, double share = 1) const noexcept;
+  double most_force(double share = 1) const noexcept;
+  static constexpr double kAsked = SafetyLimits::kAskedEnergy;
 
  private:
   double bound_, speed_, rate_, period_, least_damping_;

@@ -26,10 +26,11 @@ struct SafetyLimits {
   Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
 
   // With `period` [s] between two samples: from `force` to zero at `rate`, a sample late, while a
-  // hand flees at `speed`.
+  // hand flees at `speed`; and a quarter of it for damping.
   double energy_bound(double period = 1e-3) const {
-    return energy > 0 ? energy : force * (force / (2 * rate) + period) * speed;
+    return energy > 0 ? energy : force * (force / (2 * rate) + period) * speed / kAskedEnergy;
   }
+  static constexpr double kAskedEnergy = 0.8;
   bool contains(const Vec3& x) const {
     return (x.array() >= low.array()).all() && (x.array() <= high.array()).all();
   }

@@ -129,6 +129,13 @@ SafeSample SafeForce::pass(double t, const Vec3& position, const Vec3& force,
     aim *= limits_.power / power;
     sample.flags |= kSafePower;
   }
+  if (!budget_.allows(limits_.force, EnergyBudget::kAsked)) {
+    const double most = budget_.most_force(EnergyBudget::kAsked);
+    if (const double size = aim.norm(); size > most) {
+      aim = shortened(aim, size, most);
+      sample.flags |= kSafeEnergy;
+    }
+  }
   if (const double damping = budget_.damping(velocity.norm()); damping > 0) {
     Vec3 damped = aim - damping * velocity;
     if (const double size = damped.norm(); size > limits_.force)

@@ -47,6 +47,9 @@ class SafeForce {
   SafeSample pass(double t, const Vec3& position, const Vec3& force, double fresh) noexcept;
   // The samples from now on are of another press.
   void begin_press() noexcept { budget_.begin(last_); }
+  // Forgives the energy that is owed: where forces are another's from now on. The bound is there
+  // once more.
+  void forgive() noexcept { budget_.forgive(); }
   // None has come.
   SafeSample miss(double t) noexcept;
   // At once, and for ever: the end.

@@ -69,6 +69,7 @@ refuse() { # CODE TEXT ARGUMENTS...
     complain "exit $got, not $code with '$text': $*"
 }
 refuse 2 '--max-force is a limit of --hand' --live motion.csv --body body.ply --model model.csv --max-force 3
+refuse 2 '--max-energy is a limit of --hand' --live motion.csv --body body.ply --model model.csv --max-energy 3
 refuse 2 '--hand is of the live mode' motion.csv --body body.ply --model model.csv --hand
 refuse 2 'records have none' --live --binary tip --hand --body body.ply --model model.csv --tool-radius 0.004
 refuse 2 'falls to zero within' --live motion.csv --hand --max-force 500 --body body.ply --model model.csv

@@ -28,6 +28,10 @@ awk -F, '/^#/ { next } !n++ { next } { f = $11; p = $16 } END { exit !(p == 1 &&
   complain 'the identified body is not felt'
 awk -F, '/^#/ { next } !n++ { next } $17 == 0 && ($9 != $18 || $10 != $19 || $11 != $20) { bad = 1 } END { exit bad }' felt.csv ||
   complain 'a force within the limits was changed'
+grep -q 'energy: the hand put in .* ahead (bound 75)' err || complain 'the energy is not told'
+awk -F, '/^1,/ { for (k = 0; k < 3; ++k) if (n) e -= f[k] * ($(6 + k) - u[k]); ++n
+  for (k = 0; k < 3; ++k) { u[k] = $(6 + k); f[k] = $(9 + k) }
+  if ($21 - e > 1e-9 || e - $21 > 1e-9) bad = 1 } END { exit bad || !n }' felt.csv || complain 'column energy is not the work of the hand'
 
 # teleoperator ARGUMENTS...: in the background, its process in `far` and its port in `port`
 teleoperator() {
@@ -105,6 +109,7 @@ refuse 5 'lab.key: is there already' --make-key lab.key
 chmod 644 other.key
 refuse 5 'others than its owner may read' motion.csv --peer 1 --accuracy 0.3 --body body.ply --key other.key
 refuse 2 'falls to zero within' motion.csv --peer 1 --body body.ply --max-force 500
+refuse 2 '--max-energy and --any-energy exclude each other' motion.csv --peer 1 --body body.ply --max-energy 1 --any-energy
 refuse 2 'a teleoperator needs --model' --listen 0 --body body.ply
 refuse 2 'is no relaxation time' motion.csv --peer 1 --body body.ply --times -1
 refuse 3 'z is' <(sed '5s/0.04,/x,/' motion.csv) --peer 1 --accuracy 0.3 --body body.ply

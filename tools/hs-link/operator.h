@@ -8,6 +8,7 @@
 #include "hs-link/closed.h"
 #include "hs-link/teleoperator.h"
 #include "io/csv.h"
+#include "io/number.h"
 #include "prepared_options.h"
 #include "realtime/latency.h"
 #include "realtime/motion_feed.h"
@@ -133,7 +134,7 @@ class OperatorRun {
     text_ += near_.predicts() ? ",1," : ",0,";
     text_ += std::to_string(felt.flags);
     append_columns(text_, felt.unlimited);
-    text_ += '\n';
+    text_ += ',' + format_number(near_.energy_in()) + '\n';
     out_ << text_;
     out_.flush();
   }
@@ -165,6 +166,18 @@ inline void tell_quality(const Arguments& arguments, const Operator& near, const
                   "force; error {:.3g} N rms = {:.2f} % of the peak {:.3g} N ({} answers)",
                   when, 1e3 * q.lag, 1e3 * q.force_lag, q.rms, 100 * q.rms / q.peak, q.peak,
                   q.samples));
+}
+
+// What both sides have counted, and whether the hand got more than it put in.
+inline std::string energy_words(const Operator& near) {
+  const double bound = near.limits().energy_bound(near.period());
+  std::string text = fmt::format(
+      "energy: the hand put in {:.3g} mJ, the body has taken {:.3g} mJ; the hand was at most "
+      "{:.3g} "
+      "mJ ahead",
+      1e3 * near.energy_in(), 1e3 * near.energy_there(), 1e3 * near.most_given());
+  return text +
+         (std::isfinite(bound) ? fmt::format(" (bound {:.3g})", 1e3 * bound) : " (no bound)");
 }
 
 inline int run_operator(const Arguments& arguments) {
@@ -202,7 +215,8 @@ inline int run_operator(const Arguments& arguments) {
   metadata.set("felt", "forces over a network");
   Output output(arguments.output());
   std::vector<std::string> header = kForceColumns;
-  header.insert(header.end(), {"mx", "my", "mz", "predicted", "safety", "ax", "ay", "az"});
+  header.insert(header.end(),
+                {"mx", "my", "mz", "predicted", "safety", "ax", "ay", "az", "energy"});
   CsvWriter(output.stream(), metadata, header);
   input.end_on_signals();  // what was felt and identified until then is written
   OperatorRun run(arguments, peer, end, near, output.stream());
@@ -229,6 +243,7 @@ inline int run_operator(const Arguments& arguments) {
   line("operator: " + end.counts().summary() +
        (run.strangers() > 0 ? fmt::format(", {} from elsewhere", run.strangers()) : ""));
   if (const std::string cut = run.counts().summary(); !cut.empty()) line("safety: " + cut);
+  line(energy_words(near));
   line(latency.summary() + fmt::format("; {} later than a period", misses));
   const std::size_t all = near.record().size();
   if (!near.predicts()) {

@@ -34,11 +34,19 @@ inline ToolSpec link_specification() {
       "answered. A side that dies and comes back, or changes its address, is served again once "
       "it has proved itself; another operator only when the first has been silent for half a "
       "second. Without a key only this machine is spoken to, unless --insecure is given.",
-      "What the hand feels has limits of force, rate, power and workspace, and goes to zero within "
+      "What the hand feels has limits of force, rate, power, energy and workspace, and goes to "
+      "zero "
+      "within "
       "--hold and --ramp when the teleoperator or the motion is silent; column safety says so in "
       "every line, and ax, ay, az are what was asked for. So have the teleoperator's motions, "
       "which take the tool back when the operator is lost. See hs-safety(7). Exit code 5 when the "
       "teleoperator is gone at the end, 3 when it refuses.",
+      "A late force is active: it gives the hand energy that the hand has not put in. That is "
+      "counted "
+      "at both sides, and what is felt is damped and cut so that it never exceeds --max-energy "
+      "(passivity in time; column energy, bit 256 of safety). A hand that is owed nothing feels "
+      "what "
+      "was asked for, bit for bit: so once the body is identified.",
       "Every line of the operator goes out at once: on standard output nothing but the last one "
       "can be "
       "lost, however it ends. SIGINT or SIGTERM ends either side in its order: what was felt and "
@@ -166,17 +174,19 @@ inline ToolSpec link_specification() {
   spec.options.push_back(accuracy_option("Body"));
   for (const Option& option : online_flags("Operator")) spec.options.push_back(option);
   for (const Option& option : safety_flags()) spec.options.push_back(option);
-  spec.tables = {{"Output of the operator",
-                  {{"press, t, x, y, z, ux, uy, uz", "the motion"},
-                   {"fx, fy, fz", "what is felt [N]"},
-                   {"contact", "1 in contact, 0 in the air"},
-                   {"mx, my, mz", "the newest force that has come [N]"},
-                   {"predicted", "1 where the identified body is felt"},
-                   {"safety",
-                    "0, or a sum of: 1 force cut, 2 its change cut, 4 its power cut, 8 outside the "
-                    "workspace, 16 no valid sample, 32 held, 64 on the way to zero and there, 128 "
-                    "ended"},
-                   {"ax, ay, az", "the force that was asked for [N]"}}}};
+  spec.tables = {
+      {"Output of the operator",
+       {{"press, t, x, y, z, ux, uy, uz", "the motion"},
+        {"fx, fy, fz", "what is felt [N]"},
+        {"contact", "1 in contact, 0 in the air"},
+        {"mx, my, mz", "the newest force that has come [N]"},
+        {"predicted", "1 where the identified body is felt"},
+        {"safety",
+         "0, or a sum of: 1 force cut, 2 its change cut, 4 its power cut, 8 outside the "
+         "workspace, 16 no valid sample, 32 held, 64 on the way to zero and there, 128 "
+         "ended, 256 damped or cut for its energy"},
+        {"ax, ay, az", "the force that was asked for [N]"},
+        {"energy", "that the hand has put in so far [J]; below zero: that it has got"}}}};
   spec.examples = {
       {"hs-link --listen 9000 --body real.ply --model hidden.csv --tool-radius 0.004 --delay 0.15",
        "The far side, with half of the delay."},

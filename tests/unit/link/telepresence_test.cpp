@@ -181,6 +181,36 @@ TEST(Telepresence, WhatTheHandFeelsStaysWithinItsLimits) {
   EXPECT_GE(asked, most);
 }
 
+TEST(Telepresence, LateForcesGiveNoMoreEnergyThanAllowed) {
+  SafetyLimits limits = wide();
+  limits.energy = 0.001;
+  const Impairment late{0.15, 0.025, 0.2, 0, 0};
+  const TwoEnds free(late, 2500), bounded(late, 2500, {}, limits);
+  ASSERT_FALSE(free.near->predicts());
+  const auto gained = [](const TwoEnds& run) {
+    double work = 0, most = 0;
+    for (std::size_t i = 1; i < run.felt.size(); ++i) {
+      const Vec3 way = motion(static_cast<int>(i)).u - motion(static_cast<int>(i) - 1).u;
+      work += run.felt[i - 1].force.dot(way) - 1e3 * way.squaredNorm();  // less what 1 N s/m took
+      most = std::max(most, work);
+    }
+    return most;
+  };
+  EXPECT_GT(gained(free), 2 * limits.energy);
+  EXPECT_LE(gained(bounded), limits.energy);
+  EXPECT_NEAR(bounded.near->most_given(), gained(bounded), 2e-4);
+  long flagged = 0;
+  for (const SafeSample& s : bounded.felt) {
+    flagged += (s.flags & kSafeEnergy) != 0;
+    if (s.flags == 0) EXPECT_EQ(s.force, s.unlimited);
+  }
+  EXPECT_GT(flagged, 100);
+  EXPECT_LT(flagged, 2400);
+  // The far side counts what the body has taken.
+  EXPECT_GT(bounded.near->energy_there(), 0);
+  EXPECT_NEAR(bounded.near->energy_there(), free.near->energy_there(), 1e-3);
+}
+
 TEST(Teleoperator, MakesNoImpossibleMotionAndTakesTheToolBack) {
   ForceLoop hidden(body(model_of(2e4, 6e3)));
   Teleoperator far(hidden, {}, terms().low, terms().high);
