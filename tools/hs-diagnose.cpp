@@ -153,8 +153,7 @@ int run(const Arguments& arguments) {
   require_presses(dataset);
   const Experiment w = make_experiment({body}, std::move(dataset), options);
   progress.reset();
-  if (const std::string unfit = unfit_words(w); !unfit.empty())
-    say(arguments, "hs-diagnose", unfit);
+  for (const std::string& words : left_out_words(w)) say(arguments, "hs-diagnose", words);
   for (const std::string& known : known_words(model, w.dataset))
     say(arguments, "hs-diagnose", known);
   DiagnoseOptions diagnose_options;

@@ -122,12 +122,14 @@ std::vector<Option> options() {
        .group = "Tool and body"},
       {.flag = flag::tool,
        .value = "SHAPE",
-       .help = "Shape of the tool, written as tool.",
+       .help =
+           "Shape of the tool, written as tool; platen: flat, and as wide as covers the --block.",
        .group = "Tool and body",
-       .choices = {"flat", "sphere"}},
+       .choices = {"flat", "sphere", "platen"}},
       {.flag = flag::block,
        .value = "LxWxH",
-       .help = "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0.",
+       .help = "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0; two "
+               "lengths, as 50x30mm: a cylinder of that diameter and height.",
        .group = "Tool and body"},
       {.flag = flag::surface,
        .value = "FILE",
@@ -237,6 +239,8 @@ ToolSpec specification() {
        "A robot's probing of an organ; the touched points become its surface."},
       {"hs-import zwick.csv --block 100x100x40mm --surface block.ply --tool-radius 4mm -o data.csv",
        "A testing machine that presses on the middle of a block."},
+      {"hs-import foam.csv --block 50x30mm --tool platen --surface foam.ply -o data.csv",
+       "A cylinder between platens."},
       {"cat run*.csv | hs-import --unit mm --tool-radius 4mm -o data.csv",
        "Files joined, one recording each."}};
   spec.see_also = {"hs-scan2ply(1)", "hs-tetmesh(1)", "hs-identify(1)"};
@@ -258,7 +262,7 @@ Vec3 vector_of(const Arguments& arguments, const AnyFlag& flag) {
   return v;
 }
 
-ImportOptions import_options(const Arguments& arguments, const std::optional<Vec3>& block) {
+ImportOptions import_options(const Arguments& arguments, const std::optional<Block>& block) {
   ImportOptions options;
   options.columns = arguments.list(flag::column);
   const auto maybe = [&arguments](const AnyFlag& flag) {
@@ -268,7 +272,7 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   options.split_by = maybe(flag::split_by);
   options.at = contact_place(
       arguments.given(flag::at) ? std::optional(vector_of(arguments, flag::at)) : std::nullopt,
-      block);
+      block ? std::optional(block->size) : std::nullopt);
   options.direction = vector_of(arguments, flag::direction);
   if (options.direction.norm() < 1e-9)
     fail_usage("--direction has no length", "write for example 0,0,-1");
@@ -278,6 +282,19 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
       fail_usage("--tool-radius is not above 0", "write it with its unit: 4mm");
   }
   options.tool = maybe(flag::tool);
+  if (options.tool == "platen") {
+    if (!block)
+      fail_usage("--tool platen needs the body between the plates",
+                 "add --block LxWxH, or DxH for a cylinder");
+    const double least = covering_radius(*block);
+    if (options.tool_radius && *options.tool_radius < least)
+      fail_usage(
+          fmt::format("--tool platen: a radius of {:.4g} m does not cover the block",
+                      *options.tool_radius),
+          fmt::format("it takes {:.4g} m; --tool flat for a tool that covers a part", least));
+    options.tool = "flat";
+    if (!options.tool_radius) options.tool_radius = least;
+  }
   options.contact = arguments[flag::contact];
   options.tip = arguments[flag::tip];
   options.force = arguments[flag::force];
@@ -286,7 +303,7 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Vec
   options.drop_air = arguments[flag::drop_air];
   options.specimen = maybe(flag::specimen);
   options.units.trusted = arguments[flag::yes];
-  options.block = block;
+  if (block) options.block = block->size;
   check_sizes_given(options);
   return options;
 }
@@ -302,10 +319,10 @@ TableOptions table_options(const Arguments& arguments) {
 }
 
 int run(const Arguments& arguments) {
-  std::optional<Vec3> block;
+  std::optional<Block> block;
   if (arguments.given(flag::block)) block = parse_block(arguments[flag::block]);
   if (arguments.given(flag::surface) && !block)
-    fail_usage("--surface needs the size of the block", "add --block LxWxH");
+    fail_usage("--surface needs the size of the block", "add --block LxWxH, or DxH for a cylinder");
   const ImportOptions options = import_options(arguments, block);
 
   Input input(arguments.input());
@@ -325,8 +342,7 @@ int run(const Arguments& arguments) {
   }
   if (block && arguments.given(flag::surface)) {
     Output surface(arguments[flag::surface]);
-    const std::string size = fmt::format("block {} x {} x {} m", format_number(block->x()),
-                                         format_number(block->y()), format_number(block->z()));
+    const std::string size = "block, " + block_words(*block);
     format_to_write(arguments[flag::surface], Content::kTriangles)
         .write_surface(surface.stream(), block_surface(*block), {.comments = {size}});
     surface.commit();

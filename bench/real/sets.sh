@@ -8,10 +8,10 @@ robot-meat-region4|organ|dvrk_meat/meat0904_region4.csv|
 phantom-whole|organ|phantom_balls/whole_region_model_v2.csv|
 phantom-small-balls|organ|phantom_balls/region_small_balls.csv|
 phantom-ral2018|organ|phantom_balls/probingRAL2018_T1.csv|
-silicone-10|machine|silicone_compression/EF10_0T_A?.csv|--block 50x50x30mm --tool-radius 10mm
-silicone-30|machine|silicone_compression/EF30_0T_A?.csv|--block 50x50x30mm --tool-radius 10mm
-silicone-50|machine|silicone_compression/EF50_0T_A?.csv|--block 50x50x30mm --tool-radius 10mm
-silicone-10-50|machine|silicone_compression/EF10_50T_A?.csv|--block 50x50x30mm --tool-radius 10mm
+silicone-10|machine|silicone_compression/EF10_0T_A?.csv|--block 50x30mm --tool platen
+silicone-30|machine|silicone_compression/EF30_0T_A?.csv|--block 50x30mm --tool platen
+silicone-50|machine|silicone_compression/EF50_0T_A?.csv|--block 50x30mm --tool platen
+silicone-10-50|machine|silicone_compression/EF10_50T_A?.csv|--block 50x30mm --tool platen
 meat-one-place|machine|meat_zwick/meat_230515_P002_1?_trav.csv|--block 100x100x14mm --tool-radius 4mm
 vhb-rates|machine|vhb_tension/0d0*.csv|--block 0.2x0.2x0.3m --tool-radius 20mm
 vhb-step|machine|vhb_tension/single_step_3d0.csv|--block 0.2x0.2x0.3m --tool-radius 20mm

@@ -88,6 +88,7 @@ class ContactLibrary {
 
   int threads() const { return options_.threads; }  // 0: as many as the machine has
   const PlanGrid& grid() const { return grid_; }
+  double tool_radius() const { return radius_; }         // [m]
   const Surface& surface() const { return base_.fine; }  // the body's, as it was given
   Memo& memo() const { return *options_.memo; }
   // Of all that solutions depend on beside positions and material.

@@ -70,6 +70,7 @@ class Adhesion : public Effect {
                        {"a", "1", "share that acts on the way in as well", 0, 0.2, 0, 1, 0.3,
                         false}},
         .needs_return = true,
+        .needs_rim = true,
         .one_tool = true,
         .signature = "too stiff while the tool leaves, down to a pull before it comes off",
         .confounders = {"viscoelastic", "softening", "backlash", "deadband", "slack"},

@@ -49,6 +49,7 @@ struct EffectCard {
   bool needs_temperature = false;  // not testable unless the column temp varies
   bool needs_sideways = false;     // not testable without tangential displacement
   bool needs_return = false;       // not testable unless a recorded press moves out again
+  bool needs_rim = false;          // not testable between plates: acts under a part of the surface
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
   bool one_body = false;       // its parameters are of one body's shape or place
   bool one_tool = false;       // its parameters are of one tool
@@ -111,6 +112,7 @@ struct PressView {
   double past_depth = 0;            // deepest |u| of earlier presses here that is not healed [m]
   int number = 1;                   // of the press, from 1, in the order of the recording
   double radius = 0;                // of the tool [m]
+  double height = 0;                // of a body between plates [m]; 0: the tool covers a part of it
   double modulus = 0;               // E of region 0 [Pa]
   int modulus_column = -1;
   ContactStiffness contact;

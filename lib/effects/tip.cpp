@@ -50,6 +50,7 @@ class Tip : public Effect {
             "counts from the recorded contact point",
         .parameters = {{"kappa", "1/m", "curvature of the tip, 1/radius; 0: flat", 0, 100, 0, 1e4,
                         50, false}},
+        .needs_rim = true,
         .one_tool = true,
         .signature = "too stiff at small depth, with forces that grow like depth^1.5 there",
         .confounders = {"hyperelastic", "sensor-curve", "slack", "deadband"},

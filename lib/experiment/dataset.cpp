@@ -125,12 +125,13 @@ Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row
   return dataset;
 }
 
-Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals) {
+Dataset on_body(Dataset dataset, const std::vector<ToolStand>& stands) {
   const bool heals = dataset.recording.metadata.find("recovery").value_or("") == "full";
   std::vector<double> deepest(dataset.positions.size(), 0.0);
   for (Episode& e : dataset.episodes) {
     e.view.point = dataset.positions[e.position];
-    e.view.normal = normals[e.position];
+    e.view.normal = stands[e.position].normal;
+    e.view.height = stands[e.position].height;
     e.view.direction = -e.view.normal;
     if (!heals) e.view.past_depth = deepest[e.position];
     double depth = 0;
@@ -143,40 +144,6 @@ Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals) {
     deepest[e.position] = std::max(deepest[e.position], depth);
   }
   return dataset;
-}
-
-Dataset at_positions(const Dataset& dataset, const std::vector<std::size_t>& positions) {
-  Dataset result;
-  result.setups = dataset.setups;
-  std::vector<int> renumbered(dataset.positions.size(), kNowhere);
-  for (const std::size_t p : positions) {
-    renumbered[p] = static_cast<int>(result.positions.size());
-    result.positions.push_back(dataset.positions[p]);
-    result.setup_of.push_back(dataset.setup_of[p]);
-    if (!dataset.doubt.empty()) result.doubt.push_back(dataset.doubt[p]);
-  }
-  std::vector<int> row(dataset.rows(), kNowhere);
-  for (const Episode& e : dataset.episodes) {
-    if (renumbered[static_cast<std::size_t>(e.position)] == kNowhere) continue;
-    for (const int r : e.rows) row[static_cast<std::size_t>(r)] = 0;
-    result.episodes.push_back(e);
-    result.episodes.back().position = renumbered[static_cast<std::size_t>(e.position)];
-    result.episodes.back().view.number = static_cast<int>(result.episodes.size());
-  }
-  result.recording = dataset.recording;
-  each_column(result.recording, [&](auto& column) {
-    if (column.empty()) return;
-    std::size_t to = 0;
-    for (std::size_t r = 0; r < row.size(); ++r)
-      if (row[r] != kNowhere) column[to++] = column[r];
-    column.resize(to);
-  });
-  int next = 0;
-  for (int& r : row)
-    if (r != kNowhere) r = next++;
-  for (Episode& e : result.episodes)
-    for (int& r : e.rows) r = row[static_cast<std::size_t>(r)];
-  return result;
 }
 
 DataSummary summarise(const Dataset& dataset, double modulus) {

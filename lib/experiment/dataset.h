@@ -14,7 +14,7 @@ namespace hapsim {
 struct Episode {
   int position = 0;
   std::vector<int> rows;  // of the recording
-  PressView view;         // normal, direction, past_depth are filled in by with_normals()
+  PressView view;         // normal, height, direction, past_depth are filled in by on_body()
 };
 
 // Which body was pressed (from 0, in the caller's list) with which tool.
@@ -51,12 +51,14 @@ double session_start(const Recording& recording);
 // column of a recording comes to effects. Times are counted from `press_start` and `session_start`.
 void add_sample(PressView& press, const Recording& recording, std::size_t row, double press_start,
                 double session_start);
-// With normals by position, and what follows from them: each press's direction and the deepest
-// press before it at its place (none with `recovery: full`).
-Dataset with_normals(Dataset dataset, const std::vector<Vec3>& normals);
-
-// Of some positions alone, in ascending order; the rows and presses of the others are left out.
-Dataset at_positions(const Dataset& dataset, const std::vector<std::size_t>& positions);
+// How the tool stands on the body at a position.
+struct ToolStand {
+  Vec3 normal = Vec3::UnitZ();  // outward
+  double height = 0;            // [m] between plates (mesh/between_plates.h); 0: not between plates
+};
+// With that by position, and what follows from it: each press's direction and the deepest press
+// before it at its place (none with `recovery: full`).
+Dataset on_body(Dataset dataset, const std::vector<ToolStand>& stands);
 
 // The temperature to count from is the metadata `temp_ref`, else the mean.
 DataSummary summarise(const Dataset& dataset, double modulus);

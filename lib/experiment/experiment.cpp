@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "base/error.h"
+#include "effects/plates_law.h"
+#include "experiment/dataset_parts.h"
 #include "model/body_parameters.h"
 
 namespace hapsim {
@@ -82,6 +84,24 @@ std::vector<UnfitPlace> settle_unfit(Places& places, Dataset& dataset, bool borr
   return unfit;
 }
 
+// Counts, and leaves out unless every row is needed, what compresses too far.
+std::size_t leave_strained(Dataset& dataset, bool keep) {
+  std::vector<std::size_t> samples;
+  std::size_t beyond = 0;
+  for (const Episode& e : dataset.episodes) {
+    std::size_t count = 0;
+    while (count < e.view.size() &&
+           -e.view.u[count].dot(e.view.normal) <= (e.view.height > 0
+                                                       ? kMostPlateStrain * e.view.height
+                                                       : std::numeric_limits<double>::infinity()))
+      ++count;
+    samples.push_back(count);
+    beyond += e.view.size() - count;
+  }
+  if (beyond > 0 && !keep) dataset = beginnings(dataset, samples);
+  return beyond;
+}
+
 }  // namespace
 
 Experiment make_experiment(const TetMesh& body, Recording recording,
@@ -123,6 +143,8 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
   }();
   for (UnfitPlace& place : settle_unfit(places, dataset, options.borrow))
     unfit.push_back(std::move(place));
+  dataset = on_body(std::move(dataset), places.stands());
+  const std::size_t too_strained = leave_strained(dataset, options.borrow);
   std::vector<std::vector<Vec3>> windows;
   for (const Setup& s : dataset.setups) {
     const auto b = static_cast<std::size_t>(s.body);
@@ -141,24 +163,30 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
     floor = std::max(kLeastFloor, std::hypot(mesh, shape.share()));
     doubted_floor = std::max(kLeastFloor, std::hypot(mesh, shape.share_unmoved()));
   }
-  return {with_normals(std::move(dataset), places.normals()),
-          places,
-          noise,
-          shape,
-          depth,
-          std::move(unfit),
-          floor,
-          doubted_floor};
+  return {std::move(dataset), places,       noise, shape,        depth,
+          std::move(unfit),   too_strained, floor, doubted_floor};
 }
 
-std::string unfit_words(const Experiment& experiment, bool borrowed) {
-  if (experiment.unfit.empty()) return "";
-  return fmt::format(
-      "WARNING: {} of {} places {}, for this body cannot be pressed so there; the first: {}",
-      experiment.unfit.size(),
-      experiment.dataset.positions.size() + (borrowed ? 0 : experiment.unfit.size()),
-      borrowed ? "are taken for their nearest neighbours" : "are left out",
-      experiment.unfit.front().why);
+std::vector<std::string> left_out_words(const Experiment& experiment, bool borrowed) {
+  std::vector<std::string> words;
+  if (!experiment.unfit.empty())
+    words.push_back(fmt::format(
+        "WARNING: {} of {} places {}, for this body cannot be pressed so there; the first: {}",
+        experiment.unfit.size(),
+        experiment.dataset.positions.size() + (borrowed ? 0 : experiment.unfit.size()),
+        borrowed ? "are taken for their nearest neighbours" : "are left out",
+        experiment.unfit.front().why));
+  if (experiment.too_strained > 0)
+    words.push_back(
+        fmt::format("{} of {} samples compress the body between the plates by more than {:.0f} %, "
+                    "or come after "
+                    "such: {}",
+                    experiment.too_strained,
+                    experiment.dataset.rows() + (borrowed ? 0 : experiment.too_strained),
+                    100 * kMostPlateStrain,
+                    borrowed ? "their forces are beyond what was verified"
+                             : "left out, for no law was verified so far"));
+  return words;
 }
 
 Experiment at_positions(const Experiment& e, const std::vector<std::size_t>& positions) {
@@ -168,6 +196,7 @@ Experiment at_positions(const Experiment& e, const std::vector<std::size_t>& pos
           e.shape,
           e.depth,
           {},
+          e.too_strained,
           e.floor,
           e.doubted_floor};
 }

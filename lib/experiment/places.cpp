@@ -60,10 +60,11 @@ const Vec3& Places::position(std::size_t position) const {
   return setups_[place.setup]->positions()[place.position];
 }
 
-std::vector<Vec3> Places::normals() const {
-  std::vector<Vec3> normals;
-  for (std::size_t p = 0; p < size(); ++p) normals.push_back(contact(p).normal);
-  return normals;
+std::vector<ToolStand> Places::stands() const {
+  std::vector<ToolStand> stands;
+  for (const Linearisation::Place& place : *place_)
+    stands.push_back(setups_[place.setup]->stand(place.position));
+  return stands;
 }
 
 double Places::mesh_uncertainty() const {

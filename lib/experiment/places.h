@@ -31,7 +31,7 @@ class Places {
   const std::shared_ptr<const SetupPlaces>& setup(std::size_t s) const { return setups_[s]; }
   const PreparedContact& contact(std::size_t position) const;
   const Vec3& position(std::size_t position) const;
-  std::vector<Vec3> normals() const;
+  std::vector<ToolStand> stands() const;
   const std::string& unfit(std::size_t p) const { return contact(p).unfit; }
   double mesh_uncertainty() const;  // median over the positions, relative
   // How uncertain each stiffness is because the body beyond a window is a guess: the share of the

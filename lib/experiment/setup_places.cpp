@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "contact/contact_cache.h"
 #include "experiment/nearest_region.h"
+#include "mesh/between_plates.h"
 
 namespace hapsim {
 namespace {
@@ -123,6 +124,12 @@ std::shared_ptr<const PreparedPlaces> SetupPlaces::prepare_at(
     if (!contact.unfit.empty())
       fail_numerics("where the body has moved", contact.unfit, "leave the place out");
   return std::make_shared<const PreparedPlaces>(std::move(places));
+}
+
+ToolStand SetupPlaces::stand(std::size_t place) const {
+  const PreparedContact& contact = prepared_->contacts[place];
+  return {contact.normal, height_between_plates(library_->surface(), contact.point, contact.normal,
+                                                library_->tool_radius())};
 }
 
 std::shared_ptr<const SetupPlaces> SetupPlaces::with_positions(

@@ -7,6 +7,7 @@
 
 #include "contact/contact_library.h"
 #include "effects/effect.h"
+#include "experiment/dataset.h"
 #include "experiment/registration.h"
 
 namespace hapsim {
@@ -56,6 +57,7 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
   int threads() const { return library_->threads(); }
   const std::vector<PreparedContact>& contacts() const { return prepared_->contacts; }
   const std::vector<Vec3>& positions() const { return prepared_->positions; }
+  ToolStand stand(std::size_t place) const;
   const Surface& surface() const { return library_->surface(); }
   const PlanGrid& grid() const { return library_->grid(); }  // of the contacts' plan_share
   // The move that the contact points' distances from the surface show.

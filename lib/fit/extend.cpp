@@ -188,6 +188,9 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
     return fmt::format(
         "too few contact positions to learn a field from: press at {} places or more",
         kLeastPlaces);
+  if (effect.needs_rim && std::all_of(dataset.episodes.begin(), dataset.episodes.end(),
+                                      [](const Episode& e) { return e.view.height > 0; }))
+    return "the tool covers the whole body: press with a tool that covers a part of it";
   if (effect.needs_temperature) {
     if (dataset.recording.temp.empty())
       return "the recording has no column temp: record the body's temperature";

@@ -54,10 +54,10 @@ std::shared_ptr<const SetupPlaces> places_for(const std::vector<Model>& models,
   return pressed->with_positions(places);
 }
 
-std::vector<Vec3> normals_of(const SetupPlaces& places) {
-  std::vector<Vec3> normals;
-  for (const PreparedContact& c : places.contacts()) normals.push_back(c.normal);
-  return normals;
+std::vector<ToolStand> stands_of(const SetupPlaces& places) {
+  std::vector<ToolStand> stands;
+  for (std::size_t p = 0; p < places.contacts().size(); ++p) stands.push_back(places.stand(p));
+  return stands;
 }
 
 // Every path at every position, each as if it came right after the recording.
@@ -68,21 +68,21 @@ Candidates make_candidates(const std::vector<Model>& models, const Experiment& e
   Candidates candidates;
   candidates.places = places_for(models, e);
   const std::vector<Vec3>& positions = candidates.places->positions();
-  const std::vector<Vec3> normals = normals_of(*candidates.places);
+  const std::vector<ToolStand> stands = stands_of(*candidates.places);
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
   int press = 0;
   for (std::size_t p = 0; p < positions.size(); ++p)
     for (const PressPath& path : press_paths(summary.depth)) {
-      append_press(r, press++, 0, step, positions[p], normals[p], path);
+      append_press(r, press++, 0, step, positions[p], stands[p].normal, path);
       candidates.names.push_back(path.name);
     }
   if (!known.recording.temp.empty())
     r.temp.assign(r.rows(),
                   std::accumulate(known.recording.temp.begin(), known.recording.temp.end(), 0.0) /
                       static_cast<double>(known.recording.temp.size()));
-  candidates.dataset = with_normals(make_dataset(std::move(r)), normals);
+  candidates.dataset = on_body(make_dataset(std::move(r)), stands);
   std::vector<double> past(positions.size(), 0);
   for (const Episode& press : known.episodes)
     for (std::size_t i = 0; i < press.view.size(); ++i)
@@ -249,13 +249,13 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
   motion.metadata.set("tool_radius", format_number(e.dataset.recording.tool_radius()));
   const DataSummary summary = summarise(e.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
-  const std::vector<Vec3> normals = normals_of(places);
+  const std::vector<ToolStand> stands = stands_of(places);
   const std::vector<PressPath> all_paths = press_paths(summary.depth);
   double start = 0;
   for (const std::size_t k : chosen) {
     const auto position = static_cast<std::size_t>(candidates.dataset.episodes[k].position);
     const int number = static_cast<int>(plan.presses.size()) + 1;
-    append_press(motion, number, start, step, places.positions()[position], normals[position],
+    append_press(motion, number, start, step, places.positions()[position], stands[position].normal,
                  all_paths[k % all_paths.size()]);
     start = motion.t.back() + kPauseBetweenPresses;
     double alone = std::numeric_limits<double>::infinity();

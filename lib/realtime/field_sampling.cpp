@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "mesh/between_plates.h"
 
 namespace hapsim {
 namespace {
@@ -55,6 +56,11 @@ FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, doub
       material_(std::move(material)),
       options_(options) {
   const Surface& surface = library_->surface();
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : surface.vertices) box.extend(p);
+  if (height_between_plates(surface, box.center(), Vec3::UnitZ(), radius_) > 0)
+    fail_input("", "the tool covers the whole body, which is compressed between plates",
+               "simulate it without a live loop");
   Surface held;
   held.vertices = surface.vertices;
   for (std::size_t f = 0; f < surface.faces.size(); ++f)

@@ -9,6 +9,7 @@
 #include "experiment/nearest_region.h"
 #include "formats/field_vtu.h"
 #include "material/maxwell_memory.h"
+#include "mesh/between_plates.h"
 #include "simulate/regional_relaxation.h"
 
 namespace hapsim {
@@ -78,6 +79,7 @@ OwnMesh::OwnMesh(const TetMesh& mesh, const Model& model, const std::vector<Vec3
     : mesh_(mesh),
       model_(model),
       material_(checked_material(model)),
+      tool_radius_(tool_radius),
       lame_(constants(mesh, material_)),
       press_(mesh, patches(mesh, positions, tool_radius), solver),
       solutions_(press_.solve(lame_)) {
@@ -99,9 +101,11 @@ OwnMesh::OwnMesh(const TetMesh& mesh, const Model& model, const std::vector<Vec3
   stiffness_ = regional_stiffness(regions, material_, solve, misfit);
 }
 
-std::vector<Vec3> OwnMesh::normals() const {
-  std::vector<Vec3> result;
-  for (const MeshPatch& p : press_.patches()) result.push_back(p.normal);
+std::vector<ToolStand> OwnMesh::stands() const {
+  const Surface surface = boundary_surface(mesh_);
+  std::vector<ToolStand> result;
+  for (const MeshPatch& p : press_.patches())
+    result.push_back({p.normal, height_between_plates(surface, p.point, p.normal, tool_radius_)});
   return result;
 }
 

@@ -23,7 +23,7 @@ class OwnMesh {
 
   const PositionStiffness& at(std::size_t position) const { return stiffness_[position]; }
   bool is_regional() const { return !stiffness_.empty() && !stiffness_[0].relaxing.empty(); }
-  std::vector<Vec3> normals() const;
+  std::vector<ToolStand> stands() const;
   const SolverChoice& solver() const { return press_.solver(); }
   std::size_t patch_size(std::size_t position) const;  // nodes that move with the tool
 
@@ -41,6 +41,7 @@ class OwnMesh {
   const TetMesh& mesh_;
   const Model& model_;
   MaterialSpec material_;
+  double tool_radius_;
   std::vector<Lame> lame_;
   MeshPress press_;
   std::vector<MeshPress::Solution> solutions_;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "mesh/between_plates.h"
 #include "solid/elastic_assembly.h"
 #include "solid/surface_compliance.h"
 
@@ -32,14 +33,17 @@ MeshPatch patch_under_tool(const TetMesh& mesh, const Vec3& point, double radius
                fmt::format("it lies {:.3g} m off the body's surface", at.distance),
                "check the frame and the unit");
   MeshPatch patch{{}, at.point, face_normal(surface, at.face).normalized()};
+  // Between plates the face under the tool moves, not the sides.
+  const double between = height_between_plates(surface, at.point, patch.normal, radius);
+  const double reach = between > 0 ? 0.02 * between : 0.5 * radius;
+  const double rim = between > 0 ? 1.02 : 1 + 1e-9;
   int nearest = -1;
   for (const int n : surface_nodes(mesh)) {
     if (mesh.fixed[n]) continue;
     const Vec3 away = mesh.nodes[n] - at.point;
     if (nearest < 0 || away.norm() < (mesh.nodes[nearest] - at.point).norm()) nearest = n;
     const double height = away.dot(patch.normal);
-    if (std::abs(height) <= 0.5 * radius &&
-        (away - height * patch.normal).norm() <= radius * (1 + 1e-9))
+    if (std::abs(height) <= reach && (away - height * patch.normal).norm() <= radius * rim)
       patch.nodes.push_back(n);
   }
   if (nearest < 0)

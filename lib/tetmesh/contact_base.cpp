@@ -34,7 +34,8 @@ ContactBase make_contact_base(const TetMesh& body, double edge) {
   ClassedSurface coarse = coarsen_surface(
       fine, [edge](const Vec3&) { return edge; }, kBase);
   coarse = split_long_edges(coarse, [edge](const Vec3&) { return 1.6 * edge; });
-  return {std::move(coarse.surface), std::move(coarse.face_class), std::move(fine.surface)};
+  return {std::move(coarse.surface), std::move(coarse.face_class), std::move(fine.surface),
+          std::move(fine.face_class)};
 }
 
 ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double growth) {

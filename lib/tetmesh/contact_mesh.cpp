@@ -7,13 +7,17 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
+#include "mesh/between_plates.h"
 #include "mesh/support.h"
 #include "mesh/surface_tree.h"
 #include "tetmesh/contact_patch.h"
 #include "tetmesh/contact_unfit.h"
+#include "tetmesh/plates_mesh.h"
 #include "tetmesh/tetgen.h"
 
 namespace hapsim {
@@ -21,6 +25,8 @@ namespace {
 
 // Below the rim, elements are seeded down to this depth over the radius; TetGen fills the rest.
 constexpr double kSeedDepth = 4;
+// A plate is not wider than this, over the disc of the body's mean section: a wrong unit is.
+constexpr double kMostCover = 20;
 
 // Radii of the hole cut for the patch, and how the normal is taken, in the order in which they are
 // tried: the first nearly always serves; the later ones are for edges, creases and noise.
@@ -38,22 +44,35 @@ std::string place(const Vec3& p) {
   return fmt::format("contact at ({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
-void check_reach(const ContactBase& base, const Vec3& contact, double radius) {
+SurfacePoint on_surface(const ContactBase& base, const Vec3& contact, double radius) {
   const SurfacePoint nearest = nearest_point(base.fine, contact);
   if (!(nearest.distance <= std::max(3 * radius, 0.01)))
     fail_input(
         place(contact),
         fmt::format("lies {:.3g} m off the surface, more than 3 tool radii", nearest.distance),
         "check the unit and that the body and the recording share one frame");
+  return nearest;
+}
+
+// The mesh between plates, if the tool covers the whole body.
+std::optional<ContactMesh> between_plates(const ContactBase& base, const SurfacePoint& at,
+                                          double radius, double rim_edge, double growth) {
+  const Vec3 normal = face_normal(base.fine, at.face).normalized();
+  const double height = height_between_plates(base.fine, at.point, normal, radius);
+  if (height == 0) return std::nullopt;
+  const double like_disc = std::sqrt(signed_volume(base.fine) / height / std::numbers::pi);
+  if (radius > kMostCover * like_disc)
+    fail_input(place(at.point),
+               fmt::format("a tool of radius {:.3g} m covers the whole body {:.2g} times", radius,
+                           radius / like_disc),
+               "check the unit of the radius");
+  return make_plates_mesh(base, at.point, normal, height,
+                          rim_edge / radius * std::min(like_disc, height), growth, place(at.point));
+}
+
+void check_bonded(const ContactBase& base, const Vec3& contact, const SurfacePoint& nearest,
+                  double radius) {
   const Vec3 normal = face_normal(base.fine, nearest.face).normalized();
-  const auto beyond = [&](const Vec3& p) {
-    const Vec3 d = p - nearest.point;
-    return (d - d.dot(normal) * normal).norm() > radius;
-  };
-  if (std::none_of(base.fine.vertices.begin(), base.fine.vertices.end(), beyond))
-    fail_input(place(contact),
-               fmt::format("a tool of radius {:.3g} m covers the whole body", radius),
-               "check the unit of the radius; compression between plates is not modelled");
   for (std::size_t f = 0; f < base.surface.faces.size(); ++f) {
     if (!base.fixed_face[f]) continue;
     const Triangle& t = base.surface.faces[f];
@@ -121,7 +140,9 @@ ContactMesh finish(const TetgenResult& result, const ContactFrame& frame) {
 
 ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, double radius,
                               double rim_edge, double growth) {
-  check_reach(base, contact, radius);
+  const SurfacePoint nearest = on_surface(base, contact, radius);
+  if (auto covered = between_plates(base, nearest, radius, rim_edge, growth)) return *covered;
+  check_bonded(base, contact, nearest, radius);
   const ClassedSurface coarse = surface_about(base, contact, growth);
   std::string last = "the disc does not fit on the surface";
   for (const Trial& trial : kTrials) {

@@ -11,6 +11,7 @@ struct ContactBase {
   Surface surface;                       // closed, outward
   std::vector<std::uint8_t> fixed_face;  // one a face: bonded
   Surface fine;                          // the boundary before coarsening: contacts are laid on it
+  std::vector<std::uint8_t> fine_fixed;  // one a face of that: bonded
 };
 
 // From the body's own boundary: edge collapse (Lindstrom-Turk) to about `edge` [m] (0: a ninth of
@@ -37,7 +38,8 @@ struct ContactMesh {
 // inside: with radius / 6 about 3,000 elements on a smooth body, 6,000 on one as rough as 1 %.
 // The middles of the edges that end at the rim lie at their quarter points. Same input, same bytes;
 // thread-safe. Error(kBadInput) when the contact lies farther than 3 radii (at least 10 mm) from
-// the surface, the tool is wider than the body or the patch meets the bonded part.
+// the surface or the patch meets the bonded part. A tool that covers the whole body compresses it:
+// plates_mesh.h.
 ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, double radius,
                               double rim_edge, double growth = 0.4);
 

@@ -132,8 +132,7 @@ int run(const Arguments& arguments) {
   options.windows = given.windows;
   const Experiment w = make_experiment(given.bodies, std::move(given.dataset), options);
   progress.reset();
-  if (const std::string unfit = unfit_words(w); !unfit.empty())
-    say(arguments, "hs-identify", unfit);
+  for (const std::string& words : left_out_words(w)) say(arguments, "hs-identify", words);
   FitOptions fit_options{w.noise.value, w.floor, true};
   fit_options.starts = search.starts;
   fit_options.seed = search.seed;

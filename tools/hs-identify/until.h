@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/tool.h"
+#include "experiment/dataset_parts.h"
 #include "experiment/experiment.h"
 #include "fit/fit_words.h"
 #include "fit/rest_of_press.h"
@@ -47,7 +48,7 @@ class RestOfPress {
                        [&](const UnfitPlace& u) { return u.point == whole_->positions[p]; }))
         kept.push_back(p);
     const LaterError error = later_error(
-        fitted, with_normals(at_positions(*whole_, kept), experiment.places.normals()), seconds_);
+        fitted, on_body(at_positions(*whole_, kept), experiment.places.stands()), seconds_);
     whole_.reset();
     model.metadata.set("until", format_number(seconds_));
     model.metadata.set("heldout_later", format_number(error.rmse));

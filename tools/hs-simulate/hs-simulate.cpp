@@ -98,7 +98,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   if (arguments.given(flag::vtu) && body.is_regional())
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
-  dataset = with_normals(std::move(dataset), body.normals());
+  dataset = on_body(std::move(dataset), body.stands());
   say_beyond(arguments, press_depth({mesh}, dataset), model);
   say_together(arguments, "hs-simulate", dataset.recording);
   const Selection all = all_episodes(dataset);
@@ -200,8 +200,7 @@ int run(const Arguments& arguments) {
   const Experiment w =
       make_experiment(body, load_recording(arguments, arguments.input(), false), options);
   progress.reset();
-  if (const std::string unfit = unfit_words(w, true); !unfit.empty())
-    say(arguments, "hs-simulate", unfit);
+  for (const std::string& words : left_out_words(w, true)) say(arguments, "hs-simulate", words);
   const Selection all = all_episodes(w.dataset);
   say_beyond(arguments, w.depth, model);
   say_together(arguments, "hs-simulate", w.dataset.recording);

@@ -28,7 +28,7 @@ Recording two_presses() {
 
 Dataset dataset_of(const Recording& recording) {
   Dataset d = make_dataset(recording);
-  d = with_normals(std::move(d), {Vec3::UnitZ()});
+  d = on_body(std::move(d), {{}});
   return d;
 }
 

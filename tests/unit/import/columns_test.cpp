@@ -85,11 +85,15 @@ TEST(ImportColumns, ListSaysWhatIsMissing) {
 }
 
 TEST(ImportColumns, BlocksAreClosedAndOutward) {
-  EXPECT_LT((parse_block("120x80x40mm") - Vec3(0.12, 0.08, 0.04)).norm(), 1e-12);
-  EXPECT_LT((parse_block("0.12,0.08,0.04") - Vec3(0.12, 0.08, 0.04)).norm(), 1e-12);
-  EXPECT_THROW(parse_block("120x80mm"), Error);
-  EXPECT_THROW(parse_block("120x0x4"), Error);
-  const Surface block = block_surface(Vec3(0.12, 0.08, 0.04));
+  EXPECT_LT((parse_block("120x80x40mm").size - Vec3(0.12, 0.08, 0.04)).norm(), 1e-12);
+  EXPECT_LT((parse_block("0.12,0.08,0.04").size - Vec3(0.12, 0.08, 0.04)).norm(), 1e-12);
+  for (const char* wrong : {"120mm", "120x0x4", "1x2x3x4mm", "120x", "x80mm"})
+    EXPECT_THROW(parse_block(wrong), Error) << wrong;
+  const Block round = parse_block("50x30mm");
+  EXPECT_TRUE(round.round);
+  EXPECT_TRUE(is_closed(block_surface(round)));
+  EXPECT_NEAR(signed_volume(block_surface(round)), M_PI * 0.025 * 0.025 * 0.03, 1e-9);
+  const Surface block = block_surface({Vec3(0.12, 0.08, 0.04)});
   EXPECT_TRUE(is_closed(block));
   EXPECT_NEAR(signed_volume(block), 0.12 * 0.08 * 0.04, 1e-12);
 }

@@ -111,7 +111,7 @@ TEST_F(OwnMeshField, RelaxesAsTheForceDoes) {
   const OwnMesh plain(mesh, elastic, dataset.positions, radius, SolverKind::kDirect);
   const OwnMesh body(mesh, relaxing, dataset.positions, radius, SolverKind::kIterative);
   const Selection all = all_episodes(dataset);
-  dataset = with_normals(std::move(dataset), body.normals());
+  dataset = on_body(std::move(dataset), body.stands());
   const auto forces = [&](const Model& model, const OwnMesh& own) {
     return model_forces(
                model, dataset, [&](std::size_t p) { return own.at(p); }, all, false)

@@ -174,6 +174,10 @@ TEST(ContactMesh, RefusesWhatCannotBe) {
   std::tie(code, what) = test::error_of([&] {
     make_contact_mesh(base, {0.06, 0.1, 0.06}, 0.15, 0.01);
   });
+  EXPECT_EQ(code, 0) << what;
+  std::tie(code, what) = test::error_of([&] {
+    make_contact_mesh(base, {0.06, 0.1, 0.06}, 4, 0.01);
+  });
   EXPECT_EQ(code, 3);
   EXPECT_NE(what.find("covers the whole body"), std::string::npos) << what;
 }
@@ -187,6 +191,24 @@ TEST(ContactMesh, ADiscMayBeWiderThanALayerIsThick) {
   EXPECT_NEAR(contact.patch_area / (M_PI * kWide * kWide), 1, 0.01);
   EXPECT_GT(contact.normal.z(), 0.999);
   for (const int n : contact.patch_nodes) EXPECT_NEAR(contact.mesh.nodes[n].z(), kThick, 1e-9);
+}
+
+// Between plates all of the top moves with the tool, and nothing of the sides.
+TEST(ContactMesh, AToolThatCoversTheBodyCompressesIt) {
+  const ContactBase base = block_base();
+  const ContactMesh contact = make_contact_mesh(base, {0.06, 0.1, 0.06}, 0.15, 0.15 / 6);
+  expect_sound(contact, base);
+  EXPECT_NEAR(contact.patch_area / (0.12 * 0.21), 1, 1e-9);
+  EXPECT_GT(contact.normal.z(), 0.999);
+  std::size_t on_top = 0;
+  for (const Vec3& p : contact.mesh.nodes) on_top += std::abs(p.z() - 0.06) < 1e-9;
+  EXPECT_EQ(contact.patch_nodes.size(), on_top);
+  // A dome touches a plate at a point.
+  const auto [code, what] = test::error_of([] {
+    make_contact_mesh(dome_base(), {0, 0, 0.05}, 0.06, 0.01);
+  });
+  EXPECT_EQ(code, 3);
+  EXPECT_NE(what.find("grows between plates"), std::string::npos) << what;
 }
 
 class Independent : public ::testing::TestWithParam<const char*> {};
