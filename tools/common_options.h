@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "cli/tool.h"
+#include "experiment/contact_radius.h"
 #include "experiment/experiment.h"
 #include "experiment/plausible.h"
 #include "formats/format_table.h"
@@ -75,6 +76,14 @@ inline Recording load_recording(const Arguments& arguments, const std::string& p
   if (arguments.given(flag::tool_radius))
     recording.metadata.set("tool_radius", arguments.text(flag::tool_radius));
   recording.tool_radius();  // fails now when it is missing
+  return recording;
+}
+
+// A recording to press the model's body as the model says.
+inline Recording load_pressed(const Arguments& arguments, const std::string& path, bool forces,
+                              const Model& model) {
+  Recording recording = load_recording(arguments, path, forces);
+  set_contact_radius(recording, model);
   return recording;
 }
 

@@ -149,7 +149,7 @@ int run(const Arguments& arguments) {
   options.windows = {window};
   options.draft = true;  // many materials are tried; the one that is added is identified finely
   set_poisson_range(model, options);
-  Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), true));
+  Dataset dataset = make_dataset(load_pressed(arguments, arguments.input(), true, model));
   require_presses(dataset);
   const Experiment w = make_experiment({body}, std::move(dataset), options);
   progress.reset();

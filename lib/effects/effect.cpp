@@ -47,6 +47,10 @@ std::vector<std::vector<double>> Effect::starts(const DataSummary&, int terms) c
   return {start};
 }
 
+bool Effect::doubted(const DataSummary&) const {
+  return false;
+}
+
 std::vector<double> Effect::known(const DataSummary&) const {
   return {};
 }

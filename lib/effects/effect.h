@@ -173,7 +173,8 @@ struct DataSummary {
   double temperature = 20;    // to count from [degC]
   double depth = 2e-3;        // deepest displacement [m]
   double tool_radius = 4e-3;  // [m]
-  double ball_radius = 0;     // [m] of a tool that is declared a ball; 0: another
+  std::size_t presses = 1;
+  double ball_radius = 0;  // [m] of a tool that is declared a ball; 0: another
   std::vector<PlaceGain> places;
   Vec3 low = Vec3::Constant(-10), high = Vec3::Constant(10);  // the body's box [m]
   // The move that brings the contact points onto the scanned surface; zero where they lie on it.
@@ -229,6 +230,9 @@ class Effect {
   // What is known of it before a fit, as values of one parameter set: the effect is in the first
   // model and not fitted. Default: nothing.
   virtual std::vector<double> known(const DataSummary& data) const;
+  // Whether such data leave it in doubt from the start: the effect is in the first model and
+  // fitted, so that what it hides is in the others' uncertainties. Default: no.
+  virtual bool doubted(const DataSummary& data) const;
   // Bounds of one parameter set for a fit to such data, within the card's. Default: the card's.
   virtual std::vector<std::pair<double, double>> limits(const DataSummary& data) const;
 };

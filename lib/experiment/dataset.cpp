@@ -80,7 +80,7 @@ void add_sample(PressView& press, const Recording& recording, std::size_t row, d
 
 Dataset make_dataset(Recording recording, const std::vector<Setup>& setup_of_row) {
   Dataset dataset;
-  const Setup only{0, setup_of_row.empty() ? recording.tool_radius() : 0};
+  const Setup only{0, setup_of_row.empty() ? recording.disc_radius() : 0};
   const bool relaxed = recording.metadata.find("recovery").value_or("") != "none";
   const double began = session_start(recording);
   for (const Press& press : recording.presses()) {
@@ -151,8 +151,9 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   summary.has_time = !dataset.recording.t.empty();
   summary.modulus = modulus;
   summary.tool_radius = dataset.setups.front().tool_radius;
+  summary.presses = dataset.recording.presses().size();
   if (dataset.tools() == 1 && dataset.recording.metadata.find("tool") == "sphere")
-    summary.ball_radius = summary.tool_radius;
+    summary.ball_radius = dataset.recording.tool_radius();
   summary.peak_force = 1e-12;
   const std::vector<double>& temp = dataset.recording.temp;
   if (!temp.empty())

@@ -20,7 +20,7 @@ struct Episode {
 // Which body was pressed (from 0, in the caller's list) with which tool.
 struct Setup {
   int body = 0;
-  double tool_radius = 0;  // [m]
+  double tool_radius = 0;  // of the disc (Recording::disc_radius()) [m]
   bool operator==(const Setup&) const = default;
 };
 

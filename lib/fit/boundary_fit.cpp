@@ -58,8 +58,8 @@ class BoundaryProblem {
         graph_(graph),
         spacing_(spacing),
         options_(options),
-        contacts_(mesh, experiment.places, dataset_.recording.tool_radius(), material_of(model_).nu,
-                  plan_nodes(mesh, dataset_.recording.tool_radius()), Memo::kDefaultBudget),
+        contacts_(mesh, experiment.places, dataset_.recording.disc_radius(), material_of(model_).nu,
+                  plan_nodes(mesh, dataset_.recording.disc_radius()), Memo::kDefaultBudget),
         measured_(measured_forces(dataset_, selection_)),
         weights_(dataset_, selection_, model_forces(fitted, experiment, selection_, false).f,
                  options.fit.noise, options.fit.floor) {
@@ -207,7 +207,7 @@ std::vector<BoundaryLine> boundaries_of(const Model& model, const TetMesh& mesh,
 BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, const TetMesh& mesh,
                               const BoundaryOptions& options) {
   const Dataset& dataset = experiment.dataset;
-  const double tool_radius = dataset.recording.tool_radius();
+  const double tool_radius = dataset.recording.disc_radius();
   const double spacing = spacing_of(dataset.positions);
   BoundaryFit result{start, boundaries_of(start.model, mesh, tool_radius), {}, {}, false};
   if (result.lines.empty())

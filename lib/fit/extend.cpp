@@ -90,6 +90,16 @@ Model elastic_model(const Experiment& experiment, const Selection& selection,
       model.parameters.push_back(p);
     }
   }
+  for (const Effect* effect : catalogue()) {
+    const std::string& name = effect->card().name;
+    if (!effect->doubted(summary) || std::find(added.begin(), added.end(), name) != added.end())
+      continue;
+    std::vector<double> identity;
+    for (const ParameterCard& p : effect->card().parameters) identity.push_back(p.identity);
+    std::vector<Parameter> rows = effect_rows(*effect, 1, identity);
+    set_limits(rows, *effect, summary);
+    model.parameters.insert(model.parameters.end(), rows.begin(), rows.end());
+  }
   const Eigen::VectorXd f = solved_forces(model, experiment, selection, false).f;
   const double power = f.squaredNorm();
   if (power <= 0)

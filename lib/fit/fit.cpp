@@ -13,6 +13,7 @@
 #include "estimate/multi_start.h"
 #include "estimate/profile.h"
 #include "fit/extend.h"
+#include "fit/far_body.h"
 #include "fit/learned_field.h"
 #include "fit/maxwell_terms.h"
 #include "fit/move_limits.h"
@@ -362,6 +363,12 @@ class Fitting {
                                         (floor / (options_.noise * options_.noise));
         covariance += through * through.transpose();
       }
+    }
+    if (const Eigen::VectorXd doubt = far_body_doubt(result_, experiment_, selection_, signal.f);
+        doubt.size() > 0) {
+      const Eigen::VectorXd through = solution_.covariance * (signal.df.transpose() * doubt) /
+                                      (options_.noise * options_.noise);
+      covariance += through * through.transpose();
     }
     const std::vector<int> free = result_.model.free_parameters();
     for (std::size_t c = 0; c < free.size(); ++c) {

@@ -17,7 +17,11 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   if (w.dataset.tools() > 1)
     model.metadata.remove("tool_radius");
   else
-    model.metadata.set("tool_radius", format_number(w.dataset.setups.front().tool_radius));
+    model.metadata.set("tool_radius", format_number(w.dataset.recording.tool_radius()));
+  if (const auto disc = w.dataset.recording.metadata.find("contact_radius"))
+    model.metadata.set("contact_radius", *disc);
+  else
+    model.metadata.remove("contact_radius");
 }
 
 HistoryRow history_row(const std::string& model, const Fit& fitted, double held_out, double noise,

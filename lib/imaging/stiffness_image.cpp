@@ -107,7 +107,7 @@ std::vector<ImageView> image_views(const Model& model, const Experiment& experim
 StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                                const Linearisation& about, const TetMesh& body,
                                const ImageOptions& options) {
-  const double tool = experiment.dataset.recording.tool_radius();
+  const double tool = experiment.dataset.recording.disc_radius();
   const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
   const std::vector<ImageView> views = image_views(model, experiment, about);
   const auto n = static_cast<Eigen::Index>(views.size());

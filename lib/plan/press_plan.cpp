@@ -44,7 +44,7 @@ std::shared_ptr<const SetupPlaces> places_for(const std::vector<Model>& models,
   if (std::none_of(models.begin(), models.end(), depends_on_place)) return pressed;
   std::vector<Vec3> places = pressed->positions();
   for (const Vec3& p : unpressed_places(pressed->surface(), pressed->contacts(),
-                                        e.dataset.recording.tool_radius(), kMorePlaces)) {
+                                        e.dataset.recording.disc_radius(), kMorePlaces)) {
     try {
       pressed->with_positions({p});
       places.push_back(p);

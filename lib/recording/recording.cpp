@@ -19,6 +19,15 @@ double Recording::tool_radius() const {
   return *radius;
 }
 
+double Recording::disc_radius() const {
+  const double tool = tool_radius();
+  const auto disc = metadata.number("contact_radius", name);
+  if (disc && !(*disc >= 1e-8 && *disc <= tool))
+    fail_input(name, "contact_radius " + format_number(*disc) + " is not between 0 and tool_radius",
+               "leave it out: hs-identify writes it where a ball is declared");
+  return disc.value_or(tool);
+}
+
 std::optional<double> Recording::force_noise() const {
   constexpr double kLeast = 1e-12, kMost = 1e6;  // [N]; beyond them weights lose all digits
   const auto noise = metadata.number("force_noise", name);

@@ -34,7 +34,10 @@ struct Recording {
 
   std::size_t rows() const { return press.size(); }
   bool in_air(std::size_t row) const { return !contact.empty() && contact[row] == 0; }
-  double tool_radius() const;                 // metadata `tool_radius`; Error when missing
+  double tool_radius() const;  // metadata `tool_radius`; Error when missing
+  // Of the disc for which a body's stiffness is solved [m]: metadata `contact_radius`
+  // (experiment/contact_radius.h), else that of the tool.
+  double disc_radius() const;
   std::optional<double> force_noise() const;  // metadata `force_noise` [N], per component
   std::vector<Press> presses() const;         // in order of first appearance
 };

@@ -142,7 +142,7 @@ class RecordingReader {
 
   void check_metadata() const {
     const Metadata& m = recording_.metadata;
-    if (m.find("tool_radius")) recording_.tool_radius();
+    if (m.find("tool_radius")) recording_.disc_radius();
     recording_.force_noise();
     m.number("temp_ref", recording_.name);
     if (const auto tool = m.find("tool"); tool && *tool != "flat" && *tool != "sphere")

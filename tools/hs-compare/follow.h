@@ -78,7 +78,8 @@ inline int run_follow(const Arguments& arguments) {
   lines.require_contact_points("press,t,x,y,z,ux,uy,uz,fx,fy,fz");
   std::shared_ptr<Progress> progress;
   PreparedBodyOptions options = prepared_options(
-      arguments, stream_radius(arguments, lines.metadata(), input.name()), progress);
+      arguments, contact_radius(model, stream_radius(arguments, lines.metadata(), input.name())),
+      progress);
   lines.within(mesh.nodes);
   options.heals = lines.metadata().find("recovery").value_or("") == "full";
   const PreparedBody body(mesh, model, options);

@@ -25,7 +25,7 @@ inline int run_acfm(const Arguments& arguments) {
                 flag::until})
     if (arguments.given(flag))
       fail_usage(flag + " is of models with effects, and --acfm has none", "leave one of them out");
-  const GivenRecordings given = load_recordings(arguments);
+  const GivenRecordings given = load_recordings(arguments, {});
   const Dataset& dataset = given.dataset;
   const SignedDistance surface(boundary_surface(given.bodies.front()), "body");
   require_one_setup(dataset, flag::acfm.name);

@@ -119,7 +119,7 @@ int run(const Arguments& arguments) {
   extend.regions = parse_regions(arguments[flag::regions], flag::regions.name);
   extend.terms = plan.terms.count;
   const SearchState search = search_asked(arguments, plan.start);
-  GivenRecordings given = load_recordings(arguments);
+  GivenRecordings given = load_recordings(arguments, plan.start);
   require_fit_for(arguments, plan, given.dataset);
   say_together(arguments, "hs-identify", given.dataset.recording);
   RestOfPress rest(arguments, given);

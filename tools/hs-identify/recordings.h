@@ -46,8 +46,9 @@ inline std::vector<Option> recording_flags() {
 }
 
 // Error(kUsage) when there is neither one body nor one for each recording; Error(kBadInput) for a
-// recording whose presses cannot be what they claim (require_presses()).
-inline GivenRecordings load_recordings(const Arguments& arguments) {
+// recording whose presses cannot be what they claim (require_presses()). `start`: the model that is
+// gone on with, empty without.
+inline GivenRecordings load_recordings(const Arguments& arguments, const Model& start) {
   std::vector<std::string> paths = arguments.list(flag::data);
   paths.insert(paths.begin(), arguments.input());
   const std::vector<std::string> bodies = arguments.list(flag::body);
@@ -76,11 +77,15 @@ inline GivenRecordings load_recordings(const Arguments& arguments) {
   std::vector<Recording> recordings;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     recordings.push_back(load_recording(arguments, paths[k], true));
+    if (!start.parameters.empty())
+      set_contact_radius(recordings.back(), start);
+    else if (paths.size() == 1)
+      set_contact_radius(recordings.back());
     const Recording& r = recordings.back();
     // What is wrong with one of several is told with its file's name.
     if (paths.size() > 1) require_presses(make_dataset(r));
     given.setup_of_row.insert(given.setup_of_row.end(), r.rows(),
-                              {body_of[bodies.size() == 1 ? 0 : k], r.tool_radius()});
+                              {body_of[bodies.size() == 1 ? 0 : k], r.disc_radius()});
   }
   given.dataset = make_dataset(join_recordings(recordings), given.setup_of_row);
   if (paths.size() == 1) require_presses(given.dataset);

@@ -30,7 +30,7 @@ inline int run_teleoperator(const Arguments& arguments) {
   const Model model = read_model(model_input);
   std::shared_ptr<Progress> progress;
   const PreparedBodyOptions options =
-      prepared_options(arguments, arguments[flag::tool_radius], progress);
+      prepared_options(arguments, contact_radius(model, arguments[flag::tool_radius]), progress);
   const TetMesh mesh = load_body(arguments);
   const PreparedBody body(mesh, model, options);
   progress.reset();
@@ -39,7 +39,7 @@ inline int run_teleoperator(const Arguments& arguments) {
   hand.sensor = false;
   hand.fitted_depth = fitted_depth(model);
   ForceLoop loop(body, hand);
-  Terms terms = link_terms(mesh, options.tool_radius);
+  Terms terms = link_terms(mesh, arguments[flag::tool_radius]);
   terms.model = fingerprint_of(model);
   UdpSocket socket(at);
   say(arguments, "hs-link", "listening at " + to_text(socket.address()));

@@ -84,7 +84,7 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
 
 int run_own_mesh(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
-  Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
+  Dataset dataset = make_dataset(load_pressed(arguments, arguments.input(), false, model));
   if (const double nu = material_of(model).nu; mesh.order == 1 && nu > 0.4)
     say(arguments, "hs-simulate",
         fmt::format("elements of first order are too stiff at nu {:g} where a body's own mesh is "
@@ -93,7 +93,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   std::vector<FieldRow> fields;
   if (arguments.given(flag::vtu))
     fields = field_rows(dataset, arguments.given(flag::rows) ? arguments[flag::rows] : "");
-  const OwnMesh body(mesh, model, dataset.positions, dataset.recording.tool_radius(),
+  const OwnMesh body(mesh, model, dataset.positions, dataset.recording.disc_radius(),
                      solver_kind(arguments));
   if (arguments.given(flag::vtu) && body.is_regional())
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
@@ -198,7 +198,7 @@ int run(const Arguments& arguments) {
   set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
   options.borrow = true;              // every row has its force
   const Experiment w =
-      make_experiment(body, load_recording(arguments, arguments.input(), false), options);
+      make_experiment(body, load_pressed(arguments, arguments.input(), false, model), options);
   progress.reset();
   for (const std::string& words : left_out_words(w, true)) say(arguments, "hs-simulate", words);
   const Selection all = all_episodes(w.dataset);

@@ -32,7 +32,7 @@ inline std::optional<Experiment> fine_contacts(const Arguments& arguments, const
   if (!arguments.given(flag::contacts)) return std::nullopt;
   ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(model, options);
-  return make_experiment(body, load_recording(arguments, arguments[flag::contacts], false),
+  return make_experiment(body, load_pressed(arguments, arguments[flag::contacts], false, model),
                          options);
 }
 
@@ -187,7 +187,8 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const std::optional<Experiment> fine = fine_contacts(arguments, mesh, model, progress);
   progress.reset();
   PreparedBodyOptions options = prepared_options(
-      arguments, stream_radius(arguments, in.metadata, arguments.input()), progress);
+      arguments, contact_radius(model, stream_radius(arguments, in.metadata, arguments.input())),
+      progress);
   const ExperimentOptions places = experiment_options(arguments, progress);
   options.threads = places.threads;
   options.cache = places.cache;

@@ -159,5 +159,27 @@ TEST(Friction, ForgetsItsSetInTheAir) {
   EXPECT_NEAR(f[4].x(), 0, 1e-12);
 }
 
+// A press that is recorded too shallow by d is pressed d deeper; one that is recorded too deep is
+// free until it has gone that far.
+TEST(Touch, MovesTheFirstContact) {
+  const PressView press = test::press_to({0, 1e-4, 1e-3});
+  const std::vector<Vec3> late = test::forces_after(touch_effect(), press, {{0, "d", 2e-4}});
+  EXPECT_NEAR(late[1].z(), test::kStiffness * 3e-4, 1e-12);
+  EXPECT_NEAR(late[2].z(), test::kStiffness * 1.2e-3, 1e-12);
+  const std::vector<Vec3> early = test::forces_after(touch_effect(), press, {{0, "d", -2e-4}});
+  EXPECT_EQ(early[1].norm(), 0);
+  EXPECT_NEAR(early[2].z(), test::kStiffness * 8e-4, 1e-12);
+}
+
+// In doubt from the start for a declared ball pressed a few times, for nothing else.
+TEST(Touch, IsInDoubtUnderABall) {
+  DataSummary data;
+  EXPECT_FALSE(touch_effect().doubted(data));
+  data.ball_radius = 4e-3;
+  EXPECT_TRUE(touch_effect().doubted(data));
+  data.presses = 40;
+  EXPECT_FALSE(touch_effect().doubted(data));
+}
+
 }  // namespace
 }  // namespace hapsim
