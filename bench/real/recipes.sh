@@ -49,9 +49,11 @@ surface() {
   step 60 hs-import "$2" $1 --scan touched.csv -o data.csv && points '' touched.csv
 }
 points() {
-  step 60 hs-scan2ply "$2" -o points.ply && step 300 hs-reconstruct points.ply -o surface.ply &&
+  # shellcheck disable=SC2086
+  step 60 hs-scan2ply "$2" $1 -o points.ply && step 300 hs-reconstruct points.ply -o surface.ply &&
     step 300 hs-tetmesh surface.ply -o body.ply
 }
 mesh() {
-  step 120 hs-tetmesh "$2" -o body.ply
+  # shellcheck disable=SC2086
+  step 120 hs-tetmesh "$2" $1 -o body.ply
 }

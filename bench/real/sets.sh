@@ -1,4 +1,4 @@
-# What bench/real/run.sh runs: a line a set, NAME|RECIPE|TABLES below the folder of recordings|FLAGS of hs-import.
+# What bench/real/run.sh runs: a line a set, NAME|RECIPE|TABLES below the folder of recordings|FLAGS of the first tool.
 # What a recipe does stands in recipes.sh. Sizes that no table tells are stated here, as a user would state them.
 sets() {
   cat <<'END'
@@ -13,13 +13,13 @@ silicone-30|machine|silicone_compression/EF30_0T_A?.csv|--block 50x30mm --tool p
 silicone-50|machine|silicone_compression/EF50_0T_A?.csv|--block 50x30mm --tool platen
 silicone-10-50|machine|silicone_compression/EF10_50T_A?.csv|--block 50x30mm --tool platen
 meat-one-place|machine|meat_zwick/meat_230515_P002_1?_trav.csv|--block 100x100x14mm --tool-radius 4mm
-vhb-rates|machine|vhb_tension/0d0*.csv|--block 0.2x0.2x0.3m --tool-radius 20mm
-vhb-step|machine|vhb_tension/single_step_3d0.csv|--block 0.2x0.2x0.3m --tool-radius 20mm
+vhb-rates|machine|vhb_tension/0d0*.csv|--rate 5 --block 0.2x0.2x0.3m --tool-radius 20mm
+vhb-step|machine|vhb_tension/single_step_3d0.csv|--rate 2 --block 0.2x0.2x0.3m --tool-radius 20mm
 afm|machine|afm/afm_workshop_single.csv|--block 100x100x50um --tool sphere --tool-radius 5um --yes
 kidney|surface|kidney_touch/kidney_explore_z1-4_every8th.csv|
 bunny|points|scans/stanford-bunny.obj|
-liver-mesh|mesh|scans/liver.msh|
-liver-vtk|mesh|scans/liver.vtk|
-liver-obj|points|scans/liver.obj|
+liver-mesh|mesh|scans/liver.msh|--unit cm --fixed below:0
+liver-vtk|mesh|scans/liver.vtk|--unit mm
+liver-obj|points|scans/liver.obj|--unit cm
 END
 }

@@ -29,11 +29,11 @@ double Recording::disc_radius() const {
 }
 
 std::optional<double> Recording::force_noise() const {
-  constexpr double kLeast = 1e-12, kMost = 1e6;  // [N]; beyond them weights lose all digits
+  constexpr double kLeast = 1e-15, kMost = 1e6;  // [N]; beyond them weights lose all digits
   const auto noise = metadata.number("force_noise", name);
   if (!noise || *noise == 0) return std::nullopt;  // 0: not known
   if (!(*noise >= kLeast && *noise <= kMost))
-    fail_input(name, "force_noise " + format_number(*noise) + " is not between 1e-12 and 1e6 N",
+    fail_input(name, "force_noise " + format_number(*noise) + " is not between 1e-15 and 1e6 N",
                "give the standard deviation of a component in newtons, or remove the line");
   return noise;
 }

@@ -6,6 +6,7 @@
 #include "base/counted.h"
 #include "base/error.h"
 #include "cli/tool.h"
+#include "experiment/contact_radius.h"
 #include "formats/tetmesh_io.h"
 #include "hs-compare/flags.h"
 #include "io/csv.h"

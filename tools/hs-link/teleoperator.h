@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/random.h"
+#include "experiment/contact_radius.h"
 #include "hs-link/closed.h"
 #include "io/interrupt.h"
 #include "link/impaired_channel.h"

@@ -84,7 +84,7 @@ TEST(Recording, RefusesWrongMetadata) {
   for (const std::string noise : {"-1", "1e-200", "1e+300"})
     EXPECT_EQ(failure("# force_noise: " + noise + "\n" + row),
               "d.csv: force_noise " + noise +
-                  " is not between 1e-12 and 1e6 N; give the standard deviation of a component in "
+                  " is not between 1e-15 and 1e6 N; give the standard deviation of a component in "
                   "newtons, or remove the line");
   EXPECT_FALSE(recording_of("# force_noise: 0\n" + row).force_noise());
   EXPECT_EQ(failure("# tool: ball\n" + row), "d.csv: tool is 'ball'; known are: flat, sphere");
