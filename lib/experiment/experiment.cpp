@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "effects/plates_law.h"
 #include "experiment/dataset_parts.h"
+#include "experiment/series_doubt.h"
 #include "model/body_parameters.h"
 
 namespace hapsim {
@@ -84,6 +85,13 @@ std::vector<UnfitPlace> settle_unfit(Places& places, Dataset& dataset, bool borr
   return unfit;
 }
 
+// Of independent doubts by position, either of which may be empty.
+std::vector<double> together(std::vector<double> a, const std::vector<double>& b) {
+  if (a.empty()) return b;
+  for (std::size_t p = 0; p < b.size(); ++p) a[p] = std::hypot(a[p], b[p]);
+  return a;
+}
+
 // Counts, and leaves out unless every row is needed, what compresses too far.
 std::size_t leave_strained(Dataset& dataset, bool keep) {
   std::vector<std::size_t> samples;
@@ -150,7 +158,9 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
     const auto b = static_cast<std::size_t>(s.body);
     windows.push_back(b < options.windows.size() ? options.windows[b] : std::vector<Vec3>{});
   }
-  dataset.doubt = places.beyond_windows(windows);
+  dataset.doubt = together(
+      places.beyond_windows(windows),
+      series_doubt(places, dataset, (options.nu_low + std::min(options.nu_high, 0.45)) / 2));
   Noise noise;
   if (options.noise > 0)
     noise = {options.noise, false};

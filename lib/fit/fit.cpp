@@ -1,19 +1,15 @@
 #include "fit/fit.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
-#include "estimate/identifiability.h"
 #include "estimate/least_squares.h"
 #include "estimate/multi_start.h"
-#include "estimate/profile.h"
 #include "fit/extend.h"
-#include "fit/far_body.h"
+#include "fit/fit_uncertainty.h"
 #include "fit/learned_field.h"
 #include "fit/maxwell_terms.h"
 #include "fit/move_limits.h"
@@ -22,24 +18,6 @@
 
 namespace hapsim {
 namespace {
-
-std::vector<Unknown> unknowns(const Model& model) {
-  std::vector<Unknown> result;
-  const Parameter* modulus = modulus_of(model);
-  const double typical = modulus != nullptr ? 0.1 * std::abs(modulus->value) : 1.0;
-  for (const int i : model.free_parameters()) {
-    const Parameter& p = model.parameters[i];
-    const ParameterCard& card = *parameter_card(require_effect(p.effect), p.name);
-    // A modulus sets its own scale, unless it is next to nothing beside the body's (steps from
-    // there would be as small); other parameters have their card's.
-    const double scale =
-        card.unit == "Pa" ? std::max({std::abs(p.value), typical, 1.0}) : card.scale;
-    const double lower =
-        card.logarithmic ? std::max(p.lower, 1e-12 * std::max(p.value, 1e-300)) : p.lower;
-    result.push_back({p.value, lower, p.upper, scale, card.logarithmic, card.log_limit});
-  }
-  return result;
-}
 
 void set_values(Model& model, const Eigen::VectorXd& x) {
   const std::vector<int> free = model.free_parameters();
@@ -75,47 +53,9 @@ std::vector<Unknown> spread(const Model& model, std::vector<Unknown> unknowns,
   return unknowns;
 }
 
-std::string label(const Parameter& p) {
-  return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
-}
-
 constexpr int kFieldRounds = 4;  // of a field and what is fitted beside it
 constexpr double kFieldSettled = 1e-3;
 constexpr double kLeastReach = 0.02;  // a trust region so small has found what there is
-
-// The parameters held at a bound are no part of it.
-void tell_what_is_not_seen(Fit& result, const Eigen::MatrixXd& J, double noise) {
-  const std::vector<Unknown> all = unknowns(result.model);
-  const std::vector<int> free = result.model.free_parameters();
-  std::vector<Unknown> open;
-  std::vector<std::string> names;
-  std::vector<Eigen::Index> columns;
-  for (std::size_t c = 0; c < free.size(); ++c) {
-    const std::string name = label(result.model.parameters[free[c]]);
-    if (std::find(result.at_bound.begin(), result.at_bound.end(), name) != result.at_bound.end())
-      continue;
-    open.push_back(all[c]);
-    names.push_back(name);
-    columns.push_back(static_cast<Eigen::Index>(c));
-  }
-  if (open.size() < 2) return;  // a single unseen parameter is called undetermined already
-  for (const BlindDirection& d : blind_directions(open, names, J(Eigen::all, columns), 1, noise))
-    if (d.sentence.find(" and ") != std::string::npos) result.blind.push_back(d.sentence);
-}
-
-void tell_intervals(Fit& result, const ResidualFunction& residuals,
-                    const LeastSquaresResult& solution, double variance) {
-  const std::vector<Unknown> all = unknowns(result.model);
-  const std::vector<int> free = result.model.free_parameters();
-  for (std::size_t c = 0; c < free.size(); ++c) {
-    if (solution.at_bound[c]) continue;
-    const ProfileInterval p = profile_interval(all, residuals, solution, c, variance);
-    result.intervals.push_back(fmt::format(
-        "{}: 95 % from {:.4g}{} to {:.4g}{}{}", label(result.model.parameters[free[c]]), p.lower,
-        p.open_below ? " (its bound)" : "", p.upper, p.open_above ? " (its bound)" : "",
-        p.failed ? "; a fit on the way did not converge" : ""));
-  }
-}
 
 // One fit under way: the model as far as it has come, and the bodies about its material.
 class Fitting {
@@ -342,44 +282,10 @@ class Fitting {
     const auto free = static_cast<double>(result_.model.free_parameters().size());
     const double freedom = std::max(1.0, static_cast<double>(result_.residuals) - free);
     const double variance = std::max(1.0, solution_.sum_of_squares / freedom);
-    set_standard_errors(signal, variance);
+    set_standard_errors(result_, solution_, signal, experiment_, selection_, options_, variance);
     tell_what_is_not_seen(result_, signal.df / options_.noise, std::sqrt(variance));
     if (options_.profile && result_.converged)
       tell_intervals(result_, residuals_of(result_.model), solution_, variance);
-  }
-
-  void set_standard_errors(const Signal& signal, double variance) {
-    // The robust covariance has the misfit in it.
-    Eigen::MatrixXd covariance = options_.robust == RobustLoss::kNone
-                                     ? variance * solution_.covariance
-                                     : solution_.covariance;
-    if (options_.floor > 0) {
-      // A gain error of each position, carried through to the parameters (sandwich).
-      for (const GainBlock& block : gain_directions(dataset_, selection_, signal.f)) {
-        const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
-        const double floor =
-            dataset_.floor_at(static_cast<std::size_t>(block.position), options_.floor);
-        const Eigen::MatrixXd through = solution_.covariance * (rows.transpose() * block.Z) *
-                                        (floor / (options_.noise * options_.noise));
-        covariance += through * through.transpose();
-      }
-    }
-    if (const Eigen::VectorXd doubt = far_body_doubt(result_, experiment_, selection_, signal.f);
-        doubt.size() > 0) {
-      const Eigen::VectorXd through = solution_.covariance * (signal.df.transpose() * doubt) /
-                                      (options_.noise * options_.noise);
-      covariance += through * through.transpose();
-    }
-    const std::vector<int> free = result_.model.free_parameters();
-    for (std::size_t c = 0; c < free.size(); ++c) {
-      Parameter& p = result_.model.parameters[free[c]];
-      const auto k = static_cast<Eigen::Index>(c);
-      const bool unseen = solution_.undetermined[c];
-      p.std_error = solution_.at_bound[c] || unseen ? std::numeric_limits<double>::quiet_NaN()
-                                                    : std::sqrt(std::max(0.0, covariance(k, k)));
-      if (solution_.at_bound[c]) result_.at_bound.push_back(label(p));
-      if (unseen) result_.undetermined.push_back(label(p));
-    }
   }
 
   const Experiment& experiment_;
