@@ -43,7 +43,7 @@ Grading rim_grading(double rim_edge, double growth, double largest_distance, dou
 }
 
 std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
-                            const HeightMap& heights, double radius, const Grading& grading,
+                            const SheetMap& sheet, double radius, const Grading& grading,
                             double depth) {
   std::vector<Vec3> local;
   for (const Vec3& p : surface.vertices) local.push_back(frame.to_local(p));
@@ -66,10 +66,17 @@ std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
             2 * std::numbers::pi * (j + ((k + static_cast<std::size_t>(i)) % 2) * 0.5) / n;
         const double r = n == 1 ? 0 : ring;
         const double u = r * std::cos(angle), v = r * std::sin(angle);
-        const Vec3 p(u, v, heights.at(u, v) - below);
+        const SheetMap::Spot spot = sheet.at(u, v);
+        const Vec3 p = spot.point - below * spot.normal;
         if (!is_inside(local, surface, p)) continue;
         const Vec3 seed = frame.to_global(p);
-        if (tree.nearest(seed).distance >= 0.5 * size) seeds.push_back(seed);
+        if (tree.nearest(seed).distance < 0.5 * size) continue;
+        // From both sides of an edge they come to the same places.
+        if (sheet.has_creases() && std::any_of(seeds.begin(), seeds.end(), [&](const Vec3& s) {
+              return (s - seed).norm() < 0.6 * size;
+            }))
+          continue;
+        seeds.push_back(seed);
       }
     }
   }
