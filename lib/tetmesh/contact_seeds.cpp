@@ -13,6 +13,8 @@ namespace {
 // Distance between rows of even triangles or tetrahedra over their edge length.
 constexpr double kRow = 0.87;
 
+constexpr double kOtherSide = 0.766;  // cosine of 40 degrees, between normals
+
 // Parity of the surface's sheets above p along the frame's normal.
 bool is_inside(const std::vector<Vec3>& local, const Surface& surface, const Vec3& p) {
   bool inside = false;
@@ -48,7 +50,7 @@ std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
   std::vector<Vec3> local;
   for (const Vec3& p : surface.vertices) local.push_back(frame.to_local(p));
   const SurfaceTree tree(surface);
-  std::vector<Vec3> seeds;
+  std::vector<Vec3> seeds, normals;
   for (std::size_t k = 1; k < grading.size.size() && grading.distance[k] <= depth; ++k) {
     const double distance = grading.distance[k], size = grading.size[k];
     const int parts =
@@ -72,10 +74,11 @@ std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
         const Vec3 seed = frame.to_global(p);
         if (tree.nearest(seed).distance < 0.5 * size) continue;
         // From both sides of an edge they come to the same places.
-        if (sheet.has_creases() && std::any_of(seeds.begin(), seeds.end(), [&](const Vec3& s) {
-              return (s - seed).norm() < 0.6 * size;
-            }))
-          continue;
+        bool taken = false;
+        for (std::size_t s = 0; s < seeds.size() && sheet.has_creases() && !taken; ++s)
+          taken = normals[s].dot(spot.normal) < kOtherSide && (seeds[s] - seed).norm() < 0.6 * size;
+        if (taken) continue;
+        normals.push_back(spot.normal);
         seeds.push_back(seed);
       }
     }
