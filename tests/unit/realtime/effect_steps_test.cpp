@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 
 #include "experiment/forces.h"
 #include "realtime/force_loop.h"
@@ -18,6 +20,13 @@ const Experiment& experiment(bool straight) {
   return straight ? straight_one : bent;
 }
 
+// It goes away with this object.
+struct Directory {
+  Directory() { mkdtemp(path.data()); }
+  ~Directory() { std::filesystem::remove_all(path); }
+  std::string path = (std::filesystem::temp_directory_path() / "hapsim-test-XXXXXX").string();
+};
+
 std::unique_ptr<PreparedBody> prepared(const Model& model) {
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
@@ -26,6 +35,9 @@ std::unique_ptr<PreparedBody> prepared(const Model& model) {
   options.contacts = [](const MaterialSpec& m) {
     return known_contacts(experiment(true).places, m);
   };
+  // Bodies of one material, and there are few, share their field.
+  static const Directory cache;
+  options.cache = cache.path;
   return std::make_unique<PreparedBody>(test::pressed_block(), model, options);
 }
 
