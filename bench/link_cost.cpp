@@ -9,6 +9,7 @@
 
 #include "link/session.h"
 #include "realtime/real_time.h"
+#include "safety/hand_watch.h"
 #include "safety/safe_force.h"
 
 namespace hapsim {
@@ -54,6 +55,15 @@ int run() {
   SafeForce cut({});
   time_it("a sample beyond them", [&](int i) {
     sum += cut.pass(1e-3 * i, {0, 0, 1e-6 * (i % 100)}, {0, 30, 20}).force.z();
+  });
+  HandWatch watch(
+      0.1, [] { return false; }, [] {});
+  SafeForce watched({});
+  time_it("the first, with the watch of a loop that may hang", [&](int i) {
+    watch.asked(monotonic_ns());
+    const auto lock = watch.answer();
+    sum +=
+        watched.pass(1e-3 * i, {0, 0, 1e-6 * (i % 100)}, {0, 0, 2 + std::sin(1e-3 * i)}).force.z();
   });
   return taken == 400'000 && std::isfinite(sum) ? 0 : 1;
 }

@@ -1,18 +1,14 @@
 // --hand: the forces of a live loop go through the last layer before a hand.
 #pragma once
 
-#include <fmt/format.h>
-#include <poll.h>
-
 #include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
 
 #include "cli/tool.h"
-#include "realtime/motion_feed.h"
-#include "realtime/motion_lines.h"
-#include "realtime/real_time.h"
+#include "safety/hand_source.h"
+#include "safety/hand_tools.h"
 #include "safety/safety_words.h"
 #include "safety_options.h"
 
@@ -48,99 +44,19 @@ inline std::vector<std::string> hand_columns(std::vector<std::string> columns) {
   return columns;
 }
 
-// Between a motion and the loop that answers it: takes each line as it comes, and says of each
-// force what the hand may have of it. Where no line comes for longer than `hold`, lines of its own
-// go out about every millisecond until the force is zero.
-class HandSource : public MotionSource {
- public:
-  // `input`, of the motion, ends on signals.
-  HandSource(MotionSource& motion, const Input& input, const SafetyLimits& limits,
-             std::ostream& out)
-      : motion_(motion), input_(input), out_(out), safe_(limits), feed_(motion, input) {
-    wait(20);  // so that the first lines of a file are not late while the feed begins
-  }
-
-  bool has_contact_point() const override { return motion_.has_contact_point(); }
-  bool next(MotionLine& line) override {
-    while (!input_.ended_by_signal()) {
-      feed_.clear_event();
-      const bool ended = feed_.has_ended();
-      if (feed_.take(line)) {
-        tip_ = line.point + line.u;
-        return true;
-      }
-      if (ended) return false;
-      rest();
-      wait(1);
-    }
-    return false;
-  }
-  void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override {
-    moved_ = now();
-    if (line.press != last_.press) safe_.begin_press();
-    last_ = line;
-    write(buffer, safe_.pass(moved_, tip_, force));
-  }
-  // The last line: zero.
-  void end() {
-    if (moved_ > 0) send(safe_.zero());
-  }
-
-  bool lost() const { return safe_.lost(); }
-  const SafetyCounts& counts() const { return counts_; }
-
- private:
-  void wait(int ms) const {  // for a line
-    pollfd waited{feed_.event(), POLLIN, 0};
-    poll(&waited, 1, ms);
-  }
-  static double now() { return 1e-9 * static_cast<double>(monotonic_ns()); }
-  void rest() {
-    if (moved_ > 0 && now() - moved_ > safe_.limits().hold && felt_ != Vec3::Zero())
-      send(safe_.miss(now()));
-  }
-  void send(const SafeSample& sample) {
-    write(text_, sample);
-    out_ << text_;
-    out_.flush();
-  }
-  void write(std::string& buffer, const SafeSample& sample) const {
-    counts_.add(sample);
-    felt_ = sample.force;
-    motion_.write_force(buffer, last_, sample.force);
-    buffer.pop_back();
-    buffer += ',' + std::to_string(sample.flags);
-    append_columns(buffer, sample.unlimited);
-    buffer += '\n';
-  }
-
-  MotionSource& motion_;
-  const Input& input_;
-  std::ostream& out_;
-  std::string text_;
-  Vec3 tip_ = Vec3::Zero();
-  // What the hand has felt: to write a force is to give it.
-  mutable SafeForce safe_;
-  mutable SafetyCounts counts_;
-  mutable MotionLine last_;
-  mutable Vec3 felt_ = Vec3::Zero();
-  mutable double moved_ = 0;  // when the last line was answered [s]
-  MotionFeed feed_;
-};
-
 // How a hand's run went.
 struct HandReport {
   SafetyCounts counts;
   bool lost = false;
 };
 
-// `answer`(MotionSource&) with the motion itself, or with a hand's; zero is sent whatever ends it.
-template <class Answer>
-void answer_hand(MotionSource& motion, const Input& input,
-                 const std::optional<SafetyLimits>& limits, std::ostream& out, HandReport& report,
-                 const Answer& answer) {
+// `answer`(source) with the motion itself, or with a hand's (HandSource of MotionSource, HandTools
+// of ToolSource); zero is sent whatever ends it.
+template <class Hand, class Source, class Answer>
+void answer_hand(Source& motion, const Input& input, const std::optional<SafetyLimits>& limits,
+                 std::ostream& out, HandReport& report, const Answer& answer) {
   if (!limits) return answer(motion);
-  HandSource hand(motion, input, *limits, out);
+  Hand hand(motion, input, *limits, out);
   const auto end = [&] {
     report.lost = hand.lost();
     hand.end();

@@ -203,9 +203,9 @@ int run_live_fusion(const Arguments& arguments) {
   answer_stream(
       arguments, "hs-fuse", input,
       [&] {
-        answer_hand(motion, input, hand, output.stream(), felt, [&](MotionSource& source) {
-          run_live(source, output.stream(), loop, live, report);
-        });
+        answer_hand<HandSource>(
+            motion, input, hand, output.stream(), felt,
+            [&](MotionSource& source) { run_live(source, output.stream(), loop, live, report); });
       },
       [&] {
         leave_real_time();

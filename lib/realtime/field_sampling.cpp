@@ -1,5 +1,6 @@
 #include "realtime/field_sampling.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -28,7 +28,8 @@ void mask_signals(int how) {
 
 }  // namespace
 
-MotionFeed::MotionFeed(MotionSource& source, const Input& input, std::size_t capacity)
+template <class Source, class Item>
+Feed<Source, Item>::Feed(Source& source, const Input& input, std::size_t capacity)
     : input_(input), ring_(capacity) {
   event_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
   if (event_ < 0) fail_system("motion", "cannot be waited for", errno);
@@ -39,7 +40,8 @@ MotionFeed::MotionFeed(MotionSource& source, const Input& input, std::size_t cap
   mask_signals(SIG_BLOCK);
 }
 
-MotionFeed::~MotionFeed() {
+template <class Source, class Item>
+Feed<Source, Item>::~Feed() {
   stop_ = true;
   // A read that waits is ended as a signal would end it. Where one has, in whatever thread, another
   // would end the process: then the read is woken alone, to find its input at the end.
@@ -51,7 +53,8 @@ MotionFeed::~MotionFeed() {
   close(event_);
 }
 
-void MotionFeed::run(MotionSource& source) {
+template <class Source, class Item>
+void Feed<Source, Item>::run(Source& source) {
   const auto tell = [this] {
     const std::uint64_t one = 1;
     if (write(event_, &one, sizeof one) < 0) {
@@ -59,8 +62,8 @@ void MotionFeed::run(MotionSource& source) {
     }
   };
   try {
-    for (MotionLine line; !stop_ && source.next(line); tell())
-      while (!ring_.push(line) && !stop_)
+    for (Item item; !stop_ && source.next(item); tell())
+      while (!ring_.push(item) && !stop_)
         std::this_thread::sleep_for(std::chrono::microseconds(500));
   } catch (...) {
     thrown_ = std::current_exception();
@@ -69,22 +72,28 @@ void MotionFeed::run(MotionSource& source) {
   tell();
 }
 
-bool MotionFeed::take(MotionLine& line) {
+template <class Source, class Item>
+bool Feed<Source, Item>::take(Item& item) {
   const bool ended = has_ended();  // asked first: what came before the end is in the ring by then
-  if (ring_.pop(line)) return true;
+  if (ring_.pop(item)) return true;
   if (ended && thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
   return false;
 }
 
-void MotionFeed::require_sound() const {
+template <class Source, class Item>
+void Feed<Source, Item>::require_sound() const {
   if (has_ended() && thrown_) std::rethrow_exception(thrown_);
 }
 
-void MotionFeed::clear_event() noexcept {
+template <class Source, class Item>
+void Feed<Source, Item>::clear_event() noexcept {
   std::uint64_t count = 0;
   if (read(event_, &count, sizeof count) < 0) {
     // Nothing has come.
   }
 }
+
+template class Feed<MotionSource, MotionLine>;
+template class Feed<ToolSource, ToolStep>;
 
 }  // namespace hapsim

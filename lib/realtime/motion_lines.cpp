@@ -129,6 +129,15 @@ void write_force_line(std::string& buffer, const MotionLine& line, const Vec3& f
   buffer += line.in_air ? ",0\n" : ",1\n";
 }
 
+void MotionLines::write_hand_force(std::string& buffer, const MotionLine& line, const Vec3& force,
+                                   int safety, const Vec3& asked) const {
+  write_force(buffer, line, force);
+  buffer.pop_back();
+  buffer += ',' + std::to_string(safety);
+  append_columns(buffer, asked);
+  buffer += '\n';
+}
+
 void append_columns(std::string& row, const Vec3& v) {
   for (int k = 0; k < 3; ++k) row += ',' + format_number(v[k] == 0 ? 0.0 : v[k]);
 }

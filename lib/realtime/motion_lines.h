@@ -37,6 +37,9 @@ class MotionLines : public MotionSource {
   // From now on each force line ends in its uncertainty.
   void tell_uncertainty() { uncertain_ = true; }
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override;
+  // With ,safety,ax,ay,az at the end.
+  void write_hand_force(std::string& buffer, const MotionLine& line, const Vec3& force, int safety,
+                        const Vec3& asked) const override;
   long line() const { return csv_.line(); }
   Vec3 force() const { return {value_[kFx], value_[kFy], value_[kFz]}; }  // of the last line [N]
 

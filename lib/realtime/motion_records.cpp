@@ -65,9 +65,14 @@ bool MotionRecords::next(MotionLine& line) {
 
 void MotionRecords::write_force(std::string& buffer, const MotionLine& line,
                                 const Vec3& force) const {
+  write_hand_force(buffer, line, force, 0, force);
+}
+
+void MotionRecords::write_hand_force(std::string& buffer, const MotionLine& line, const Vec3& force,
+                                     int safety, const Vec3&) const {
   buffer.clear();
   put(buffer, static_cast<std::int32_t>(line.press));
-  put(buffer, static_cast<std::int32_t>(line.in_air ? 0 : 1 + 2 * line.beyond));
+  put(buffer, static_cast<std::int32_t>(line.in_air ? 0 : 1 + 2 * line.beyond) | safety << 8);
   put(buffer, line.t);
   for (const Vec3* v : {&line.point, &line.u, &force})
     for (int k = 0; k < 3; ++k) put(buffer, (*v)[k] == 0 ? 0.0 : (*v)[k]);  // no minus zero

@@ -10,7 +10,8 @@ namespace hapsim {
 //   tip in      32 bytes: t, x, y, z
 //   press in    64 bytes: press, contact (integers), t, x, y, z, ux, uy, uz
 //   force out   88 bytes: press, contact (integers), t, x, y, z, ux, uy, uz, fx, fy, fz
-// contact: 0 in the air; 1 in contact, and 2 for kBeyondDepth, 4 for kBeyondHeld beside it.
+// contact: 0 in the air; 1 in contact, and 2 for kBeyondDepth, 4 for kBeyondHeld beside it; of a
+// force for a hand 256 times its Safety besides.
 class MotionRecords : public MotionSource {
  public:
   enum class Kind { kTip, kPress };
@@ -21,6 +22,8 @@ class MotionRecords : public MotionSource {
   // Also Error(kBadInput): a record that is not finite, or ends early.
   bool next(MotionLine& line) override;
   void write_force(std::string& buffer, const MotionLine& line, const Vec3& force) const override;
+  void write_hand_force(std::string& buffer, const MotionLine& line, const Vec3& force, int safety,
+                        const Vec3& asked) const override;
 
  private:
   Input& input_;

@@ -47,6 +47,13 @@ class MotionSource {
   // The bytes that answer it, in place of `buffer`, which keeps its memory from one to the next.
   virtual void write_force(std::string& buffer, const MotionLine& line,
                            const Vec3& force) const = 0;
+  // The same for a hand: with why the force is not what was asked for (Safety), and that, where the
+  // bytes have a place for it.
+  virtual void write_hand_force(std::string& buffer, const MotionLine& line, const Vec3& force,
+                                int safety, const Vec3& asked) const {
+    static_cast<void>(safety), static_cast<void>(asked);
+    write_force(buffer, line, force);
+  }
   // From now on next() refuses contact points and displacements that no press of a body with
   // these nodes [m] has.
   void within(const std::vector<Vec3>& nodes) { check_.within(nodes); }

@@ -41,6 +41,10 @@ struct ToolFeel {
   int beyond = 0;              // ToolLoop::beyond(), and kBeyondClose
   // Standard, of the length of the force, that the place leaves [N]; NaN: not known.
   double uncertainty = std::numeric_limits<double>::quiet_NaN();
+  // For a hand, set by who limits them (SafeTools): why force and torque are not what was asked
+  // for, and that.
+  int safety = 0;
+  Vec3 asked_force = Vec3::Zero(), asked_torque = Vec3::Zero();
   // About another point of the tool [m], as it is now.
   Vec3 torque_about(const Vec3& other) const { return torque + (point + u - other).cross(force); }
 };

@@ -80,13 +80,13 @@ ToolLines::ToolLines(CsvReader csv, std::string name, std::size_t tools)
 }
 
 std::size_t ToolLines::tool_of(std::string_view id) {
-  for (std::size_t k = 0; k < ids_.size(); ++k)
+  for (std::size_t k = 0; k < known_ids_; ++k)
     if (ids_[k] == id) return k;
-  if (ids_.size() == tools_)
+  if (known_ids_ == tools_)
     fail_input(csv_.where(), fmt::format("{} is one tool more than {}", shown(id), tools_),
                fmt::format("up to {} press a body at once; say how many with --tools", kMostTools));
-  ids_.emplace_back(id);
-  return ids_.size() - 1;
+  ids_[known_ids_] = id;
+  return known_ids_++;
 }
 
 bool ToolLines::read_row() {
@@ -125,13 +125,13 @@ bool ToolLines::next(ToolStep& step) {
     pose.in_air = true;
     pose.point.setConstant(std::numeric_limits<double>::quiet_NaN());
   }
-  rows_ = 0;
-  while (!counted_ || rows_ < tools_) {
+  step.rows = 0;
+  while (!counted_ || step.rows < tools_) {
     if (!waiting_ && !read_row()) break;
-    waiting_ = !joins(step, rows_);
+    waiting_ = !joins(step, step.rows);
     if (waiting_) {
       if (counted_)
-        fail_input(csv_.where(), fmt::format("a step has {} of {} tools", rows_, tools_),
+        fail_input(csv_.where(), fmt::format("a step has {} of {} tools", step.rows, tools_),
                    "give every time one line of each tool");
       break;
     }
@@ -139,11 +139,11 @@ bool ToolLines::next(ToolStep& step) {
     if (warm_) step.temperature = row_.temperature;
     step.pose[row_.tool] = row_.pose;
     step.present[row_.tool] = 1;
-    order_[rows_++] = row_.tool;
+    step.order[step.rows++] = row_.tool;
     check(row_.tool, step, [this] { return csv_.where(); });
     if (id_column_ < 0) break;
   }
-  return rows_ > 0 && (!counted_ || rows_ == tools_);
+  return step.rows > 0 && (!counted_ || step.rows == tools_);
 }
 
 std::vector<std::string> ToolLines::columns() const {
@@ -158,20 +158,22 @@ std::vector<std::string> ToolLines::columns() const {
   add(turns_, {"tqx", "tqy", "tqz"});
   add(true, {"contact", "beyond"});
   add(warm_, {"temp"});
+  add(hand_, {"safety", "ax", "ay", "az"});
+  add(hand_ && turns_, {"atqx", "atqy", "atqz"});
   return names;
 }
 
 void ToolLines::write(std::string& buffer, const ToolStep& step,
                       std::span<const ToolFeel> feel) const {
   buffer.clear();
-  for (std::size_t r = 0; r < rows_; ++r) {
-    const ToolFeel& f = feel[order_[r]];
+  for (std::size_t r = 0; r < step.rows; ++r) {
+    const ToolFeel& f = feel[step.order[r]];
     append_value(buffer, f.press);
     buffer += ',';
     append_value(buffer, step.t);
     if (id_column_ >= 0) {
       buffer += ',';
-      buffer += ids_[order_[r]];
+      buffer += ids_[step.order[r]];
     }
     append_values(buffer, f.point);
     append_values(buffer, f.u);
@@ -183,6 +185,12 @@ void ToolLines::write(std::string& buffer, const ToolStep& step,
     if (warm_) {
       buffer += ',';
       append_value(buffer, step.temperature);
+    }
+    if (hand_) {
+      buffer += ',';
+      append_value(buffer, f.safety);
+      append_values(buffer, f.asked_force);
+      if (turns_) append_values(buffer, f.asked_torque);
     }
     buffer += '\n';
   }

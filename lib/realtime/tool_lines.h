@@ -30,6 +30,9 @@ class ToolLines : public ToolSource {
   bool has_contact_point() const override { return known_; }
   const Metadata& metadata() const { return csv_.metadata(); }
   std::vector<std::string> columns() const;
+  // From now on each line ends in safety, ax, ay, az, of tools that turn also atqx, atqy, atqz: why
+  // the force or torque is not what was asked for, and that.
+  void tell_hand() { hand_ = true; }
   bool next(ToolStep& step) override;
   void write(std::string& buffer, const ToolStep& step,
              std::span<const ToolFeel> feel) const override;
@@ -66,11 +69,10 @@ class ToolLines : public ToolSource {
   int id_column_ = -1;
   std::array<double, kColumns> value_{};
   std::vector<std::string_view> fields_;
-  std::vector<std::string> ids_;  // of the tools, as they first came
+  std::array<std::string, kMostTools> ids_;  // of the tools, as they first came
+  std::size_t known_ids_ = 0;
   std::size_t tools_ = 1;
-  std::array<std::size_t, kMostTools> order_{};  // of the last step's lines
-  std::size_t rows_ = 0;                         // in it
-  bool known_ = false, warm_ = false, turns_ = false, counted_ = false;
+  bool known_ = false, warm_ = false, turns_ = false, counted_ = false, hand_ = false;
   Row row_;
   bool waiting_ = false;  // row_ is of the next step
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -47,9 +48,9 @@ ToolRecords::ToolRecords(Input& input) : input_(input) {
   const char* from = bytes + 8;
   const auto version = taken<std::uint32_t>(from), size = taken<std::uint32_t>(from);
   const auto tools = taken<std::uint32_t>(from), kind = taken<std::uint32_t>(from);
-  if (version < kVersion)
+  if (version < kFirstVersion)
     fail_input(input.name(), fmt::format("its header asks for version {}", version),
-               fmt::format("records with a header are of version {} or later", kVersion));
+               fmt::format("records with a header are of version {} or later", kFirstVersion));
   if (tools < 1 || tools > kMostTools)
     fail_input(input.name(), fmt::format("its header is of {} tools", tools),
                fmt::format("from 1 to {} press a body at once", kMostTools));
@@ -60,6 +61,7 @@ ToolRecords::ToolRecords(Input& input) : input_(input) {
     fail_input(input.name(), fmt::format("its records have {} bytes", size),
                fmt::format("of {} tools they have {} or more", tools, least));
   tools_ = tools;
+  version_ = std::min(version, kVersion);
   presses_ = kind == 1;
   bytes_ = size;
   text_.resize(size);
@@ -67,8 +69,9 @@ ToolRecords::ToolRecords(Input& input) : input_(input) {
 
 std::string ToolRecords::header() const {
   std::string header(kToolMagic, 8);
-  add_to(header, kVersion);
-  add_to(header, static_cast<std::uint32_t>(kStepBytes + kFeelBytes * tools_));
+  add_to(header, version_);
+  const std::size_t feel = kFeelBytes + (version_ >= 3 ? kAskedBytes : 0);
+  add_to(header, static_cast<std::uint32_t>(kStepBytes + feel * tools_));
   add_to(header, static_cast<std::uint32_t>(tools_));
   add_to(header, std::uint32_t{presses_ ? 1U : 0U});
   header.resize(kHeaderBytes, '\0');
@@ -113,11 +116,14 @@ void ToolRecords::write(std::string& buffer, const ToolStep& step,
   add_to(buffer, step.t);
   add_to(buffer, step.temperature);
   for (const ToolFeel& f : feel) {
-    for (const int i : {f.press, f.in_air ? 0 : 1, f.beyond, 0})
+    for (const int i : {f.press, f.in_air ? 0 : 1, f.beyond, f.safety})
       add_to(buffer, static_cast<std::int32_t>(i));
     for (const Vec3* v : {&f.point, &f.u, &f.turn, &f.force, &f.torque}) add_vector(buffer, *v);
     add_to(buffer, f.uncertainty);
   }
+  if (version_ < 3) return;
+  for (const ToolFeel& f : feel)
+    for (const Vec3* v : {&f.asked_force, &f.asked_torque}) add_vector(buffer, *v);
 }
 
 }  // namespace hapsim

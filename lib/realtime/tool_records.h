@@ -19,20 +19,25 @@ namespace hapsim {
 //   asked, 16 + 80 tools bytes: t, temp (NaN: not known); of each tool i press, i contact (0: in
 //   the
 //     air), x y z, ux uy uz, thx thy thz; of tips press, contact and u are passed over
-//   answered, 16 + 144 tools bytes: t, temp; of each tool i press, i contact, i beyond, i 0, x y z,
-//     ux uy uz, thx thy thz, fx fy fz, tqx tqy tqz, standard uncertainty of the force (NaN:
-//     unknown)
+//   answered, 16 + 144 tools bytes: t, temp; of each tool i press, i contact, i beyond, i safety (0
+//     where there is no hand), x y z, ux uy uz, thx thy thz, fx fy fz, tqx tqy tqz, standard
+//     uncertainty of the force (NaN: unknown)
+// Version 3 asks as 2 does, answers 16 + 192 tools bytes: those of version 2, then of each tool ax
+// ay az, atqx atqy atqz: the force and torque that were asked for. While no motion comes, for a
+// hand, answers come that nobody has asked for; bit 512 of their safety says so. To version 2 none
+// does.
 class ToolRecords : public ToolSource {
  public:
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3, kFirstVersion = 2;
   static constexpr std::size_t kHeaderBytes = 32, kStepBytes = 16, kPoseBytes = 80,
-                               kFeelBytes = 144;
+                               kFeelBytes = 144, kAskedBytes = 48;
   // Reads the header. Error(kBadInput): it is none, a version or size that cannot be served, a
   // number of tools other than 1 to kMostTools.
   explicit ToolRecords(Input& input);
 
   std::size_t tools() const override { return tools_; }
   bool has_contact_point() const override { return presses_; }
+  bool takes_unasked() const override { return version_ >= 3; }
   std::string header() const;  // of the answers
   // Also Error(kBadInput): a record that is not finite, or ends early.
   bool next(ToolStep& step) override;
@@ -42,6 +47,7 @@ class ToolRecords : public ToolSource {
  private:
   Input& input_;
   std::size_t tools_ = 1, bytes_ = 0;
+  std::uint32_t version_ = kVersion;  // that is spoken
   bool presses_ = false;
   std::string text_;  // of a record
   long record_ = 0;

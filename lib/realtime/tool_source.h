@@ -21,6 +21,9 @@ struct ToolStep {
   double temperature = std::numeric_limits<double>::quiet_NaN();
   std::array<ToolPose, kMostTools> pose;
   std::array<char, kMostTools> present{};
+  // The tools of its lines as they came.
+  std::array<std::size_t, kMostTools> order{};
+  std::size_t rows = 0;
 };
 
 class ToolSource {
@@ -33,6 +36,9 @@ class ToolSource {
   // The bytes that answer it, in place of `buffer`, which keeps its memory.
   virtual void write(std::string& buffer, const ToolStep& step,
                      std::span<const ToolFeel> feel) const = 0;
+  // For hands (SeveralTools's feel with its `safety`): whether answers may come that nobody has
+  // asked for, while no motion comes.
+  virtual bool takes_unasked() const { return true; }
   // As MotionSource::within().
   void within(const std::vector<Vec3>& nodes) {
     for (MotionCheck& check : check_) check.within(nodes);

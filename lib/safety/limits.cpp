@@ -18,9 +18,9 @@ namespace {
 
 std::vector<std::pair<std::string, double*>> named(SafetyLimits& limits) {
   std::vector<std::pair<std::string, double*>> all{
-      {"force", &limits.force},   {"rate", &limits.rate},      {"power", &limits.power},
-      {"speed", &limits.speed},   {"hold", &limits.hold},      {"ramp", &limits.ramp},
-      {"energy", &limits.energy}, {"damping", &limits.damping}};
+      {"force", &limits.force},   {"rate", &limits.rate},       {"power", &limits.power},
+      {"speed", &limits.speed},   {"hold", &limits.hold},       {"ramp", &limits.ramp},
+      {"energy", &limits.energy}, {"damping", &limits.damping}, {"lever", &limits.lever}};
   for (int k = 0; k < 3; ++k) {
     all.emplace_back(std::string(1, "xyz"[k]) + "_low", &limits.low[k]);
     all.emplace_back(std::string(1, "xyz"[k]) + "_high", &limits.high[k]);
@@ -30,12 +30,13 @@ std::vector<std::pair<std::string, double*>> named(SafetyLimits& limits) {
 
 // What is wrong and what to do; empty where nothing is.
 std::pair<std::string, std::string> problem(const SafetyLimits& limits) {
-  const std::array<std::pair<const char*, double>, 6> positive{{{"force", limits.force},
+  const std::array<std::pair<const char*, double>, 7> positive{{{"force", limits.force},
                                                                 {"rate", limits.rate},
                                                                 {"power", limits.power},
                                                                 {"speed", limits.speed},
                                                                 {"hold", limits.hold},
-                                                                {"ramp", limits.ramp}}};
+                                                                {"ramp", limits.ramp},
+                                                                {"lever", limits.lever}}};
   for (const auto& [name, value] : positive)
     if (!(value > 0))
       return {fmt::format("the limit of {} is {:g}", name, value), "give a positive one"};
@@ -74,11 +75,10 @@ SafetyLimits read_limits(Input& input, SafetyLimits limits) {
                                     [&](const auto& entry) { return entry.first == name; });
     if (found == all.end()) {
       const std::string near = nearest(name, names);
-      fail_input(
-          where, "there is no limit " + shown(name),
-          near.empty()
-              ? "known are force, rate, power, speed, hold, ramp, energy, damping, x_low ... z_high"
-              : "did you mean '" + near + "'?");
+      fail_input(where, "there is no limit " + shown(name),
+                 near.empty() ? "known are force, rate, power, speed, hold, ramp, energy, damping, "
+                                "lever, x_low ... z_high"
+                              : "did you mean '" + near + "'?");
     }
     if (!parse_number(text, *found->second))
       fail_input(where, name + " is " + shown(text), "write a finite number in SI");

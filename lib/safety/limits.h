@@ -21,6 +21,8 @@ struct SafetyLimits {
   // make inevitable, infinity: any. See EnergyBudget.
   double energy = 0;
   double damping = 1;  // that hand and device have at least [N s/m]
+  // A torque counts as its force at this lever, half the breadth of a grip [m]: 0.3 N m.
+  double lever = 0.03;
   // Where the tool may be [m]; outside, the force goes to zero.
   Vec3 low = Vec3::Constant(-std::numeric_limits<double>::infinity());
   Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -41,8 +43,8 @@ struct SafetyLimits {
 void check(const SafetyLimits& limits);
 
 // A device file: CSV with the columns limit and value, rows force, rate, power, speed, hold, ramp,
-// energy, damping, x_low, x_high, ... z_high in SI; what it does not name stays as in `limits`.
-// Error(kBadInput).
+// energy, damping, lever, x_low, x_high, ... z_high in SI; what it does not name stays as in
+// `limits`. Error(kBadInput).
 SafetyLimits read_limits(Input& input, SafetyLimits limits = {});
 
 // The same for the motion of a tool that somebody far away leads: a displacement of at most `size`
@@ -53,6 +55,13 @@ inline SafetyLimits of_motion(const SafetyLimits& limits, double size) {
   motion.rate = limits.speed;
   motion.power = motion.energy = std::numeric_limits<double>::infinity();
   return motion;
+}
+
+// The same for a torque divided by `lever`, at the tool's rotation vector times it.
+inline SafetyLimits of_torque(SafetyLimits limits) {
+  limits.low = SafetyLimits().low;
+  limits.high = SafetyLimits().high;
+  return limits;
 }
 
 // The same limits where energy is not counted: of forces that no hand feels.

@@ -15,7 +15,8 @@ enum Safety : int {
   kSafeHeld = 32,     // there is no new sample: the last force
   kSafeRamped = 64,   // there has been none for longer: on the way to zero, and zero
   kSafeEnded = 128,   // zero, for good
-  kSafeEnergy = 256   // damped or cut: the hand has got more energy than it has put in
+  kSafeEnergy = 256,  // damped or cut: the hand has got more energy than it has put in
+  kSafeUnasked = 512  // sent for want of a motion, or of its answer
 };
 
 struct SafeSample {

@@ -43,9 +43,6 @@ struct LiveInput {
       fail_usage("--add-noise is of the batch mode", "leave it out, or --live");
     hand = hand_limits(arguments);
     binary = arguments.given(flag::binary);
-    if (binary && hand)
-      fail_usage("--hand says in columns why it cuts a force, and records have none",
-                 "leave out --binary, or let the device's program limit the force");
     if (binary && arguments.given(flag::tools))
       fail_usage("--tools is of lines", "records say themselves of how many tools they are");
     if (binary) {
@@ -64,12 +61,10 @@ struct LiveInput {
     }
     CsvReader csv(input);
     if (ToolLines::serves(csv.header())) {
-      if (hand)
-        fail_input(input.name(), "it is of several tools, or of one that turns",
-                   "--hand knows one tool that does not turn; leave out tool_id, thx, thy and thz");
       const std::size_t tools =
           arguments.given(flag::tools) ? static_cast<std::size_t>(arguments[flag::tools]) : 0;
       auto lines = std::make_unique<ToolLines>(std::move(csv), input.name(), tools);
+      if (hand) lines->tell_hand();
       metadata = lines->metadata();
       columns = lines->columns();
       if (arguments.given(flag::uncertainty))
@@ -152,11 +147,12 @@ int answer_by(const Arguments& arguments, LiveInput& in, const std::string& labe
 
 inline int answer(const Arguments& arguments, LiveInput& in, const std::string& label,
                   ToolLoop& loop) {
-  return answer_by(
-      arguments, in, label, [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
-        answer_hand(*in.source, in.input, in.hand, out, in.felt,
-                    [&](MotionSource& motion) { run_live(motion, out, loop, live, report); });
-      });
+  return answer_by(arguments, in, label,
+                   [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
+                     answer_hand<HandSource>(
+                         *in.source, in.input, in.hand, out, in.felt,
+                         [&](MotionSource& motion) { run_live(motion, out, loop, live, report); });
+                   });
 }
 
 // Several tools, or one that turns.
@@ -176,7 +172,10 @@ inline int answer_several(const Arguments& arguments, LiveInput& in, const TetMe
   SeveralTools tools(body, coupling ? &*coupling : nullptr, in.several->tools(), options);
   return answer_by(arguments, in, effects_label(model),
                    [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
-                     run_live_tools(*in.several, out, tools, live, report);
+                     answer_hand<HandTools>(*in.several, in.input, in.hand, out, in.felt,
+                                            [&](ToolSource& motion) {
+                                              run_live_tools(motion, out, tools, live, report);
+                                            });
                    });
 }
 

@@ -1,9 +1,10 @@
 // A haptic device driven by hapsim, through CHAI3D 3.2 (https://www.chai3d.org): its first device
 // presses the body. usage: device_chai3d X Y Z SCALE hs-simulate-arguments...
 //   X Y Z [m]: where in the body's frame the middle of the device's workspace is; SCALE: how much
-//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware. A
-//   force that is late is felt for 10 ms on, and fades out within 50: the device is never left with
-//   an old one, and its loop never waits longer than 2 ms.
+//   larger motions are there. Written against CHAI3D's documentation; not tried on hardware. Forces
+//   go through hs-simulate's --hand with the device's own largest; one that is late is felt for 10
+//   ms on, and fades out within 50: the device is never left with an old one, and its loop never
+//   waits longer than 2 ms. Zero is set before anything else at every end, a signal's too.
 #include <chai3d.h>
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <string>
 
 #include "hapsim_stream.h"
 
@@ -36,13 +38,24 @@ int main(int argc, char** argv) {
   device->calibrate();
   const double strongest = device->getSpecifications().m_maxLinearForce;
   const double stiffest = device->getSpecifications().m_maxAngularTorque;
-  std::signal(SIGINT, [](int) { stopped = true; });
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
+    std::signal(signal, [](int) { stopped = true; });
+  const auto let_go = [&] {
+    device->setForceAndTorque(chai3d::cVector3d(0, 0, 0), chai3d::cVector3d(0, 0, 0));
+  };
   int code = 0;
   try {
-    HapsimStream hapsim(std::vector<std::string>(argv + 5, argv + argc));
+    std::vector<std::string> words(argv + 5, argv + argc);
+    words.insert(words.end(), {"--hand", "--max-force", std::to_string(strongest)});
+    HapsimStream hapsim(words);
     LateForce late(0.01, 0.05);
     const auto start = std::chrono::steady_clock::now();
-    while (!stopped) {  // CHAI3D's devices pace the loop
+    // Before the stream, whose end may take a second.
+    struct LetGo {
+      const decltype(let_go)& now;
+      ~LetGo() { now(); }
+    } at_the_end{let_go};
+    while (!stopped && !hapsim.ended()) {  // CHAI3D's devices pace the loop
       chai3d::cVector3d p, axis;
       chai3d::cMatrix3d orientation;
       device->getPosition(p);
@@ -68,7 +81,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "%s\n", error.what());
     code = 4;
   }
-  device->setForceAndTorque(chai3d::cVector3d(0, 0, 0), chai3d::cVector3d(0, 0, 0));
+  let_go();
   device->close();
   return code;
 }

@@ -15,9 +15,11 @@ int main(int argc, char** argv) {
   }
   const double x = std::atof(argv[1]), y = std::atof(argv[2]), z = std::atof(argv[3]);
   try {
-    HapsimStream hapsim(std::vector<std::string>(argv + 4, argv + argc));
+    std::vector<std::string> words(argv + 4, argv + argc);
+    words.push_back("--hand");  // whatever it is given, what comes back is within limits
+    HapsimStream hapsim(words);
     double largest = 0, twist = 0;
-    long late = 0;
+    long late = 0, limited = 0;
     for (int i = 0; i < 2000; ++i) {
       const double t = 1e-3 * i;
       HapsimPose pose;
@@ -27,11 +29,12 @@ int main(int argc, char** argv) {
       // Without a clock nothing is in a hurry; a driver takes about the period of its loop.
       if (!hapsim.exchange(t, {pose}, 10)) ++late;
       const HapsimFeel& feel = hapsim.feel()[0];
+      if (feel.safety != 0) ++limited;
       largest = std::fmax(largest, feel.force[2]);
       twist = std::fmax(twist, std::fabs(feel.torque[2]));
     }
-    std::printf("largest force along z %.4g N, torque about z %.4g N m, %ld late\n", largest, twist,
-                late);
+    std::printf("largest force along z %.4g N, torque about z %.4g N m, %ld late, %ld limited\n",
+                largest, twist, late, limited);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 4;

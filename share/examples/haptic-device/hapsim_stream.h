@@ -28,16 +28,17 @@ struct HapsimPose {
 
 struct HapsimFeel {
   bool contact = false;
-  int beyond = 0;                  // of what the force is beyond, see hs-simulate(1)
-  std::array<double, 3> force{};   // of the body on the tool [N]
+  int beyond = 0;                 // of what the force is beyond, see hs-simulate(1)
+  int safety = 0;                 // with --hand: why it is not what was asked for, see hs-safety(7)
+  std::array<double, 3> force{};  // of the body on the tool [N]
   std::array<double, 3> torque{};  // about its tip [N m]
 };
 
 class HapsimStream {
  public:
   // `arguments`: of hs-simulate apart from --live --binary extended, e.g. {"--body", "body.ply",
-  // "--model", "m.csv", "--tool-radius", "0.004"}. Waits until the body is ready. Throws when it
-  // cannot be.
+  // "--model", "m.csv", "--tool-radius", "0.004"}; for a hand with "--hand" and its limits. Waits
+  // until the body is ready. Throws when it cannot be.
   explicit HapsimStream(const std::vector<std::string>& arguments, std::uint32_t tools = 1)
       : tools_(tools), feel_(tools) {
     int there[2], back[2];
@@ -74,7 +75,7 @@ class HapsimStream {
   // Sends the tools' poses at t [s] and waits for what they feel, at most `timeout` [s]. True:
   // feel() is of these poses. False: hs-simulate is late, and feel() is of the newest poses that
   // were answered; what comes later is taken at the next call. Throws when the child has ended (its
-  // message is on standard error). About 20 us.
+  // message is on standard error); feel() is zero then. About 20 us.
   bool exchange(double t, const std::vector<HapsimPose>& poses, double timeout) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout);
     if (waiting_ < kMostWaiting) send(t, poses);  // else: it is far behind, and gets no more to do
@@ -90,10 +91,12 @@ class HapsimStream {
     }
   }
   const std::vector<HapsimFeel>& feel() const { return feel_; }
+  bool ended() const { return ended_; }  // hs-simulate has said zero, for good
   pid_t child() const { return child_; }
 
  private:
-  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::uint32_t kVersion = 3, kFirstVersion = 2;
+  static constexpr int kEnded = 128, kUnasked = 512;  // bits of `safety`
   static constexpr std::size_t kHeader = 32, kStep = 16, kPose = 80, kFeel = 144;
   static constexpr long kMostWaiting = 64;
 
@@ -124,8 +127,9 @@ class HapsimStream {
     }
     // An answer of this version or of an older one; its records may be longer than we know.
     record_ = get<std::uint32_t>(in_, 12);
-    if (std::memcmp(in_.data(), "hapsimIO", 8) != 0 || get<std::uint32_t>(in_, 8) != kVersion ||
-        record_ < kStep + kFeel * tools_)
+    const auto version = get<std::uint32_t>(in_, 8);
+    if (std::memcmp(in_.data(), "hapsimIO", 8) != 0 || version < kFirstVersion ||
+        version > kVersion || record_ < kStep + kFeel * tools_)
       throw std::runtime_error("hs-simulate speaks another version");
     in_.clear();
   }
@@ -145,7 +149,7 @@ class HapsimStream {
     if (n == static_cast<ssize_t>(out_.size()))
       ++waiting_;
     else if (n >= 0 || errno != EAGAIN)
-      fail();
+      lose();
   }
 
   // All that has come.
@@ -157,26 +161,41 @@ class HapsimStream {
       if (n <= 0) {
         in_.resize(had);
         if (n < 0 && errno == EAGAIN) return;
-        fail();
+        lose();
       }
       in_.resize(had + static_cast<std::size_t>(n));
       if (in_.size() < record_) continue;
+      int safety = 0;
       for (std::uint32_t k = 0; k < tools_; ++k) {
         const std::size_t at = kStep + kFeel * k;
         feel_[k].contact = get<std::int32_t>(in_, at + 4) != 0;
         feel_[k].beyond = get<std::int32_t>(in_, at + 8);
+        safety |= feel_[k].safety = get<std::int32_t>(in_, at + 12);
         feel_[k].force = get<std::array<double, 3>>(in_, at + 88);
         feel_[k].torque = get<std::array<double, 3>>(in_, at + 112);
       }
       in_.clear();
-      --waiting_;
+      ended_ = ended_ || (safety & kEnded) != 0;
+      if ((safety & (kUnasked | kEnded)) == 0) --waiting_;  // else it came of its own, for want of poses
     }
   }
 
+  // A child that does not end within a second, because it is stopped, is killed.
   void end() {
     close(to_);
     close(from_);
-    waitpid(child_, nullptr, 0);
+    for (int ms = 0; ms < 1000 && waitpid(child_, nullptr, WNOHANG) == 0; ++ms) {
+      const timespec wait{0, 1'000'000};
+      nanosleep(&wait, nullptr);
+      if (ms == 999) {
+        kill(child_, SIGKILL);
+        waitpid(child_, nullptr, 0);
+      }
+    }
+  }
+  [[noreturn]] void lose() {
+    for (HapsimFeel& feel : feel_) feel = {};
+    fail();
   }
   [[noreturn]] static void fail() { throw std::runtime_error("hs-simulate has ended"); }
 
@@ -185,6 +204,7 @@ class HapsimStream {
   std::vector<char> out_, in_;
   std::size_t record_ = 0;
   long waiting_ = 0;  // poses that are not answered yet
+  bool ended_ = false;
   pid_t child_ = -1;
   int to_ = -1, from_ = -1;
 };

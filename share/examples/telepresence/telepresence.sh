@@ -1,8 +1,9 @@
 #!/bin/sh
 # telepresence.sh [FOLDER]: a soft hemisphere pressed over a network with a delay of 300 ms there and
 # back, jitter of 50 ms and 5 % of packets lost. The operator feels late forces, identifies the body
-# from them while it runs, and from then on feels the identified body at once. Needs the hs- tools on
-# the PATH; writes into FOLDER (telepresence).
+# from them while it runs, and from then on feels the identified body at once. Then a stiff body over
+# networks of 0 to 600 ms there and back with 20 % lost, never identified: what the hand gets with the
+# limit of energy and without. Needs the hs- tools on the PATH; writes into FOLDER (telepresence).
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 out=${1:-telepresence}
@@ -46,4 +47,22 @@ wait
 } >summary.csv
 grep -E '^(elastic|viscoelastic)' identified.csv
 awk -f "$here/plot.awk" -v title='Telepresence: 300 ms delay, the body identified while it runs' felt.csv >felt.svg
-echo "$out: felt.csv identified.csv felt.svg"
+
+# The same hand on a body 15 times as stiff: a late force pushes when the hand has turned.
+sed 's/22000/330000/; s/6000/90000/' hidden.csv >stiff.csv
+head -10002 motion.csv >short.csv
+echo 'delay there and back [s],energy,put in by the hand [mJ],most got by it [mJ],largest force [N]' >energy.csv
+for delay in 0 0.15 0.3 0.6; do
+  half=$(awk "BEGIN { print $delay / 2 }")
+  bad="--delay $half --jitter 0.02 --loss 0.2"
+  for limit in '' --any-energy; do
+    hs-link --listen "$port" --body real.ply --model stiff.csv --tool-radius 0.004 --idle 3 -q $bad &
+    sleep 1
+    hs-link short.csv --peer "$port" --body ball.ply --samples 0 $bad $limit -o stiff-felt.csv 2>said.txt
+    wait
+    force=$(awk -F, '/^1,/ { f = $9 * $9 + $10 * $10 + $11 * $11; if (f > m) m = f } END { printf "%.3g", sqrt(m) }' stiff-felt.csv)
+    sed -n "s/.*energy: the hand put in \([^ ]*\) mJ.*at most \([^ ]*\) mJ ahead.*/$delay,${limit:-bounded},\1,\2,$force/p" said.txt >>energy.csv
+  done
+done
+cat energy.csv
+echo "$out: felt.csv identified.csv felt.svg energy.csv"

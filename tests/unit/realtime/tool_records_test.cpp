@@ -55,8 +55,8 @@ TEST(ToolRecords, AreReadWhateverALaterVersionAddsAtTheirEnd) {
   ASSERT_EQ(answer.size(), 32U);
   std::uint32_t spoken[4];
   std::memcpy(spoken, answer.data() + 8, sizeof spoken);
-  EXPECT_EQ(spoken[0], 2U);
-  EXPECT_EQ(spoken[1], 16U + 2 * 144U);
+  EXPECT_EQ(spoken[0], 3U);
+  EXPECT_EQ(spoken[1], 16U + 2 * 192U);
   EXPECT_EQ(spoken[2], 2U);
   EXPECT_EQ(spoken[3], 1U);
   ToolStep step;
@@ -74,15 +74,36 @@ TEST(ToolRecords, AreReadWhateverALaterVersionAddsAtTheirEnd) {
   feel[1].force = {1, 2, 3};
   feel[1].torque = {4, 5, 6};
   feel[1].beyond = 3;
+  feel[1].safety = 257;
+  feel[1].asked_torque = {7, 8, 9};
   std::string out;
   records.write(out, step, feel);
-  ASSERT_EQ(out.size(), 16U + 2 * 144U);
+  ASSERT_EQ(out.size(), 16U + 2 * 192U);
   double torque = 0;
   std::memcpy(&torque, out.data() + 16 + 144 + 16 + 12 * 8, 8);
   EXPECT_EQ(torque, 4);
   std::int32_t beyond = 0;
   std::memcpy(&beyond, out.data() + 16 + 144 + 8, 4);
   EXPECT_EQ(beyond, 3);
+  std::int32_t safety = 0;
+  std::memcpy(&safety, out.data() + 16 + 144 + 12, 4);
+  EXPECT_EQ(safety, 257);
+  std::memcpy(&torque, out.data() + 16 + 2 * 144 + 48 + 24, 8);
+  EXPECT_EQ(torque, 7) << "after all of version 2";
+}
+
+TEST(ToolRecords, SpeakTheVersionThatIsAsked) {
+  Input input = bytes_of(header(2, 96, 1, 0));
+  const ToolRecords records(input);
+  const std::string answer = records.header();
+  std::uint32_t spoken[2];
+  std::memcpy(spoken, answer.data() + 8, sizeof spoken);
+  EXPECT_EQ(spoken[0], 2U);
+  EXPECT_EQ(spoken[1], 160U);
+  EXPECT_FALSE(records.takes_unasked());
+  std::string out;
+  records.write(out, {}, std::array<ToolFeel, 1>());
+  EXPECT_EQ(out.size(), 160U);
 }
 
 TEST(ToolRecords, RefuseWhatTheyCannotServe) {
