@@ -106,11 +106,8 @@ void expect_law(const Plates& plates, double nu, double b, double early, double 
 TEST(Plates, TheLawIsFiniteStrainOfElements) {
   for (const double height : {3.0, 1.2, 0.7}) {
     const Plates plates(height);
-    for (const double b : {0.0, 0.5}) {
-      expect_law(plates, 0.3, b, 0.12, 0.21);
-      expect_law(plates, 0.45, b, 0.03, 0.08);
-      expect_law(plates, 0.49, b, 0.12, 0.21);
-    }
+    for (const double nu : {0.3, 0.49}) expect_law(plates, nu, 0.5, 0.12, 0.21);
+    for (const double b : {0.0, 0.5}) expect_law(plates, 0.45, b, 0.03, 0.08);
     expect_law(plates, 0.45, 2, 0.03, 0.16);
   }
 }
