@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "base/error.h"
 #include "common_options.h"
 #include "hs-link/flags.h"
 #include "link/ends.h"
