@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 
 #include "experiment/forces.h"
 #include "realtime/force_loop.h"
 #include "support/allocations.h"
 #include "support/every_effect.h"
+#include "support/shared_cache.h"
 
 namespace hapsim {
 namespace {
@@ -20,13 +19,6 @@ const Experiment& experiment(bool straight) {
   return straight ? straight_one : bent;
 }
 
-// It goes away with this object.
-struct Directory {
-  Directory() { mkdtemp(path.data()); }
-  ~Directory() { std::filesystem::remove_all(path); }
-  std::string path = (std::filesystem::temp_directory_path() / "hapsim-test-XXXXXX").string();
-};
-
 std::unique_ptr<PreparedBody> prepared(const Model& model) {
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
@@ -36,8 +28,7 @@ std::unique_ptr<PreparedBody> prepared(const Model& model) {
     return known_contacts(experiment(true).places, m);
   };
   // Bodies of one material, and there are few, share their field.
-  static const Directory cache;
-  options.cache = cache.path;
+  options.cache = test::shared_cache();
   return std::make_unique<PreparedBody>(test::pressed_block(), model, options);
 }
 

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
+#include "support/shared_cache.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -44,6 +45,7 @@ PreparedBodyOptions tool(double radius = 0.004) {
   options.tool_radius = radius;
   options.most_samples = 16;
   options.rim_edge = 0.5;  // no test of it: quick
+  options.cache = test::shared_cache();
   return options;
 }
 
