@@ -44,7 +44,8 @@ TEST(UnfitPlaces, AreLeftOutAndCounted) {
   EXPECT_EQ(w.dataset.rows(), 6);
   ASSERT_EQ(w.unfit.size(), 1);
   EXPECT_EQ(w.unfit[0].point, kPlaces[2]);
-  EXPECT_NE(unfit_words(w).find("1 of 3 places are left out"), std::string::npos) << unfit_words(w);
+  EXPECT_NE(left_out_words(w).front().find("1 of 3 places are left out"), std::string::npos)
+      << left_out_words(w).front();
   const Experiment borrowed = prepared(kPlaces, true);
   EXPECT_EQ(borrowed.dataset.rows(), 9);
   EXPECT_EQ(borrowed.places.size(), 3);
@@ -66,9 +67,9 @@ TEST(UnfitPlaces, AreThoseWherePressesComeThrough) {
   const Experiment w = prepared_with_through({kPlaces[0], kPlaces[1], {0.03, 0.05, 0.04}});
   EXPECT_EQ(w.dataset.rows(), 6);
   ASSERT_EQ(w.unfit.size(), 1);
-  EXPECT_NE(unfit_words(w).find("places:3: a displacement of 0.045 m goes through"),
+  EXPECT_NE(left_out_words(w).front().find("places:3: a displacement of 0.045 m goes through"),
             std::string::npos)
-      << unfit_words(w);
+      << left_out_words(w).front();
   EXPECT_NEAR(w.depth.depth, 1.5e-3, 1e-9);
   EXPECT_EQ(w.depth.line, 7);
   EXPECT_THROW(prepared_with_through({kPlaces[0]}), Error);
