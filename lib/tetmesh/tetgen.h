@@ -23,9 +23,11 @@ struct TetgenOptions {
                              // no node is added but where the surface cannot be kept otherwise
   double min_dihedral = 0;   // [deg], wished; 0 to 18
   double max_volume = 0;     // of one tetrahedron [m^3]; 0: no bound
-  bool preserve_surface = true;     // no new node on the surface
-  double time_limit = 120;          // [s]
-  bool processor_time = false;      // the limit is on the child's work, whatever else runs
+  bool preserve_surface = true;  // no new node on the surface
+  double time_limit = 120;       // [s]
+  bool processor_time = false;   // the limit is on the child's work, whatever else runs
+  // A child that has had no processor for so long [s] waits for ever; another is tried.
+  double stall = 20;
   std::function<void()> heartbeat;  // called some times a second while TetGen runs
 };
 

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@
 #include <cstring>
 #include <mutex>
 #include <new>
+#include <optional>
+#include <utility>
 
 #ifndef TETLIBRARY
 #define TETLIBRARY
@@ -36,6 +39,7 @@ constexpr int kThrew = 10;
 // A child whose work is limited waits for a processor up to so many times that limit.
 constexpr double kMostWaiting = 60;
 constexpr auto kBeat = std::chrono::milliseconds(200);
+constexpr int kForks = 5;  // of children that wait for ever
 
 std::string switches(const TetgenInput& input, const TetgenOptions& options) {
   std::string text = "pQz";
@@ -157,15 +161,17 @@ bool send(int file, const tetgenio& out) {
 // The reading end, with the deadline and the heartbeat.
 class Reader {
  public:
-  Reader(int file, const TetgenOptions& options)
+  Reader(int file, pid_t child, const TetgenOptions& options)
       : file_(file),
+        child_(child),
         options_(options),
         deadline_(Clock::now() +
                   std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
                       options.time_limit * (options.processor_time ? kMostWaiting : 1)))) {}
   bool timed_out() const { return timed_out_; }
+  bool stalled() const { return stalled_; }
 
-  // False at the end of the stream and at the deadline.
+  // False at the end of the stream, at the deadline, and where the child does not run.
   bool read(void* to, std::size_t count) {
     char* p = static_cast<char*>(to);
     while (count > 0) {
@@ -177,6 +183,7 @@ class Reader {
           std::min<Clock::duration>(left, kBeat));
       if (poll(&watched, 1, static_cast<int>(wait.count()) + 1) <= 0) {
         if (options_.heartbeat) options_.heartbeat();
+        if ((stalled_ = does_not_run())) return false;
         continue;
       }
       const ssize_t n = ::read(file_, p, count);
@@ -190,7 +197,24 @@ class Reader {
 
  private:
   using Clock = std::chrono::steady_clock;
+  // Whether it has used no processor time for so long.
+  bool does_not_run() {
+    clockid_t clock;
+    timespec used{};
+    if (clock_getcpuclockid(child_, &clock) != 0 || clock_gettime(clock, &used) != 0) return false;
+    const auto spent = std::chrono::seconds(used.tv_sec) + std::chrono::nanoseconds(used.tv_nsec);
+    if (spent != spent_) {
+      spent_ = spent;
+      ran_ = Clock::now();
+    }
+    return Clock::now() - ran_ > std::chrono::duration<double>(options_.stall);
+  }
+
   int file_;
+  pid_t child_;
+  Clock::time_point ran_ = Clock::now();
+  std::chrono::nanoseconds spent_{-1};
+  bool stalled_ = false;
   const TetgenOptions& options_;
   Clock::time_point deadline_;
   bool timed_out_ = false;
@@ -231,9 +255,10 @@ std::string why(int status) {
   }
 }
 
-}  // namespace
-
-TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& options) {
+// One child; nothing where it waits for ever on a lock that another thread of ours held at the fork
+// (libc's of random(), which TetGen calls, is not put right in children).
+std::optional<TetgenAnswer> try_tetgen_child(const TetgenInput& input,
+                                             const TetgenOptions& options) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(int));
   // One fork at a time: no child may inherit the writing end of another one's pipe, or its end
   // would go unseen.
@@ -274,9 +299,10 @@ TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& opt
     ~Child() { finish(false); }
   } running{child, ends[0]};
   TetgenAnswer answer;
-  Reader reader(ends[0], options);
+  Reader reader(ends[0], child, options);
   const bool whole = receive(reader, answer);
-  running.finish(!reader.timed_out());
+  running.finish(!reader.timed_out() && !reader.stalled());
+  if (reader.stalled()) return std::nullopt;
   const bool worked_out = WIFSIGNALED(running.status) && WTERMSIG(running.status) == SIGXCPU;
   if (reader.timed_out() || worked_out)
     answer.failure = fmt::format("TetGen did not finish in {:g} s", options.time_limit);
@@ -287,6 +313,16 @@ TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& opt
   else if (answer.tets.empty())
     answer.failure = "TetGen found no inside";
   return answer;
+}
+
+}  // namespace
+
+TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& options) {
+  for (int trial = 0; trial < kForks; ++trial)
+    if (auto answer = try_tetgen_child(input, options)) return *std::move(answer);
+  TetgenAnswer none;
+  none.failure = "TetGen's process does not run";
+  return none;
 }
 
 }  // namespace hapsim

@@ -187,6 +187,23 @@ TEST(Tetgen, EndsInTime) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
+// A child can wait for ever on a lock that another thread held at the fork.
+int children_hang = 0;
+TEST(Tetgen, AChildThatHangsIsReplaced) {
+  ASSERT_EQ(pthread_atfork(
+                nullptr, [] { --children_hang; },
+                [] {
+                  while (children_hang > 0) pause();
+                }),
+            0);
+  TetgenOptions options;
+  options.stall = 0.5;
+  children_hang = 2;
+  EXPECT_FALSE(run_tetgen(input_of(test::box({1, 1, 1}, 4)), options).mesh.tets.empty());
+  EXPECT_EQ(children_hang, -1);
+  children_hang = 0;
+}
+
 bool child_sleeps = false;
 
 // A child that is kept from working is waited for; one that works on is ended.
