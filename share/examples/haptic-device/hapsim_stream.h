@@ -176,7 +176,8 @@ class HapsimStream {
       }
       in_.clear();
       ended_ = ended_ || (safety & kEnded) != 0;
-      if ((safety & (kUnasked | kEnded)) == 0) --waiting_;  // else it came of its own, for want of poses
+      if ((safety & (kUnasked | kEnded)) == 0)
+        --waiting_;  // else it came of its own, for want of poses
     }
   }
 
