@@ -3,8 +3,9 @@
 
 namespace hapsim {
 
-// The strain to which it was verified.
+// The strain to which it was verified, and the heights over the diameter.
 constexpr double kMostPlateStrain = 0.3;
+constexpr double kLeastSlender = 0.35, kMostSlender = 1.5;
 
 // The stress along the axis of a bar that is free at its sides, over its Young's modulus, as a
 // function of the compression e = 1 - l [-] (l its stretch; negative e: tension); e for small e. Of

@@ -18,7 +18,7 @@ constexpr double kGrid = 1.189207115002721;  // the fourth root of 2
 
 void set_contact_radius(Recording& recording) {
   recording.metadata.remove(kKey);
-  if (recording.metadata.find("tool") != "sphere") return;
+  if (!recording.has_ball()) return;
   const double ball = recording.tool_radius();
   double deepest = 0;
   for (std::size_t row = 0; row < recording.rows(); ++row)

@@ -152,7 +152,7 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   summary.modulus = modulus;
   summary.tool_radius = dataset.setups.front().tool_radius;
   summary.presses = dataset.recording.presses().size();
-  if (dataset.tools() == 1 && dataset.recording.metadata.find("tool") == "sphere")
+  if (dataset.tools() == 1 && dataset.recording.has_ball())
     summary.ball_radius = dataset.recording.tool_radius();
   summary.peak_force = 1e-12;
   const std::vector<double>& temp = dataset.recording.temp;

@@ -99,9 +99,9 @@ std::size_t leave_strained(Dataset& dataset, bool keep) {
   for (const Episode& e : dataset.episodes) {
     std::size_t count = 0;
     while (count < e.view.size() &&
-           -e.view.u[count].dot(e.view.normal) <= (e.view.height > 0
-                                                       ? kMostPlateStrain * e.view.height
-                                                       : std::numeric_limits<double>::infinity()))
+           std::abs(e.view.u[count].dot(e.view.normal)) <=
+               (e.view.height > 0 ? kMostPlateStrain * e.view.height
+                                  : std::numeric_limits<double>::infinity()))
       ++count;
     samples.push_back(count);
     beyond += e.view.size() - count;
@@ -188,7 +188,7 @@ std::vector<std::string> left_out_words(const Experiment& experiment, bool borro
         experiment.unfit.front().why));
   if (experiment.too_strained > 0)
     words.push_back(
-        fmt::format("{} of {} samples compress the body between the plates by more than {:.0f} %, "
+        fmt::format("{} of {} samples strain the body between the plates by more than {:.0f} %, "
                     "or come after "
                     "such: {}",
                     experiment.too_strained,

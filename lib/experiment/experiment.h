@@ -36,7 +36,7 @@ struct Experiment {
   ShapeError shape;
   PressDepth depth;
   std::vector<UnfitPlace> unfit;
-  // Samples that compress the body between plates by more than kMostPlateStrain, and those after
+  // Samples that strain the body between plates by more than kMostPlateStrain, and those after
   // them in their presses: no law was verified so far. Left out where something is fitted.
   std::size_t too_strained = 0;
   double floor = 0;          // Allowance::floor, as the meshes and the shape let expect it

@@ -16,7 +16,7 @@ double share_of(const Eigen::Matrix3d& K, const Vec3& normal, const DiscStiffnes
 }
 
 bool is_ball(const Dataset& dataset) {
-  return dataset.tools() == 1 && dataset.recording.metadata.find("tool") == "sphere";
+  return dataset.tools() == 1 && dataset.recording.has_ball();
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/counted.h"
 #include "effects/catalogue.h"
+#include "effects/plates_law.h"
 #include "estimate/identifiability.h"
 #include "experiment/plausible.h"
 #include "model/body_parameters.h"
@@ -36,6 +38,30 @@ std::vector<std::string> hardly_known(const Model& model) {
       names.push_back(p.effect + " " + p.name);
   }
   return names;
+}
+
+std::string plates_words(const Model& model, const Experiment& experiment) {
+  const Dataset& dataset = experiment.dataset;
+  const auto between = std::find_if(dataset.episodes.begin(), dataset.episodes.end(),
+                                    [](const Episode& e) { return e.view.height > 0; });
+  if (between == dataset.episodes.end() || dataset.setups.size() > 1) return "";
+  const double height = between->view.height;
+  const double section = signed_volume(experiment.places.setup(0)->surface()) / height;
+  const double slender = height / std::sqrt(4 * section / std::numbers::pi);
+  const PreparedContact& contact =
+      experiment.places.contact(static_cast<std::size_t>(between->position));
+  Eigen::Matrix3d K, dK_dnu;
+  contact.stiffness.evaluate(material_of(model).nu, K, dK_dnu);
+  std::string text = fmt::format(
+      "the tool covers the body, {:.3g} mm high, which is taken as bonded to both plates; where "
+      "its "
+      "faces slide, E is {:.2f} times this",
+      1e3 * height, contact.normal.dot(K * contact.normal) * height / section);
+  if (slender < kLeastSlender || slender > kMostSlender)
+    text += fmt::format(
+        "; it is {:.2g} times as high as wide, and finite strain was verified from {:g} to {:g}",
+        slender, kLeastSlender, kMostSlender);
+  return text;
 }
 
 std::vector<std::string> known_words(const Model& model, const Dataset& dataset) {
@@ -85,6 +111,7 @@ std::vector<std::string> fit_lines(const Experiment& w, const Fit& result, doubl
   }
   if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
   for (const std::string& known : known_words(result.model, w.dataset)) line(known);
+  if (const std::string plates = plates_words(result.model, w); !plates.empty()) line(plates);
   const auto warn = [&](const std::vector<std::string>& names, const char* what) {
     constexpr std::size_t kMost = 4;
     for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);

@@ -16,6 +16,11 @@ namespace hapsim {
 std::vector<std::string> fit_lines(const Experiment& experiment, const Fit& fitted, double held_out,
                                    const std::string& by, double force_rms);
 
+// What a body between plates is taken for: bonded to both, which is in its stiffness; and whether
+// it is as high as those for which the law of finite strain was verified. "" where there are no
+// plates.
+std::string plates_words(const Model& model, const Experiment& experiment);
+
 // What the recording's header says of effects (Effect::known()), where the model has it unfitted or
 // lacks it.
 std::vector<std::string> known_words(const Model& model, const Dataset& dataset);

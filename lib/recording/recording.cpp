@@ -28,6 +28,10 @@ double Recording::disc_radius() const {
   return disc.value_or(tool);
 }
 
+bool Recording::has_ball() const {
+  return metadata.find("tool") == "sphere";
+}
+
 std::optional<double> Recording::force_noise() const {
   constexpr double kLeast = 1e-15, kMost = 1e6;  // [N]; beyond them weights lose all digits
   const auto noise = metadata.number("force_noise", name);

@@ -38,6 +38,7 @@ struct Recording {
   // Of the disc for which a body's stiffness is solved [m]: metadata `contact_radius`
   // (experiment/contact_radius.h), else that of the tool.
   double disc_radius() const;
+  bool has_ball() const;                      // metadata `tool: sphere`, of tool_radius
   std::optional<double> force_noise() const;  // metadata `force_noise` [N], per component
   std::vector<Press> presses() const;         // in order of first appearance
 };

@@ -6,11 +6,9 @@
 #include "effects/effects.h"
 #include "material/hooke_law.h"
 #include "material/hyperelastic_law.h"
-#include "nonlinear/nonlinear_body.h"
 #include "nonlinear/sphere_contact.h"
-#include "solid/elastic_body.h"
 #include "support/block_mesh.h"
-#include "tetmesh/contact_mesh.h"
+#include "support/bonded_tool.h"
 
 namespace hapsim {
 namespace {
@@ -18,23 +16,11 @@ namespace {
 constexpr double kRadius = 1;  // of the tool; lengths in it, forces in E
 
 // A block, `wide` and `deep`, bonded at its base, with the tool bonded to the middle of its top.
-struct Block {
-  ContactMesh contact;
-  std::vector<int> handle;
+struct Block : test::BondedTool {
   Block(double wide, double deep, double rim)
-      : contact(
+      : BondedTool(
             make_contact_mesh(make_contact_base(test::block_mesh({wide, wide, deep}, 8, 8, 4, 1)),
-                              {wide / 2, wide / 2, deep}, kRadius, rim, 2.4 * rim)),
-        handle(contact.mesh.nodes.size(), kFreeNode) {
-    for (std::size_t n = 0; n < handle.size(); ++n)
-      if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
-    for (const int n : contact.patch_nodes) handle[n] = 0;
-  }
-  NonlinearBody body(const LawPointer& law) const {
-    BodyModel model{&contact.mesh, {law}};
-    model.dilatation = Dilatation::kElement;
-    return {model, handle};
-  }
+                              {wide / 2, wide / 2, deep}, kRadius, rim, 2.4 * rim)) {}
 };
 
 PressView press_of(const std::vector<Vec3>& path, double nu, const Eigen::Matrix3d& K) {

@@ -9,10 +9,8 @@
 #include "import/block.h"
 #include "material/hooke_law.h"
 #include "material/hyperelastic_law.h"
-#include "nonlinear/nonlinear_body.h"
-#include "solid/elastic_body.h"
+#include "support/bonded_tool.h"
 #include "tetmesh/body_mesh.h"
-#include "tetmesh/contact_mesh.h"
 
 namespace hapsim {
 namespace {
@@ -21,26 +19,14 @@ constexpr double kRadius = 1;  // of the cylinder; forces in E
 const double kArea = M_PI;
 
 // A cylinder bonded to both plates.
-struct Plates {
+struct Plates : test::BondedTool {
   double height;
-  ContactMesh contact;
-  std::vector<int> handle;
   explicit Plates(double high, double finer = 1)
-      : height(high),
-        contact(
+      : BondedTool(
             make_contact_mesh(make_contact_base(make_body_mesh(
-                                  block_surface({{2 * kRadius, 2 * kRadius, height}, true}), {})),
-                              {0, 0, height}, 2 * kRadius, 2 * kRadius / 6 / finer, 0.4 / finer)),
-        handle(contact.mesh.nodes.size(), kFreeNode) {
-    for (std::size_t n = 0; n < handle.size(); ++n)
-      if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
-    for (const int n : contact.patch_nodes) handle[n] = 0;
-  }
-  NonlinearBody body(const LawPointer& law) const {
-    BodyModel model{&contact.mesh, {law}};
-    model.dilatation = Dilatation::kElement;
-    return {model, handle};
-  }
+                                  block_surface({{2 * kRadius, 2 * kRadius, high}, true}), {})),
+                              {0, 0, high}, 2 * kRadius, 2 * kRadius / 6 / finer, 0.4 / finer)),
+        height(high) {}
   double stiffness(double nu) const { return body(isotropic_law(1, nu)).linearise().K(2, 2); }
 };
 

@@ -59,7 +59,12 @@ inline ToolSpec identify_specification() {
       "What the recording's header says of the tool is used: with `tool: sphere` a new model "
       "presses "
       "with a ball of tool_radius, whose curvature (tip) is fixed there and not fitted, unless tip "
-      "is among the effects.",
+      "is among the effects. The body is then solved for a flat disc about as wide as the contact "
+      "(metadata contact_radius, which goes with the model), and of at most five presses the depth "
+      "at which they began (touch) is fitted too, unless it is removed (--remove touch).",
+      "A flat tool that covers the body compresses it between plates, bonded to both: samples "
+      "beyond a strain of 0.3, to which finite strain (hyperelastic) was verified, are left out, "
+      "here and in hs-diagnose.",
       "Effects: " + effect_names() + "."};
   spec.options = experiment_flags();
   std::erase_if(spec.options, [](const Option& o) { return o.name() == flag::body.name; });
