@@ -8,10 +8,16 @@
 //   goes on (a force again, answers) or is over for a reason that is told.
 // Exit code 1 where one is not. `bench_link_faults NAME...`: those whose names contain one of
 // these.
+//
+// `bench_link_faults hours N`: N hours at 1 kHz without a fault, as fast as they go. A row an hour:
+// resident memory [MB], the hand's largest force and its mean [N], answers of that hour; then what
+// memory has grown by since the second hour and how far the mean is from its; exit code 1 where
+// that is more than 1 MB or 0.1 %. Recorded in bench/results/link-hours.txt.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <memory>
 
@@ -108,6 +114,29 @@ struct World {
     seen_out.push_back(d);
     (lasts ? out_bad : out).push(now, d);
   }
+  // One ms: the hand moves, datagrams arrive. `changed`: what becomes of the motion on its way.
+  void pass(int ms, const std::function<void(World&, Packet&)>& changed) {
+    Datagram d;
+    if (near_runs && near_end.tick(now, d)) send_out(d);
+    if (near_runs) {
+      Packet motion = near->move(now, line(ms));
+      if (changed) changed(*this, motion);
+      if (near_end.write(motion, d)) send_out(d);
+      silent = 1e-6 * static_cast<double>(now - heard);
+    }
+    for (ImpairedChannel* way : {&out, &out_bad})
+      while (way->pop(now, d))
+        if (far_runs) to_far(d, address);
+    if (far_runs) far->idle(now);
+    const long before = near->answered();
+    for (ImpairedChannel* way : {&back, &back_bad})
+      while (way->pop(now, d))
+        if (near_runs) to_near(d);
+    answers = near->answered() - before;
+    // Only what an eavesdropper could keep.
+    for (std::vector<Datagram>* seen : {&seen_out, &seen_back})
+      if (seen->size() > 20'000) seen->erase(seen->begin(), seen->begin() + 10'000);
+  }
   MotionLine line(int ms) const {
     MotionLine l;
     l.t = 1e-3 * ms + skew;
@@ -128,6 +157,8 @@ struct World {
   std::vector<Datagram> seen_out, seen_back;  // by somebody beside the network
   Random random{9};
   std::int64_t now = 0, heard = 0;
+  double silent = 0;  // how long no packet of the peer had come when the hand last moved [ms]
+  long answers = 0;   // of this ms
   bool lasts = false, far_runs = true, near_runs = true;
   double skew = 0;
   std::uint16_t address = 1;
@@ -147,39 +178,21 @@ Row run(const Fault& fault, const Terms& near_terms = terms(), const Secret& nea
   Vec3 before = Vec3::Zero();
   double late_force = 0;
   long late_answers = 0;
-  Datagram d;
   for (int ms = 1; ms < kEnd; ++ms) {
     w.now = kMs * (1000 + ms);
     w.lasts = ms >= kFrom && ms < fault.until;
     if (w.lasts && fault.each) fault.each(w, ms);
-    if (w.near_runs && w.near_end.tick(w.now, d)) w.send_out(d);
+    w.pass(ms, w.lasts ? fault.motion : nullptr);
     if (w.near_runs) {
-      Packet motion = w.near->move(w.now, w.line(ms));
-      if (w.lasts && fault.motion) fault.motion(w, motion);
-      if (w.near_end.write(motion, d)) w.send_out(d);
       const SafeSample& felt = w.near->felt();
       row.finite = row.finite && felt.force.allFinite() && felt.unlimited.allFinite();
       row.force = std::max(row.force, felt.force.norm());
       row.step = std::max(row.step, (felt.force - before).norm());
       before = felt.force;
-      const double silent = 1e-6 * static_cast<double>(w.now - w.heard);
-      if (felt.force != Vec3::Zero()) row.silent = std::max(row.silent, silent);
+      if (felt.force != Vec3::Zero()) row.silent = std::max(row.silent, w.silent);
       if (ms > kEnd - 1000) late_force = std::max(late_force, felt.force.norm());
     }
-    for (ImpairedChannel* way : {&w.out, &w.out_bad})
-      while (way->pop(w.now, d))
-        if (w.far_runs) w.to_far(d, w.address);
-    if (w.far_runs) w.far->idle(w.now);
-    const long answered = w.near->answered();
-    for (ImpairedChannel* way : {&w.back, &w.back_bad})
-      while (way->pop(w.now, d))
-        if (w.near_runs) w.to_near(d);
-    if (ms > kEnd - 1000) late_answers += w.near->answered() - answered;
-    // Only what an eavesdropper could keep.
-    if (w.seen_out.size() > 20'000)
-      w.seen_out.erase(w.seen_out.begin(), w.seen_out.begin() + 10'000);
-    if (w.seen_back.size() > 20'000)
-      w.seen_back.erase(w.seen_back.begin(), w.seen_back.begin() + 10'000);
+    if (ms > kEnd - 1000) late_answers += w.answers;
   }
   row.fell = row.silent <= 1e3 * (limits.hold + limits.ramp) + 1;
   const bool goes_on = late_answers > 500 && late_force > 0.5;
@@ -415,6 +428,46 @@ bool told(const Fault& fault, const Row& row) {
   return good;
 }
 
+double resident_megabytes() {
+  std::ifstream status("/proc/self/statm");
+  double all = 0, resident = 0;
+  status >> all >> resident;
+  return resident * 4096 / 1e6;
+}
+
+int hours(int count) {
+  const Fault none{"none"};
+  World w(none, terms(), kKey, 1);
+  fmt::print("{:>5} {:>9} {:>9} {:>12} {:>10}\n", "hour", "MB", "most N", "mean N", "answers");
+  constexpr int kHour = 3'600'000;
+  double first_memory = 0, memory = 0, first_mean = 0, mean = 0;
+  for (int hour = 1; hour <= count; ++hour) {
+    double most = 0, sum = 0;
+    long answers = 0;
+    for (int k = 0; k < kHour; ++k) {
+      const int ms = 1 + (hour - 1) * kHour + k;
+      w.now = kMs * (1000 + static_cast<std::int64_t>(ms));
+      w.pass(ms, nullptr);
+      const double force = w.near->felt().force.norm();
+      most = std::max(most, force);
+      sum += force;
+      answers += w.answers;
+    }
+    memory = resident_megabytes();
+    mean = sum / kHour;
+    if (hour <= 2) {
+      first_memory = memory;
+      first_mean = mean;
+    }
+    fmt::print("{:>5} {:>9.2f} {:>9.4f} {:>12.8f} {:>10}\n", hour, memory, most, mean, answers);
+    std::fflush(stdout);
+  }
+  const double growth = memory - first_memory, drift = mean / first_mean - 1;
+  fmt::print("since the second hour: memory {:+.2f} MB, mean force {:+.4f} %\n", growth,
+             100 * drift);
+  return growth <= 1 && std::abs(drift) <= 1e-3 ? 0 : 1;
+}
+
 int run_all(const std::vector<std::string>& wanted) {
   const auto asked = [&](const std::string& name) {
     for (const std::string& part : wanted)
@@ -470,5 +523,6 @@ int run_all(const std::vector<std::string>& wanted) {
 }  // namespace hapsim
 
 int main(int argc, char** argv) {
+  if (argc == 3 && std::string(argv[1]) == "hours") return hapsim::hours(std::stoi(argv[2]));
   return hapsim::run_all({argv + 1, argv + argc});
 }

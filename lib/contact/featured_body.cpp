@@ -47,6 +47,11 @@ FeaturedBody::FeaturedBody(const ContactMesh& contact,
 
 FeaturedBody::~FeaturedBody() = default;
 
+void FeaturedBody::forget_system() {
+  if (system_) order_ = system_->order();
+  system_.reset();
+}
+
 FeaturedBody::Moduli FeaturedBody::moduli(const Material& material) const {
   const TetMesh& mesh = contact_.mesh;
   const auto count = static_cast<Eigen::Index>(mesh.tets.size());
@@ -101,6 +106,8 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
     if (support)
       for (const SupportSprings::Face& f : support->faces) cliques.add(f.nodes);
     system_ = std::make_unique<NodeSystem>(std::move(free), std::move(cliques));
+    if (supported_ == support.has_value()) system_->eliminate_in(std::move(order_));
+    order_.clear();
     supported_ = support.has_value();
   }
   NodeSystem& system = *system_;

@@ -27,10 +27,13 @@ class FeaturedBody {
   // Exact derivatives from the energies of the three unit fields. Error(kNoConvergence) when the
   // body is not held.
   Solution solve(const Material& material);
-  // Gives back the matrix that is kept for the next solution (some 40 MB).
-  void forget_system() { system_.reset(); }
-  // That matrix; not the mesh, nor the surface.
-  std::size_t held_bytes() const { return hapsim::held_bytes(system_); }
+  // Gives back the matrix that is kept for the next solution (some 40 MB), but not the order in
+  // which it is eliminated (some 30 kB), which takes longer to find than to use.
+  void forget_system();
+  // That matrix, or its order; not the mesh, nor the surface.
+  std::size_t held_bytes() const {
+    return hapsim::held_bytes(system_) + hapsim::held_bytes(order_);
+  }
 
  private:
   struct Moduli;  // by element, with derivatives
@@ -38,7 +41,8 @@ class FeaturedBody {
   const ContactMesh& contact_;
   std::shared_ptr<const SurfaceTree> free_surface_;
   std::unique_ptr<NodeSystem> system_;
-  bool supported_ = false;  // the bonded nodes are free in it
+  std::vector<int> order_;  // of the system that was given back
+  bool supported_ = false;  // the bonded nodes are free in it, or were
 };
 
 }  // namespace hapsim

@@ -42,8 +42,9 @@ Eigen::VectorXd series_doubt(const Model& model, const Linearisation& about,
   const DiscStiffness disc =
       bonded_disc(material.modulus[0], material.nu, dataset.setups.front().tool_radius);
   const auto doubted = [&](std::size_t p) {
+    const PreparedContact& contact = experiment.places.contact(p);
     PositionStiffness s = about.at(p, material);
-    s.K *= 1 + share_of(s.K, experiment.places.contact(p).normal, disc);
+    s.K *= 1 + std::hypot(share_of(s.K, contact.normal, disc), contact.mesh_uncertainty);
     return s;
   };
   return model_forces(model, dataset, doubted, selection, false).f - forces;

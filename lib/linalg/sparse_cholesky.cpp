@@ -32,10 +32,30 @@ SymmetricSparse block_graph(const SymmetricSparse& pattern, int block) {
   return graph;
 }
 
+std::vector<int> fill_reducing_order(const SymmetricSparse& graph, cholmod_common* common) {
+  cholmod_sparse small = cholmod_view(graph);
+  common->nmethods = 2;
+  common->method[0].ordering = CHOLMOD_METIS;
+  common->method[1].ordering = CHOLMOD_AMD;
+  common->postorder = 1;
+  cholmod_factor* found = nullptr;
+  {
+    const MetisGuard guard;
+    found = cholmod_analyze(&small, common);
+  }
+  if (common->status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (found == nullptr) fail_numerics("", "ordering the sparse matrix failed", "report this mesh");
+  const int* first = static_cast<const int*>(found->Perm);
+  std::vector<int> order(first, first + graph.size);
+  cholmod_free_factor(&found, common);
+  return order;
+}
+
 }  // namespace
 
 struct SparseCholesky::Impl {
   cholmod_common common{};
+  std::vector<int> order;
   cholmod_factor* factor = nullptr;
 
   Impl() {
@@ -54,29 +74,18 @@ struct SparseCholesky::Impl {
   }
 };
 
-SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block)
+SparseCholesky::SparseCholesky(const SymmetricSparse& pattern, int block, std::vector<int> known)
     : impl_(std::make_unique<Impl>()) {
   assert(pattern.size > 0 && pattern.size % block == 0);
   prepare_blas_for_many_threads();
   cholmod_common* common = &impl_->common;
-  const SymmetricSparse graph = block_graph(pattern, block);
-  cholmod_sparse small = cholmod_view(graph);
-  common->nmethods = 2;
-  common->method[0].ordering = CHOLMOD_METIS;
-  common->method[1].ordering = CHOLMOD_AMD;
-  common->postorder = 1;
-  cholmod_factor* order = nullptr;
-  {
-    const MetisGuard guard;
-    order = cholmod_analyze(&small, common);
-  }
-  impl_->check_memory();
-  if (order == nullptr) fail_numerics("", "ordering the sparse matrix failed", "report this mesh");
-  std::vector<int> permutation(static_cast<std::size_t>(pattern.size));
-  const int* small_order = static_cast<const int*>(order->Perm);
-  for (int i = 0; i < graph.size; ++i)
-    for (int k = 0; k < block; ++k) permutation[i * block + k] = small_order[i] * block + k;
-  cholmod_free_factor(&order, common);
+  impl_->order =
+      known.empty() ? fill_reducing_order(block_graph(pattern, block), common) : std::move(known);
+  assert(static_cast<int>(impl_->order.size()) * block == pattern.size);
+  std::vector<int> permutation;
+  permutation.reserve(static_cast<std::size_t>(pattern.size));
+  for (const int at : impl_->order)
+    for (int k = 0; k < block; ++k) permutation.push_back(at * block + k);
 
   cholmod_sparse full = cholmod_view(pattern);
   common->nmethods = 1;
@@ -104,7 +113,11 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_hand_sides) c
 }
 
 std::size_t SparseCholesky::held_bytes() const {
-  return sizeof(Impl) + impl_->common.memory_inuse;
+  return sizeof(Impl) + impl_->common.memory_inuse + hapsim::held_bytes(impl_->order);
+}
+
+const std::vector<int>& SparseCholesky::order() const {
+  return impl_->order;
 }
 
 double SparseCholesky::factor_nonzeros() const {

@@ -26,8 +26,10 @@ struct SymmetricSparse {
 class SparseCholesky {
  public:
   // `block` consecutive unknowns (3 for displacements) share their sparsity, so the fill-reducing
-  // ordering (METIS nested dissection or AMD, the better) is found on the smaller graph of blocks.
-  explicit SparseCholesky(const SymmetricSparse& pattern, int block = 3);
+  // ordering (METIS nested dissection or AMD, the better) is found on the smaller graph of blocks,
+  // unless it is `known`, from order() of the same pattern: a third of a small factorisation.
+  explicit SparseCholesky(const SymmetricSparse& pattern, int block = 3,
+                          std::vector<int> known = {});
   ~SparseCholesky();
   SparseCholesky(const SparseCholesky&) = delete;
   SparseCholesky& operator=(const SparseCholesky&) = delete;
@@ -36,6 +38,7 @@ class SparseCholesky {
   bool factorise(const SymmetricSparse& matrix);
   // Solution of A X = B by the last factorisation; B is size x m.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_hand_sides) const;
+  const std::vector<int>& order() const;  // in which the blocks are eliminated
   double factor_nonzeros() const;
   std::size_t held_bytes() const;  // the factor and its work space
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 
@@ -39,11 +40,12 @@ SolverChoice choose_solver(SolverKind wished, int unknowns, std::size_t entries,
   return choice;
 }
 
-StiffnessSolver::StiffnessSolver(const SymmetricSparse& pattern, SolverKind kind) {
+StiffnessSolver::StiffnessSolver(const SymmetricSparse& pattern, SolverKind kind,
+                                 std::vector<int> order) {
   if (kind == SolverKind::kIterative)
     iterative_ = std::make_unique<ConjugateGradients>();
   else
-    direct_ = std::make_unique<SparseCholesky>(pattern, 3);
+    direct_ = std::make_unique<SparseCholesky>(pattern, 3, std::move(order));
 }
 
 bool StiffnessSolver::factorise(const SymmetricSparse& matrix) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "linalg/conjugate_gradients.h"
 #include "linalg/sparse_cholesky.h"
@@ -28,12 +29,14 @@ SolverChoice choose_solver(SolverKind wished, int unknowns, std::size_t entries,
 // A symmetric positive definite system of displacements (three unknowns a node).
 class StiffnessSolver {
  public:
-  // The analysis of the sparsity, once (direct).
-  StiffnessSolver(const SymmetricSparse& pattern, SolverKind kind);
+  // The analysis of the sparsity, once (direct), unless `order` is known from the same pattern.
+  StiffnessSolver(const SymmetricSparse& pattern, SolverKind kind, std::vector<int> order = {});
   // False when the matrix is not positive definite.
   bool factorise(const SymmetricSparse& matrix);
   // A X = B. Error(kNoConvergence) when the iteration stops above a relative residual of 2e-9.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  // In which blocks of three unknowns are eliminated; empty when iterative.
+  std::vector<int> order() const { return direct_ ? direct_->order() : std::vector<int>{}; }
   std::size_t held_bytes() const {
     return hapsim::held_bytes(direct_) + hapsim::held_bytes(iterative_);
   }

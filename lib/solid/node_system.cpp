@@ -113,7 +113,7 @@ void NodeSystem::add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>
 
 bool NodeSystem::factorise() {
   if (matrix_.size == 0) return true;
-  if (!solver_) solver_ = std::make_unique<StiffnessSolver>(matrix_, kind_);
+  if (!solver_) solver_ = std::make_unique<StiffnessSolver>(matrix_, kind_, std::move(order_));
   return solver_->factorise(matrix_);
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "linalg/stiffness_solver.h"
@@ -36,6 +37,9 @@ class NodeSystem {
   void add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>& dense);
   // Before the first factorise(); direct otherwise.
   void use(SolverKind kind) { kind_ = kind; }
+  // Before the first factorise(): the order() of a system of the same cliques and free nodes.
+  void eliminate_in(std::vector<int> order) { order_ = std::move(order); }
+  std::vector<int> order() const { return solver_ ? solver_->order() : order_; }
   // False when the matrix is not positive definite. True when nothing is free.
   bool factorise();
   // Rows of the free nodes of `load` (3 nodes x m) solved for; rows of the others are zero.
@@ -54,6 +58,7 @@ class NodeSystem {
   std::vector<int> place_;
   std::vector<std::size_t> place_start_;
   SolverKind kind_ = SolverKind::kDirect;
+  std::vector<int> order_;
   std::unique_ptr<StiffnessSolver> solver_;
 };
 

@@ -18,6 +18,9 @@ constexpr CoarsenOptions kFar{.outline_tolerance = 0.02, .volume_tolerance = 0.0
 // Meshes of one position that are coarser than usual share the usual surface, so that their
 // difference tells of the rim.
 constexpr double kFarGrowth = 0.4;
+// An edge is as long as wanted up to this factor; what lies nearer than this many radii is replaced
+// (contact_region()).
+constexpr double kLongest = 1.6, kNear = 3;
 constexpr double kShortest = 1e-9;  // [m]; the contact itself may be a vertex
 
 }  // namespace
@@ -33,16 +36,20 @@ ContactBase make_contact_base(const TetMesh& body, double edge) {
                               body.fixed[node[f[2]]]);
   ClassedSurface coarse = coarsen_surface(
       fine, [edge](const Vec3&) { return edge; }, kBase);
-  coarse = split_long_edges(coarse, [edge](const Vec3&) { return 1.6 * edge; });
+  coarse = split_long_edges(coarse, [edge](const Vec3&) { return kLongest * edge; });
   return {std::move(coarse.surface), std::move(coarse.face_class), std::move(fine.surface),
           std::move(fine.face_class)};
 }
 
-ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double growth) {
+ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
+                             double growth) {
   const double slope = std::min(growth, kFarGrowth);
-  return coarsen_surface(
+  const ClassedSurface coarse = coarsen_surface(
       {base.surface, base.fixed_face},
       [&](const Vec3& p) { return std::max(slope * (p - contact).norm(), kShortest); }, kFar);
+  return split_long_edges(coarse, [&](const Vec3& p) {
+    return kLongest * slope * std::max((p - contact).norm(), kNear * radius);
+  });
 }
 
 }  // namespace hapsim

@@ -143,7 +143,7 @@ ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, doub
   const SurfacePoint nearest = on_surface(base, contact, radius);
   if (auto covered = between_plates(base, nearest, radius, rim_edge, growth)) return *covered;
   check_bonded(base, contact, nearest, radius);
-  const ClassedSurface coarse = surface_about(base, contact, growth);
+  const ClassedSurface coarse = surface_about(base, contact, radius, growth);
   std::string last = "the disc does not fit on the surface";
   for (const Trial& trial : kTrials) {
     const ContactFrame frame = contact_frame(base.fine, contact, trial.spread * radius);

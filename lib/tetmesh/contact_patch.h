@@ -11,9 +11,10 @@
 namespace hapsim {
 
 // The base as one contact needs it: what the tool's force feels of a place falls with its distance,
-// so edges may grow with that, to the lesser of `growth` and 0.4 of it. Near the contact nothing
-// changes.
-ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double growth);
+// so edges may grow with that, to the lesser of `growth` and 0.4 of it, and no faster: a body a
+// hundred radii wide was 1 to 13 % too stiff where the tool stood on one of its triangles.
+ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
+                             double growth);
 
 // Frame of the contact: origin on the surface, third axis the outward normal of the patch.
 struct ContactFrame {
