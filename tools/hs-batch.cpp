@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "base/error.h"
@@ -157,15 +158,27 @@ void wait_for_make(const Arguments& arguments, const Batch& batch) {
   std::size_t ready = 0;
   for (std::size_t r = 0; r < batch.chain.size(); ++r)
     if (!batch.chain[r].empty()) ++ready;
-  Progress progress(arguments, "recordings", ready);
-  std::set<std::string> worked;
+  Progress progress(arguments, "", ready);
+  std::set<std::string> worked, running;
   for (std::string line; std::getline(std::cin, line);) {
-    if (line.rfind("step ", 0) == 0) worked.insert(line.substr(5));
-    if (line.rfind("finished ", 0) != 0) continue;
-    if (worked.count(line.substr(9)) != 0)
-      progress.step();
-    else
-      progress.found_done();
+    const std::size_t space = line.find(' ');
+    if (space == line.npos) continue;
+    const std::string name = line.substr(space + 1);
+    if (line.rfind("step ", 0) == 0) {
+      worked.insert(name);
+      running.insert(name);
+    } else if (line.rfind("finished ", 0) == 0) {
+      running.erase(name);
+      if (worked.count(name) != 0)
+        progress.step();
+      else
+        progress.found_done();
+    } else {
+      continue;
+    }
+    std::string names;
+    for (const std::string& one : running) names += (names.empty() ? "" : ", ") + one;
+    progress.running(names);
   }
 }
 
@@ -176,8 +189,11 @@ int summarise(const Arguments& arguments, const Batch& batch) {
                               ? fs::absolute(arguments[flag::html]).parent_path()
                               : fs::current_path();
   const Overview overview = batch_overview(batch, outcomes, beside.string(), version());
-  Output summary(arguments.output());
-  write_summary(summary.stream(), batch, outcomes);
+  std::optional<Output> summary;
+  if (result_is_wanted(arguments)) {
+    summary.emplace(arguments.output());
+    write_summary(summary->stream(), batch, outcomes);
+  }
   if (arguments.given(flag::html)) {
     Output html(arguments[flag::html]);
     write_overview(html.stream(), overview);
@@ -188,7 +204,7 @@ int summarise(const Arguments& arguments, const Batch& batch) {
     write_junit(junit.stream(), "hs-batch", batch_cases(batch, outcomes));
     junit.commit();
   }
-  summary.commit();
+  if (summary) summary->commit();
   for (std::size_t r = 0; r < outcomes.size(); ++r)
     if (outcomes[r].state == RecordingState::kFailed)
       say(arguments, "hs-batch",

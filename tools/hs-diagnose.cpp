@@ -1,6 +1,7 @@
 // hs-diagnose: which physical effect the model lacks.
 #include "base/error.h"
 #include "common_options.h"
+#include "diagnose/diagnosis_summary.h"
 #include "diagnose/diagnosis_table.h"
 #include "experiment/plausible.h"
 #include "fit/fit_words.h"
@@ -54,7 +55,7 @@ ToolSpec specification() {
        .group = "Input",
        .required = true},
       {.flag = flag::check,
-       .help = "Exit code 1 when the model is not complete.",
+       .help = "Exit code 1 when the model is not complete; with -q that is all it says.",
        .group = "Output"},
       {.flag = flag::json,
        .value = "FILE",
@@ -140,6 +141,14 @@ void write_plan(const Arguments& arguments, const Diagnosis& d, const Experiment
     say(arguments, "hs-diagnose", line);
 }
 
+DiagnosedFiles files_of(const Arguments& arguments) {
+  DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
+  for (const AnyFlag& flag : AnyFlags{flag::tool_radius, flag::noise, flag::floor, flag::rim_edge})
+    if (arguments.given(flag)) files.flags += " " + flag + " " + arguments.text(flag);
+  if (arguments.output() != "-") files.output = arguments.output();
+  return files;
+}
+
 int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-diagnose");
   std::vector<Vec3> window;
@@ -160,15 +169,20 @@ int run(const Arguments& arguments) {
   diagnose_options.folds = static_cast<int>(arguments[flag::folds]);
   diagnose_options.flips = static_cast<int>(arguments[flag::flips]);
   diagnose_options.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
-  auto trying = std::make_unique<Progress>(arguments, "trying", 0);
-  diagnose_options.progress = [&](const std::string& what) { trying->show(what); };
+  auto testing = std::make_unique<Progress>(arguments, "", 0);
+  testing->show("fitting the model");
+  diagnose_options.progress = [&](const std::string& what, std::size_t k, std::size_t n) {
+    testing->show(what, k, n);
+  };
   const Diagnosis d = diagnose(model, w, w.allowance(), diagnose_options);
-  trying.reset();
+  testing.reset();
 
-  const DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
-  Output output(arguments.output());
-  write_diagnosis(output.stream(), d, files, arguments.text(flag::seed));
-  output.commit();
+  const DiagnosedFiles files = files_of(arguments);
+  if (result_is_wanted(arguments)) {
+    Output output(arguments.output());
+    write_diagnosis(output.stream(), d, files, arguments.text(flag::seed));
+    output.commit();
+  }
   if (arguments.given(flag::json)) {
     Output json(arguments[flag::json]);
     json.stream() << diagnosis_json(d, files);
@@ -179,8 +193,10 @@ int run(const Arguments& arguments) {
     write_junit(junit.stream(), "hs-diagnose", diagnosis_cases(d));
     junit.commit();
   }
-  for (const std::string& line : diagnosis_lines(d, files)) say(arguments, "hs-diagnose", line);
+  if (arguments.verbose())
+    for (const std::string& line : diagnosis_lines(d, files)) say(arguments, line);
   if (arguments.given(flag::plan)) write_plan(arguments, d, w);
+  say_summary(arguments, diagnosis_summary(d, files, arguments.text(flag::plan)));
   const bool failed = arguments[flag::check] && d.verdict != ModelVerdict::kComplete;
   return static_cast<int>(failed ? ExitCode::kCheckFailed : ExitCode::kDone);
 }

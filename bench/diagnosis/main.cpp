@@ -18,6 +18,7 @@
 #include "diagnose/candidate.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/held_out.h"
+#include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "formats/tetmesh_io.h"
 #include "mesh/tetmesh.h"
@@ -260,7 +261,7 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
                  "{} {:.2g} {}: {} {}, gain {:.1f}, p {:.3f}, unseen {:.4g} -> {:.4g}; {}\n",
                  truth.name, trial.level, seed, finding.effect, verdict_name(finding.verdict),
                  finding.criterion_gain, finding.p_value, finding.held_out_now.told(),
-                 finding.held_out_after.told(), finding.evidence);
+                 finding.held_out_after.told(), evidence_words(finding));
     std::string* list = finding.verdict == Verdict::kMissing             ? &trial.missing
                         : finding.verdict == Verdict::kIndistinguishable ? &trial.rivals
                                                                          : nullptr;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "batch/shell_words.h"
+#include "base/shell_words.h"
 #include "batch/written_files.h"
 #include "io/number.h"
 

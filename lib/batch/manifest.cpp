@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/shell_words.h"
 #include "batch/option_files.h"
-#include "batch/shell_words.h"
 #include "io/csv.h"
 #include "io/quantity.h"
 

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "batch/outcome.h"
-#include "batch/shell_words.h"
 #include "batch/step_script.h"
 
 namespace hapsim {

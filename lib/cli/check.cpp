@@ -10,10 +10,12 @@
 #include "io/extension.h"
 #include "io/number.h"
 #include "io/quantity.h"
+#include "io/require_output.h"
 
 namespace hapsim {
 namespace {
 
+constexpr const char* kPrefix = "PREFIX";  // value of an option whose outputs begin alike
 constexpr double kLargestInteger = 9007199254740992;  // 2^53: every integer up to it is a double
 
 void check_number(const Option& option, const std::string& text) {
@@ -75,6 +77,15 @@ std::string in_si(const Option& option, const std::string& text) {
   if (quantities.empty() || text.empty() || parse_number(text, value)) return text;
   if (is_number(option)) return format_number(parse_quantity(text, quantities[0], option.name()));
   return list_in_si(text, quantities, option.name());
+}
+
+void check_outputs(const ToolSpec& spec, const Arguments& arguments) {
+  for (const Option& option : all_options(spec)) {
+    if (option.kind() != OptionKind::kFile) continue;
+    if (option.writes.empty() && option.value != kPrefix) continue;
+    for (const std::string& name : arguments.list(option.flag))
+      require_output(option.value == kPrefix ? name + "0" : name);
+  }
 }
 
 }  // namespace hapsim

@@ -15,4 +15,7 @@ std::string in_si(const Option& option, const std::string& text);
 // of bounds, not a choice, empty, a file with an extension that is not written.
 void check_value(const Option& option, const std::string& text);
 
+// Error(kIo) where an output that is asked for could not be made: told before the work.
+void check_outputs(const ToolSpec& spec, const Arguments& arguments);
+
 }  // namespace hapsim

@@ -1,40 +1,14 @@
 #include "cli/help.h"
 
+#include <algorithm>
+
 #include "cli/spec_text.h"
+#include "cli/wrap.h"
 
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kWidth = 80;
 constexpr std::size_t kTerm = 26;  // column in which explanations begin
-
-// Columns that UTF-8 text takes.
-std::size_t columns(const std::string& text) {
-  std::size_t n = 0;
-  for (const char c : text) n += (static_cast<unsigned char>(c) & 0xc0) != 0x80;
-  return n;
-}
-
-// `text` in lines of at most kWidth, the first one continued from column `at`.
-std::string wrapped(const std::string& text, std::size_t indent, std::size_t at) {
-  std::string result;
-  bool line_begins = true;
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find_first_of(" \n", start), text.size());
-    const std::string word = text.substr(start, end - start);
-    start = end + 1;
-    if (word.empty()) continue;
-    if (!line_begins && at + 1 + columns(word) > kWidth) {
-      result += '\n' + std::string(indent, ' ');
-      at = indent;
-      line_begins = true;
-    }
-    result += (line_begins ? "" : " ") + word;
-    at += columns(word) + (line_begins ? 0 : 1);
-    line_begins = false;
-  }
-  return result + '\n';
-}
 
 std::string paragraph(const std::string& text, std::size_t indent) {
   return std::string(indent, ' ') + wrapped(text, indent, indent);
@@ -49,12 +23,64 @@ std::string entry(const std::string& term, const std::string& text) {
   return line + wrapped(text, kTerm, kTerm);
 }
 
+std::string usage(const ToolSpec& spec) {
+  const std::size_t indent = 8 + spec.name.size();
+  return "\nUsage: " + spec.name + " " + wrapped(synopsis(spec), indent, indent);
+}
+
+std::string term_of(const Option& option) {
+  return option.name() + (option.value.empty() ? "" : " " + option.value);
+}
+
+std::string first_sentence(const std::string& text) {
+  const std::size_t end = text.find_first_of(".;:");
+  return end == text.npos ? text : text.substr(0, end) + ".";
+}
+
+// Of those that are not required; each stays on one line.
+std::string names_by_group(const ToolSpec& spec) {
+  std::string text, group = "-", line;
+  std::size_t at = 0;
+  for (const Option& option : all_options(spec)) {
+    if (option.required) continue;
+    if (option.group != group) {
+      group = option.group;
+      line = "  " + (group.empty() ? "" : group + ": ");
+      text += (text.empty() ? "" : "\n") + line;
+      at = columns(line);
+      line.clear();
+    }
+    const std::string term = short_flag(option.name()) + option.name();
+    if (at + 1 + columns(term) > kTextWidth) {
+      text += "\n    ";
+      at = 4;
+      line.clear();
+    }
+    text += (line.empty() ? "" : " ") + term;
+    at += columns(term) + (line.empty() ? 0 : 1);
+    line = term;
+  }
+  return text + "\n";
+}
+
 }  // namespace
+
+std::string short_help_text(const ToolSpec& spec) {
+  constexpr std::size_t kMostExamples = 3;
+  std::string text = paragraph(spec.name + ": " + spec.summary, 0) + usage(spec) + "\n";
+  if (!spec.input.empty()) text += entry("INPUT", input_text(spec));
+  for (const Option& option : spec.options)
+    if (option.required) text += entry(term_of(option), first_sentence(option.help));
+  text += "\nOptions:\n" + names_by_group(spec);
+  if (!spec.examples.empty()) text += "\nExamples:\n";
+  for (std::size_t k = 0; k < std::min(kMostExamples, spec.examples.size()); ++k)
+    text += "  " + spec.examples[k].command + "\n";
+  return text + "\nWhat each option does: " + spec.name + " --help, or man " + spec.name + "\n";
+}
 
 std::string help_text(const ToolSpec& spec) {
   std::string text = paragraph(spec.name + ": " + spec.summary, 0);
-  text += "\nUsage: " + spec.name + " " +
-          wrapped(synopsis(spec), 8 + spec.name.size(), 8 + spec.name.size());
+  text += usage(spec);
   for (const std::string& p : spec.description) text += "\n" + paragraph(p, 0);
   if (!spec.input.empty()) text += "\nInput:\n" + paragraph(input_text(spec), 2);
   std::string group = "-";
@@ -64,8 +90,7 @@ std::string help_text(const ToolSpec& spec) {
       text += group.empty() ? "\nOptions:\n" : "\nOptions, " + group + ":\n";
     }
     std::string term = short_flag(option.name());
-    term += (term.empty() ? "" : " ") + option.name();
-    if (!option.value.empty()) term += " " + option.value;
+    term += (term.empty() ? "" : " ") + term_of(option);
     text += entry(term, full_help(option));
   }
   for (const auto& [title, rows] : spec.tables) {

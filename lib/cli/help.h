@@ -1,4 +1,4 @@
-// --help and the man page.
+// -h, --help and the man page.
 #pragma once
 
 #include <string>
@@ -7,6 +7,8 @@
 
 namespace hapsim {
 
+// A screen of it: what is required, the names of the other options by group, examples.
+std::string short_help_text(const ToolSpec& spec);
 std::string help_text(const ToolSpec& spec);  // 80 columns
 std::string man_page(const ToolSpec& spec);   // roff, man(7)
 

@@ -119,7 +119,8 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
   CommandLine line;
   for (const std::string& word : words) {
     if (word == "--") break;
-    if (word == "-h" || word == "--help") line.request = Request::kHelp;
+    if (word == "-h") line.request = Request::kShortHelp;
+    if (word == "--help") line.request = Request::kHelp;
     if (word == "--man") line.request = Request::kMan;
     if (word == "-V" || word == "--version") line.request = Request::kVersion;
     for (const char* shell : {"bash", "zsh", "fish"})
@@ -135,6 +136,7 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
   if (!found.unknown.empty()) fail_unknown(spec, found.unknown.front());
 
   Arguments& arguments = line.arguments;
+  arguments.tool_ = spec.name;
   if (spec.input.empty() && !found.inputs.empty())
     fail_usage("'" + found.inputs[0] + "' is one argument too much",
                spec.name + " takes flags only");

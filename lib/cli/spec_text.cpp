@@ -95,7 +95,8 @@ std::vector<Option> all_options(const ToolSpec& spec) {
   for (const auto& [one, help] :
        {std::pair{flag::quiet, "Print errors only."},
         std::pair{flag::verbose, "Print more about what is done."},
-        std::pair{flag::help, "Print this help."}, std::pair{flag::man, "Print the manual page."},
+        std::pair{flag::help, "Print this help; -h prints a screen of it."},
+        std::pair{flag::man, "Print the manual page."},
         std::pair{flag::version, "Print the version."}})
     options.push_back({.flag = one, .help = help, .group = general});
   const auto place = [&groups](const Option& option) {

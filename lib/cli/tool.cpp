@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "cli/check.h"
 #include "cli/completion.h"
 #include "cli/help.h"
 #include "cli/parse.h"
@@ -21,6 +22,14 @@
 #include "io/temp_files.h"
 
 namespace hapsim {
+
+bool colourful() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* term = std::getenv("TERM");
+  return isatty(STDERR_FILENO) == 1 && (no_color == nullptr || *no_color == '\0') &&
+         term != nullptr && std::strcmp(term, "dumb") != 0;
+}
+
 namespace {
 
 // A file opened later must not become standard output because that was closed.
@@ -36,15 +45,9 @@ std::string printable(std::string text) {
   return text;
 }
 
-bool colourful() {
-  const char* no_color = std::getenv("NO_COLOR");
-  const char* term = std::getenv("TERM");
-  return isatty(STDERR_FILENO) == 1 && (no_color == nullptr || *no_color == '\0') &&
-         term != nullptr && std::strcmp(term, "dumb") != 0;
-}
-
 int report(const ToolSpec& spec, ExitCode code, const std::string& message) {
   const bool colour = colourful();
+  clear_progress_line();
   std::fprintf(stderr, "%s%s:%s %s\n", colour ? "\033[1;31m" : "", spec.name.c_str(),
                colour ? "\033[0m" : "", printable(message).c_str());
   return static_cast<int>(code);
@@ -73,6 +76,8 @@ int parse_and_run(const ToolSpec& spec, int argc, char** argv,
                   const std::function<int(const Arguments&)>& run) {
   const CommandLine line = parse_command_line(spec, argc, argv);
   switch (line.request) {
+    case Request::kShortHelp:
+      return print(short_help_text(spec));
     case Request::kHelp:
       return print(help_text(spec));
     case Request::kMan:
@@ -89,6 +94,7 @@ int parse_and_run(const ToolSpec& spec, int argc, char** argv,
   const bool reads_stdin = !spec.input.empty() && !spec.input_optional;
   if (reads_stdin && !line.arguments.input_given() && isatty(STDIN_FILENO) == 1)
     fail_usage("there is no input", "name a file or pipe data in; " + spec.name + " --help");
+  check_outputs(spec, line.arguments);
   return run(line.arguments);
 }
 
@@ -131,7 +137,16 @@ void say(const Arguments& arguments, const std::string& tool, const std::string&
   if (!arguments.quiet()) tell(tool, text);
 }
 
+void say(const Arguments& arguments, const std::string& text) {
+  say(arguments, arguments.tool(), text);
+}
+
+bool result_is_wanted(const Arguments& arguments) {
+  return arguments.given(flag::output) || isatty(STDOUT_FILENO) != 1;
+}
+
 void tell(const std::string& tool, const std::string& text) {
+  clear_progress_line();
   std::fprintf(stderr, "%s: %s\n", tool.c_str(), text.c_str());
 }
 

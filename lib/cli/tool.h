@@ -1,14 +1,13 @@
 // A command: its specification as data, from which parsing, --help and the man page all come.
 #pragma once
 
-#include <chrono>
 #include <functional>
-#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cli/flag.h"
+#include "cli/progress.h"
 
 namespace hapsim {
 
@@ -64,6 +63,7 @@ class Arguments {
   bool input_given() const { return input_given_; }
   const std::string& input() const { return input_; }    // "-" when absent
   const std::string& output() const { return output_; }  // "-" when absent
+  const std::string& tool() const { return tool_; }
   bool quiet() const { return quiet_; }
   bool verbose() const { return verbose_; }
   bool given(const AnyFlag& flag) const;  // on the command line
@@ -88,6 +88,7 @@ class Arguments {
     std::vector<std::string> texts;
     bool given = false;
   };
+  std::string tool_;
   std::string input_ = "-";
   std::string output_ = "-";
   bool input_given_ = false;
@@ -102,34 +103,17 @@ class Arguments {
 
 // A line of summary for people on standard error, unless --quiet: "hs-identify: text".
 void say(const Arguments& arguments, const std::string& tool, const std::string& text);
+// The same, of the tool that runs.
+void say(const Arguments& arguments, const std::string& text);
 // The same, --quiet or not: why a check failed.
 void tell(const std::string& tool, const std::string& text);
+// Whether the result goes out: a terminal gets a table only where -o - asks for it.
+bool result_is_wanted(const Arguments& arguments);
+// Whether standard error is a terminal that shows colours, and NO_COLOR is not set.
+bool colourful();
 
 // Version of hapsim, "0.1.0".
 std::string version();
-
-// Progress on standard error, only when that is a terminal and not --quiet; thread-safe.
-class Progress {
- public:
-  Progress(const Arguments& arguments, const std::string& what, std::size_t total);
-  ~Progress();  // clears the line
-  void step(std::size_t done = 1);
-  void show(const std::string& state);  // instead of a count
-  void found_done();  // one that had been done before: it does not tell how long the others take
-
- private:
-  bool is_due();
-  void draw(const std::string& line);
-
-  std::string what_;
-  std::size_t total_;  // 0: not known
-  std::size_t done_ = 0;
-  std::size_t before_ = 0;  // of done_
-  bool shown_;
-  std::mutex mutex_;
-  std::chrono::steady_clock::time_point start_;
-  std::chrono::steady_clock::time_point drawn_;
-};
 
 // main() of every tool: parses, runs, catches, maps to the exit code. `--man` prints the man page.
 // A closed pipe ends it silently; signals leave no temporary file behind.

@@ -116,7 +116,7 @@ void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
       ++k;
       continue;
     }
-    if (options.progress) options.progress("without " + earlier.effect);
+    options.tell("without " + earlier.effect);
     auto lesser = without_superfluous(earlier.effect, base, g, folds, options.gates);
     if (!lesser) {
       ++k;
@@ -332,7 +332,7 @@ Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& all
   if (d.verdict == ModelVerdict::kComplete || !e.shape.plain() ||
       e.doubted_floor <= allowance.floor || moves_body(model) || tells_of_move(d))
     return d;
-  if (options.progress) options.progress("the shape in doubt");
+  options.tell("the shape in doubt");
   d = with_allowance(model, {e, {allowance.noise, e.doubted_floor}}, options);
   d.shape_in_doubt = true;
   std::string doubted;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,20 @@ struct DiagnoseOptions {
   int folds = 6;
   int flips = 999;
   std::uint64_t seed = 1;
-  std::function<void(const std::string&)>
-      progress;  // what is being tried; it may throw, which ends the diagnosis
+  // What is being done, and which of how many effects that is (from 1; 0: none of a count). It may
+  // throw, which ends the diagnosis.
+  std::function<void(const std::string&, std::size_t, std::size_t)> progress;
+  void tell(const std::string& what, std::size_t k = 0, std::size_t n = 0) const {
+    if (progress) progress(what, k, n);
+  }
+};
+
+// A parameter of an effect as it was fitted.
+struct FittedValue {
+  std::string name, unit;
+  double value = 0;
+  double std_error = std::numeric_limits<double>::quiet_NaN();  // NaN: not estimated
+  double identity = 0;                                          // where it does nothing
 };
 
 // One effect of the catalogue, tried on top of the model (and of the effects found before it).
@@ -38,6 +51,9 @@ struct Finding {
   double share = 0;   // of the misfit beyond noise
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
+  std::vector<FittedValue> values;
+  std::string fitted;  // the values, or what a map was found to be, in words
+  FittedValue smallest{{}, {}, std::numeric_limits<double>::quiet_NaN()};  // that would show
   bool one_more_term = false;
   bool admitted = false;     // of few presses: by what is unseen
   bool every_site = false;   // regions: a stiffness that changes from position to position

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/shell_words.h"
+#include "diagnose/wording.h"
 
 namespace hapsim {
 namespace {
@@ -16,12 +20,69 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+// "m0.csv": "m1.csv"; a name without a number: "better.csv".
+std::string next_version(const std::string& model) {
+  const std::size_t dot = model.rfind('.');
+  const std::size_t end = dot == std::string::npos ? model.size() : dot;
+  std::size_t begin = end;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(model[begin - 1])) != 0) --begin;
+  if (begin == end || end - begin > 6) return "better.csv";
+  return model.substr(0, begin) + std::to_string(std::stoi(model.substr(begin, end - begin)) + 1) +
+         model.substr(end);
+}
+
+// "a.csv --body body.ply --model m0.csv", as a shell reads it.
+std::string inputs(const DiagnosedFiles& files) {
+  return fmt::format("{} --body {} --model {}", shell_quoted(files.recording),
+                     shell_quoted(files.body), shell_quoted(files.model));
+}
+
+std::string add_command(const DiagnosedFiles& files, const std::string& effects, bool every_site) {
+  return fmt::format("hs-identify {}{} --add {}{} -o {}", inputs(files), files.flags, effects,
+                     every_site ? " --regions sites" : "", shell_quoted(next_version(files.model)));
+}
+
+bool may_be_there(const Finding& f) {
+  return f.verdict != Verdict::kAbsent && f.verdict != Verdict::kNotTestable;
+}
+
+// Not among effects that a press could tell apart.
+bool only_shape(const Diagnosis& d) {
+  return std::all_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return f.verdict != Verdict::kIndistinguishable ||
+           f.confused_with == std::vector<std::string>{"shape"};
+  });
+}
+
 }  // namespace
 
 std::string add_command(const DiagnosedFiles& files, const Finding& f) {
-  return fmt::format("hs-identify {} --body {} --model {} --add {}{} -o better.csv",
-                     files.recording, files.body, files.model, f.effect,
-                     f.every_site ? " --regions sites" : "");
+  return add_command(files, f.effect, f.every_site);
+}
+
+std::string next_step(const Diagnosis& d, const DiagnosedFiles& files, const std::string& plan) {
+  std::string missing;
+  bool every_site = false;
+  for (const Finding& f : d.findings) {
+    if (f.verdict != Verdict::kMissing) continue;
+    missing += (missing.empty() ? "" : ",") + f.effect;
+    every_site = every_site || f.every_site;
+  }
+  const std::string recording = shell_quoted(files.recording), body = shell_quoted(files.body);
+  switch (d.verdict) {
+    case ModelVerdict::kIncomplete:
+      return add_command(files, missing, every_site);
+    case ModelVerdict::kAmbiguous:
+      if (only_shape(d)) return "scan the body again, or touch it where it is pressed";
+      if (!plan.empty()) return "record the presses of " + plan + " and diagnose them as well";
+      return fmt::format("hs-diagnose {}{} --plan next.csv", inputs(files), files.flags);
+    case ModelVerdict::kComplete:
+      return fmt::format("hs-simulate {}{} -o forces.csv", inputs(files), files.flags);
+    default:
+      return fmt::format(
+          "hs-simulate {}{} | hs-compare {} --simulated - --body {} --html report.html",
+          inputs(files), files.flags, recording, body);
+  }
 }
 
 void write_diagnosis(std::ostream& out, const Diagnosis& d, const DiagnosedFiles& files,
@@ -44,13 +105,11 @@ void write_diagnosis(std::ostream& out, const Diagnosis& d, const DiagnosedFiles
   int rank = 0;
   for (const Finding& f : d.findings) {
     const bool tried = f.verdict != Verdict::kNotTestable;
-    const bool add = f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable ||
-                     f.verdict == Verdict::kPossible;
     const auto value = [&](double v) { return tried ? number(v) : std::string(); };
     csv.row({std::to_string(++rank), f.effect, verdict_name(f.verdict), value(f.rmse_now.told()),
              value(f.rmse_after.told()), value(f.held_out_now.told()),
              value(f.held_out_after.told()), value(f.p_value), joined(f.confused_with), f.where,
-             f.evidence, f.next_measurement, add ? add_command(files, f) : ""});
+             evidence_words(f), f.next_measurement, may_be_there(f) ? add_command(files, f) : ""});
   }
 }
 
@@ -64,6 +123,47 @@ std::vector<std::string> missing_effects(const CsvTable& table) {
     if (table.columns[verdict][row] == "missing") missing.push_back(table.columns[effect][row]);
   return missing;
 }
+
+namespace {
+
+// What is not known, as of an effect that could not be tested, is null.
+nlohmann::json finding_json(const Finding& f, const DiagnosedFiles& files) {
+  const bool tested = f.verdict != Verdict::kNotTestable;
+  const auto number = [&](double v) { return tested ? nlohmann::json(v) : nlohmann::json(); };
+  nlohmann::json j{{"effect", f.effect},
+                   {"verdict", verdict_name(f.verdict)},
+                   {"rmse_now", number(f.rmse_now.told())},
+                   {"rmse_after", number(f.rmse_after.told())},
+                   {"heldout_now", number(f.held_out_now.told())},
+                   {"heldout_after", number(f.held_out_after.told())},
+                   {"p_value", number(f.p_value)},
+                   {"criterion_gain", number(f.criterion_gain)},
+                   {"share", number(f.share)},
+                   {"confused_with", f.confused_with},
+                   {"where", f.where},
+                   {"evidence", evidence_words(f)},
+                   {"next_measurement", f.next_measurement},
+                   {"values", nlohmann::json::array()},
+                   {"smallest_seen", nlohmann::json()},
+                   {"command", nlohmann::json()}};
+  if (may_be_there(f)) {
+    j["command"] = add_command(files, f);
+    for (const FittedValue& v : f.values)
+      j["values"].push_back({{"parameter", v.name},
+                             {"value", v.value},
+                             {"std_error", v.std_error},
+                             {"unit", v.unit},
+                             {"identity", v.identity}});
+  }
+  if (tested && std::isfinite(f.smallest.value))
+    j["smallest_seen"] = {{"parameter", f.smallest.name},
+                          {"size", f.smallest.value},
+                          {"unit", f.smallest.unit},
+                          {"identity", f.smallest.identity}};
+  return j;
+}
+
+}  // namespace
 
 std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
   nlohmann::json j;
@@ -81,21 +181,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
   j["rmse_with_missing_effects"] = d.rmse_end.told();
   j["heldout_with_missing_effects"] = d.held_out_end.told();
   j["effects"] = nlohmann::json::array();
-  for (const Finding& f : d.findings)
-    j["effects"].push_back({{"effect", f.effect},
-                            {"verdict", verdict_name(f.verdict)},
-                            {"rmse_now", f.rmse_now.told()},
-                            {"rmse_after", f.rmse_after.told()},
-                            {"heldout_now", f.held_out_now.told()},
-                            {"heldout_after", f.held_out_after.told()},
-                            {"p_value", f.p_value},
-                            {"criterion_gain", f.criterion_gain},
-                            {"share", f.share},
-                            {"confused_with", f.confused_with},
-                            {"where", f.where},
-                            {"evidence", f.evidence},
-                            {"next_measurement", f.next_measurement},
-                            {"command", add_command(files, f)}});
+  for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));
   return j.dump(2) + "\n";
 }
 
@@ -108,11 +194,7 @@ std::vector<std::string> diagnosis_lines(const Diagnosis& d, const DiagnosedFile
       "({}); mesh uncertainty {:.1f} %, floor {:.1f} %",
       d.rmse.told(), 100 * d.rmse.told() / d.force_rms.told(), d.noise,
       d.noise_measured ? "measured" : "declared", 100 * d.mesh_uncertainty, 100 * d.floor));
-  if (const std::string shape = d.shape.words(); !shape.empty())
-    line(shape + (d.shape_in_doubt
-                      ? "; the forces do not follow such a move, so the scan is in doubt "
-                        "(surface, unit, frame), and so is what differs by place"
-                      : ""));
+  if (const std::string shape = shape_words(d); !shape.empty()) line(shape);
   for (const Finding& f : d.findings) {
     if (f.verdict == Verdict::kNotTestable) {
       line(fmt::format("  {:<13} not testable: {}", f.effect, f.evidence));
@@ -124,7 +206,7 @@ std::vector<std::string> diagnosis_lines(const Diagnosis& d, const DiagnosedFile
                                    : "";
     line(fmt::format("  {:<13} {:<17} error {:.3g} -> {:.3g} N{}, false alarm {:.3f}; {}", f.effect,
                      verdict_name(f.verdict), f.rmse_now.told(), f.rmse_after.told(), unseen,
-                     f.p_value, f.evidence));
+                     f.p_value, evidence_words(f)));
     if (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable) {
       if (!f.confused_with.empty())
         line("                may be confused with " + joined(f.confused_with) +
@@ -144,7 +226,7 @@ std::vector<JunitCase> diagnosis_cases(const Diagnosis& d) {
   cases.push_back({"model", complete ? "" : verdict_name(d.verdict) + (": " + d.explanation), ""});
   for (const Finding& f : d.findings) {
     const bool lacking = f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
-    cases.push_back({f.effect, lacking ? verdict_name(f.verdict) + (": " + f.evidence) : "",
+    cases.push_back({f.effect, lacking ? verdict_name(f.verdict) + (": " + evidence_words(f)) : "",
                      f.where, f.verdict == Verdict::kNotTestable});
   }
   return cases;

@@ -33,7 +33,7 @@ const EffectSet* EffectSets::grown(const EffectSet& from, const Effect& effect) 
   const EffectNames names = with(from.added, effect.card().name);
   if (const auto known = all_.find(names); known != all_.end()) return &known->second;
   if (refused_.count(names) > 0) return nullptr;
-  if (options_.progress) options_.progress(effect.card().name);
+  options_.tell("testing " + effect.card().name);
   std::string lack;
   auto candidate = try_effect(effect, {from.fitted, {}, {}}, ground_, lack);
   if (candidate) {

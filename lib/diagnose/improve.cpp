@@ -88,8 +88,8 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
     result.steps.front().held_out = judge->error({});
   }
   DiagnoseOptions watched = options.diagnose;
-  watched.progress = [&](const std::string& what) {
-    if (options.diagnose.progress) options.diagnose.progress(what);
+  watched.progress = [&](const std::string& what, std::size_t k, std::size_t n) {
+    options.diagnose.tell(what, k, n);
     if (options.fit.watch && !options.fit.watch({})) throw Ended{};
   };
   for (int k = 0; k < options.most_diagnoses; ++k) {

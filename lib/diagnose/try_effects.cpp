@@ -75,7 +75,7 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base,
     if (c->fitted.error.pooled >= kPromising * least ||
         c->fitted.error.pooled >= kBetter * base.fitted.error.pooled)
       continue;
-    if (options.progress) options.progress(c->effect->card().name);
+    options.tell("refining " + c->effect->card().name);
     refine(*c, g);
     least = std::min(least, c->fitted.error.pooled);
   }
@@ -134,16 +134,18 @@ Finding not_testable(const Effect& effect, const std::string& lack) {
   return finding;
 }
 
+using Counted = std::function<void(const Effect&)>;  // tells of the next effect that is tested
+
 // Tries effects at some places, and at all of them those that could be rivals of what leaves the
 // `least` error, the best first: solved for once, at the values that the screen gave.
 void try_at_some_first(const std::vector<const Effect*>& effects, const Departures& departures,
                        double least, const Baseline& base, const TrialGround& g,
-                       const DiagnoseOptions& options, Round& round) {
+                       const DiagnoseOptions& options, const Counted& count, Round& round) {
   const double now = base.fitted.error.pooled;
   Screens screens(base, g, departures);
   std::vector<std::pair<const Effect*, Screens::Tried>> all_tried;
   for (const Effect* effect : effects) {
-    if (options.progress) options.progress(effect->card().name);
+    count(*effect);
     std::string lack;
     if (auto tried = screens.try_effect(*effect, std::min(kBetter, kPromising * least / now), lack))
       all_tried.emplace_back(effect, std::move(*tried));
@@ -160,7 +162,7 @@ void try_at_some_first(const std::vector<const Effect*>& effects, const Departur
                       g.dataset.positions.size(), 100 * tried.left_there);
       continue;
     }
-    if (options.progress) options.progress(effect->card().name);
+    options.tell("solving " + effect->card().name);
     Candidate candidate;
     candidate.effect = effect;
     candidate.one_more_term = base.fitted.model.has(effect->card().name);
@@ -192,10 +194,15 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
   const bool departs = departures.anywhere();
   double least = base.fitted.error.pooled;
   std::vector<const Effect*> at_some_first;
-  for (const Effect* effect : untried(base.fitted.model)) {
-    if (options.progress) options.progress(effect->card().name);
+  const std::vector<const Effect*> effects = untried(base.fitted.model);
+  std::size_t tested = 0;
+  const Counted count = [&](const Effect& effect) {
+    options.tell("testing " + effect.card().name, ++tested, effects.size());
+  };
+  for (const Effect* effect : effects) {
     const bool solved = effect->card().solved && lacking_for(effect->card(), g.dataset).empty();
     if (solved && !departs) {
+      ++tested;
       round.ruled_out.push_back(ruled_out(*effect, base));
       continue;
     }
@@ -203,6 +210,7 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
       at_some_first.push_back(effect);
       continue;
     }
+    count(*effect);
     std::string lack;
     auto candidate = try_effect(*effect, base, g, lack);
     if (!candidate) {
@@ -212,7 +220,7 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
     if (!effect->card().per_press) least = std::min(least, candidate->fitted.error.pooled);
     round.candidates.push_back(std::move(*candidate));
   }
-  try_at_some_first(at_some_first, departures, least, base, g, options, round);
+  try_at_some_first(at_some_first, departures, least, base, g, options, count, round);
   refine_promising(round.candidates, base, g, options);
   const Yardstick yardstick = make_yardstick(base, round.candidates, g);
   std::vector<Measured> measured;
@@ -250,7 +258,7 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
       f.share = std::clamp((all_of_it ? fall : m.explained) / beyond_noise, 0.0, 1.0);
     // Refits for held-out positions cost most and only matter to what passes otherwise.
     if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share) {
-      if (options.progress) options.progress(f.effect);
+      options.tell(f.effect + " on unseen data");
       hold_out(c, g, folds);
       prefer_sites(c, base, g, folds);
       f.every_site = c.every_site;
@@ -266,7 +274,7 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
     f.plain = f.share >= kMostOfIt && by_size < options.gates.p_value;
     f.within_form = by_laws > 0 && force_change(c.fitted, base.fitted, g) < by_laws;
     f.where = describe_where(c);
-    f.evidence = describe_evidence(c, m, f);
+    describe_fit(c, m, f);
     if (f.within_form)
       f.evidence += fmt::format(
           "; changes the forces by less than the {:.2g} N that an approximate law in the model may "

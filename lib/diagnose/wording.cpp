@@ -59,37 +59,88 @@ std::string describe_where(const Candidate& candidate) {
                      places(softest - material.modulus.begin()), *stiffest / *softest);
 }
 
-std::string describe_evidence(const Candidate& candidate, const Measured& measured,
-                              const Finding& finding) {
-  std::string text =
+namespace {
+
+// A map's regions with their moduli, or the places and reach of a field.
+std::string map_words(const Candidate& candidate) {
+  if (candidate.effect->card().is_field) {
+    const PlaceField field = place_field(candidate.fitted.model);
+    return fmt::format("{} places, alike over {:.2g} mm", field.place.size(),
+                       1e3 * (field.factor.share > 0.5 ? field.factor.fine : field.factor.range));
+  }
+  const MaterialSpec material = material_of(candidate.fitted.model);
+  const auto [least, most] = std::minmax_element(material.modulus.begin(), material.modulus.end());
+  return fmt::format("{}, E from {:.3g} to {:.3g} Pa",
+                     candidate.every_site ? "it changes from place to place"
+                                          : fmt::format("{} regions", material.modulus.size()),
+                     *least, *most);
+}
+
+double identity_of(const EffectCard& card, const std::string& parameter) {
+  for (const ParameterCard& p : card.parameters)
+    if (p.name == parameter) return p.identity;
+  return 0;  // of a further term
+}
+
+std::string values_words(const std::vector<FittedValue>& values) {
+  constexpr std::size_t kMost = 6;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kMost, values.size()); ++k)
+    text += fmt::format("{}{} = {}", k == 0 ? "" : "; ", values[k].name,
+                        with_error(values[k].value, values[k].std_error, values[k].unit));
+  return text;
+}
+
+// The smallest size is that about the fitted value. Where this lies far from the one that does
+// nothing and the effect is not there all the same, as a friction that nothing reaches, it says
+// nothing of a smaller effect.
+std::string shows_words(const Finding& f) {
+  constexpr double kFar = 10;  // such sizes
+  const FittedValue& least = f.smallest;
+  if (!std::isfinite(least.value)) return "";
+  if (f.verdict == Verdict::kAbsent && !f.values.empty() &&
+      std::abs(f.values.front().value - least.identity) > kFar * least.value)
+    return "";
+  const std::string size = with_error(least.value, std::nan(""), least.unit);
+  return fmt::format("would show from {} = {}{}", least.name,
+                     least.identity == 0 ? "" : fmt::format("{:g} ± ", least.identity), size);
+}
+
+}  // namespace
+
+void describe_fit(const Candidate& candidate, const Measured& measured, Finding& finding) {
+  finding.evidence =
       fmt::format("takes away {:.0f} % of the squared misfit beyond noise{}", 100 * finding.share,
                   finding.share > 0.005 && finding.p_value > kByChance ? ", as chance would" : "");
   const EffectCard& card = candidate.effect->card();
-  if (card.is_map) {
-    const MaterialSpec material = material_of(candidate.fitted.model);
-    text += candidate.every_site ? "; it changes from place to place"
-                                 : fmt::format("; {} regions", material.modulus.size());
-    text += fmt::format(", E from {:.3g} to {:.3g} Pa",
-                        *std::min_element(material.modulus.begin(), material.modulus.end()),
-                        *std::max_element(material.modulus.begin(), material.modulus.end()));
-    return text;
-  }
-  if (card.is_field) {
-    const PlaceField field = place_field(candidate.fitted.model);
-    return text +
-           fmt::format("; {} places, alike over {:.2g} mm", field.place.size(),
-                       1e3 * (field.factor.share > 0.5 ? field.factor.fine : field.factor.range));
+  if (card.is_map || card.is_field) {
+    finding.fitted = map_words(candidate);
+    return;
   }
   const ParameterCard& first = card.parameters.front();
   const ParameterState shown = first.fixed ? ParameterState::kFixed : ParameterState::kFree;
-  int named = 0;
   for (const Parameter& p : candidate.fitted.model.parameters)
-    if (p.effect == card.name && p.state == shown && named++ < 6)
-      text += fmt::format("; {} = {}", p.name, with_error(p.value, p.std_error, p.unit));
+    if (p.effect == card.name && p.state == shown)
+      finding.values.push_back({p.name, p.unit, p.value, p.std_error, identity_of(card, p.name)});
+  finding.fitted = values_words(finding.values);
   if (!first.fixed && measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
-    text += fmt::format("; would show from {} = {}", first.name,
-                        with_error(measured.smallest_seen, std::nan(""), first.unit));
+    finding.smallest = {first.name, first.unit, measured.smallest_seen, std::nan(""),
+                        first.identity};
+}
+
+std::string evidence_words(const Finding& f) {
+  std::string text = f.evidence;
+  if (f.verdict != Verdict::kAbsent && !f.fitted.empty()) text += "; " + f.fitted;
+  if (const std::string shows = shows_words(f); !shows.empty()) text += "; " + shows;
   return text;
+}
+
+std::string shape_words(const Diagnosis& d) {
+  const std::string words = d.shape.words();
+  if (words.empty() || !d.shape_in_doubt) return words;
+  return words +
+         "; the forces do not follow such a move, so the scan is in doubt (surface, unit, frame), "
+         "and so is what differs by place";
 }
 
 std::string describe_verdict(const Diagnosis& d, bool structure_left) {

@@ -10,9 +10,14 @@ namespace hapsim {
 
 // Where the effect acts: the stiff and the soft places, or what its card says of its signature.
 std::string describe_where(const Candidate& candidate);
-// How much of the misfit it takes away, and its fitted size with uncertainty.
-std::string describe_evidence(const Candidate& candidate, const Measured& measured,
-                              const Finding& finding);
+// Sets what the fit says: the evidence (how much of the misfit it takes away), the values with
+// uncertainty, and the smallest size that would show.
+void describe_fit(const Candidate& candidate, const Measured& measured, Finding& finding);
+// The evidence with the values, or of an effect that is not there the size that would show alone:
+// what the data cannot show has no value.
+std::string evidence_words(const Finding& finding);
+// Where contact points lie off the body's surface; "" where they do not.
+std::string shape_words(const Diagnosis& diagnosis);
 std::string describe_verdict(const Diagnosis& diagnosis, bool structure_left);
 
 // A version of an improved model with its errors; `noise` of the force [N].

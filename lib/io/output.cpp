@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "io/allowed_outputs.h"
+#include "io/require_output.h"
 #include "io/stream.h"
 #include "io/system_error.h"
 #include "io/temp_files.h"
@@ -90,6 +91,16 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+// Whether it exists, and as what; nothing is made.
+bool require_writable(const std::string& path, struct stat& info) {
+  require_allowed_output(path);
+  const bool exists = stat(path.c_str(), &info) == 0;
+  if (path.back() == '/' || (exists && S_ISDIR(info.st_mode)))
+    fail_system(path, "cannot be written", EISDIR);
+  if (exists && access(path.c_str(), W_OK) != 0) fail_system(path, "cannot be written", errno);
+  return exists;
+}
+
 }  // namespace
 
 struct Output::Impl {
@@ -111,12 +122,8 @@ struct Output::Impl {
   }
 
   void open_file(const std::string& path) {
-    require_allowed_output(path);
     struct stat info = {};
-    const bool exists = stat(path.c_str(), &info) == 0;
-    if (path.back() == '/' || (exists && S_ISDIR(info.st_mode)))
-      fail_system(path, "cannot be written", EISDIR);
-    if (exists && access(path.c_str(), W_OK) != 0) fail_system(path, "cannot be written", errno);
+    const bool exists = require_writable(path, info);
     if (exists && !S_ISREG(info.st_mode)) {
       fd = uninterrupted([&] { return open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY); });
       if (fd < 0) fail_system(path, "cannot be written", errno);
@@ -166,6 +173,15 @@ struct Output::Impl {
   std::ostream stream;
   bool committed = false;
 };
+
+void require_output(const std::string& path_or_dash) {
+  if (path_or_dash.empty() || path_or_dash == "-") return;
+  struct stat info = {};
+  const bool exists = require_writable(path_or_dash, info);
+  if (exists && !S_ISREG(info.st_mode)) return;
+  if (access(folder_of(resolved(path_or_dash)).c_str(), W_OK | X_OK) != 0)
+    fail_system(path_or_dash, "cannot be created", errno);
+}
 
 Output::Output(const std::string& path_or_dash) : impl_(std::make_unique<Impl>(path_or_dash)) {}
 Output::~Output() = default;

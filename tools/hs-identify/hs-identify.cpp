@@ -48,8 +48,8 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
     watch.show(what);
     if (arguments.verbose()) say(arguments, "hs-identify", what);
   };
-  improve_options.diagnose.progress = [&](const std::string& what) {
-    watch.show("diagnosing: " + what);
+  improve_options.diagnose.progress = [&](const std::string& what, std::size_t k, std::size_t n) {
+    watch.show(what, k, n);
   };
   Model start = plan.start;
   if (start.parameters.empty()) {

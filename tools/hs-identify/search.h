@@ -163,7 +163,7 @@ class SearchWatch {
  public:
   explicit SearchWatch(const Arguments& arguments)
       : interrupt_(std::make_unique<Interrupt>()),
-        progress_(std::make_unique<Progress>(arguments, "fit", 0)),
+        progress_(std::make_unique<Progress>(arguments, "", 0)),
         last_resort_(
             std::make_unique<LastResort>(*interrupt_, [&arguments](const std::string& model) {
               Output output(arguments.output());
@@ -179,15 +179,20 @@ class SearchWatch {
     };
   }
   // Another thing than a fit is under way.
-  void show(const std::string& what) {
-    if (progress_) progress_->show(what);
+  void show(const std::string& what, std::size_t k = 0, std::size_t n = 0) {
+    if (progress_) progress_->show(what, k, n);
   }
   std::function<bool(const FitProgress&)> watch() {
     return [this](const FitProgress& p) {
-      const std::string error = std::isnan(p.rmse) ? "" : fmt::format("error {:.4g} N", p.rmse);
-      if (progress_)
-        progress_->show(
-            p.starts > 1 ? fmt::format("start {} of {}, {}", p.start + 1, p.starts, error) : error);
+      const std::string error =
+          std::isnan(p.rmse) ? "fitting" : fmt::format("fitting, error {:.4g} N", p.rmse);
+      if (progress_) {
+        if (p.starts > 1)
+          progress_->show(error + ", start", static_cast<std::size_t>(p.start) + 1,
+                          static_cast<std::size_t>(p.starts));
+        else
+          progress_->show(error);
+      }
       if (interrupted() && last_resort_) last_resort_->seen();
       return !interrupted();
     };

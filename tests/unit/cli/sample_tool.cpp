@@ -44,9 +44,10 @@ hapsim::ToolSpec specification() {
   hapsim::Option effects{flag::effects, "NAMES", "Effects."};
   effects.repeatable = true;
   hapsim::Option other{flag::other, "FILE", "Another output, written first."};
+  other.writes = hapsim::kTableExtensions;
   hapsim::Option echo{flag::echo, "", "Print the arguments instead."};
   hapsim::Option act{flag::act, "WHAT", "Misbehave."};
-  act.choices = {"throw", "memory", "wait", "check", "flood", "progress", "error"};
+  act.choices = {"throw", "memory", "wait", "check", "flood", "progress", "states", "error"};
   spec.options = {unit, ratio, threads, effects, other, echo, act};
   spec.tables = {{"Columns of the result", {{"x", "position [m]"}, {"y", "another [m]"}}}};
   spec.examples = {{"hs-sample data.csv -o copy.csv", "Copies a file."}};
@@ -80,6 +81,18 @@ int act(const std::string& what, const hapsim::Arguments& arguments, hapsim::Out
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       progress.step();
     }
+  }
+  if (what == "states") {
+    const auto a_while = [] { std::this_thread::sleep_for(std::chrono::milliseconds(250)); };
+    hapsim::Progress progress(arguments, "", 8);
+    progress.show("testing friction", 2, 31);
+    progress.show("testing friction", 3, 31);
+    a_while();
+    hapsim::say(arguments, "said");
+    progress.show("");
+    progress.step();
+    progress.running("cycles auto");
+    a_while();
   }
   out.commit();
   return 0;

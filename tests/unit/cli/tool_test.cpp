@@ -140,10 +140,34 @@ TEST_F(Tool, ShowsProgressOnATerminalOnly) {
   expect("$S a --act progress", 0, "", "");
   HAPSIM_NEEDS_PROGRAM("script");
   const Outcome shown = work_.run("script -qec \"$S a --act progress\" /dev/null");
-  EXPECT_NE(shown.out.find("steps: "), std::string::npos) << shown.out;
-  EXPECT_NE(shown.out.find(" of 40, "), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("steps "), std::string::npos) << shown.out;
+  EXPECT_NE(shown.out.find("/40, about "), std::string::npos) << shown.out;
   EXPECT_TRUE(shown.out.ends_with("\r\033[K"));
   EXPECT_EQ(work_.run("script -qec \"$S -q a --act progress\" /dev/null").out, "");
+}
+
+// A step that takes long, one of a count, and names of what runs; a line that is said stands alone.
+TEST_F(Tool, ShowsWhatIsBeingDone) {
+  HAPSIM_NEEDS_PROGRAM("script");
+  const std::string shown = work_.run("script -qec \"$S a --act states\" /dev/null").out;
+  EXPECT_NE(shown.find("\rtesting friction 3/31, about "), std::string::npos) << shown;
+  EXPECT_NE(shown.find("\r1/8 done, about "), std::string::npos) << shown;
+  EXPECT_NE(shown.find("running: cycles auto"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("\r\033[Khs-sample: said\r\n"), std::string::npos) << shown;
+  expect("$S a --act states", 0, "", "hs-sample: said\n");
+}
+
+// Before the input is even read.
+TEST_F(Tool, ChecksItsOutputsBeforeTheWork) {
+  for (const char* flag : {"-o", "--other"}) {
+    const Outcome outcome = work_.run("$S missing " + std::string(flag) + " nowhere/x.csv");
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_EQ(outcome.err,
+              "hs-sample: nowhere/x.csv: cannot be created: No such file or directory; check the "
+              "name and that its folder exists\n");
+  }
+  EXPECT_EQ(work_.run("$S missing -o .").err,
+            "hs-sample: .: cannot be written: Is a directory; name a file, not a folder\n");
 }
 
 TEST_F(Tool, PrintsItsVersion) {
@@ -152,7 +176,7 @@ TEST_F(Tool, PrintsItsVersion) {
 }
 
 TEST_F(Tool, HelpFitsInEightyColumns) {
-  const Outcome help = work_.run("$S -h");
+  const Outcome help = work_.run("$S --help");
   EXPECT_EQ(help.code, 0);
   std::istringstream lines(help.out);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 81u) << line;
@@ -162,6 +186,26 @@ TEST_F(Tool, HelpFitsInEightyColumns) {
         "  5  reading or writing failed", "-o, --output FILE", "A number from -1 to 0.5.",
         "One of: m, mm, cm. Default: m."})
     EXPECT_NE(help.out.find(part), std::string::npos) << part;
+}
+
+TEST_F(Tool, ShortHelpIsAScreen) {
+  const Outcome help = work_.run("$S -h");
+  EXPECT_EQ(help.code, 0);
+  EXPECT_EQ(help.out,
+            "hs-sample: copy the input, for tests\n"
+            "\n"
+            "Usage: hs-sample [OPTIONS] [INPUT]\n"
+            "\n"
+            "  INPUT                   Any bytes. Standard input when absent or -.\n"
+            "\n"
+            "Options:\n"
+            "  --unit --ratio --threads --effects --other --echo --act -o,--output -q,--quiet\n"
+            "    -v,--verbose -h,--help --man -V,--version\n"
+            "\n"
+            "Examples:\n"
+            "  hs-sample data.csv -o copy.csv\n"
+            "\n"
+            "What each option does: hs-sample --help, or man hs-sample\n");
 }
 
 TEST_F(Tool, ManPageIsClean) {

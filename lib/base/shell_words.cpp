@@ -1,4 +1,4 @@
-#include "batch/shell_words.h"
+#include "base/shell_words.h"
 
 #include <algorithm>
 
