@@ -13,6 +13,7 @@
 #include "formats/tetmesh_io.h"
 #include "mesh/tetmesh.h"
 #include "model/search_state.h"
+#include "recording/contradictions.h"
 #include "recording/recording.h"
 #include "recording/tools_together.h"
 #include "shared_flags.h"
@@ -70,12 +71,25 @@ inline std::vector<Option> experiment_flags() {
   };
 }
 
+inline void say_other_radius(const Arguments& arguments, const Metadata& metadata,
+                             const std::string& name) {
+  const std::string words = other_radius_words(metadata, arguments[flag::tool_radius], name);
+  if (!words.empty()) say(arguments, words);
+}
+
 inline Recording load_recording(const Arguments& arguments, const std::string& path, bool forces) {
   Input input(path);
   Recording recording = read_recording(input, forces);
-  if (arguments.given(flag::tool_radius))
+  if (arguments.given(flag::tool_radius)) {
+    say_other_radius(arguments, recording.metadata, recording.name);
     recording.metadata.set("tool_radius", arguments.text(flag::tool_radius));
+  }
   recording.tool_radius();  // fails now when it is missing
+  if (forces && arguments.given(flag::noise))
+    if (const std::string words =
+            other_noise_words(recording, arguments[flag::noise], flag::noise.name);
+        !words.empty())
+      say(arguments, words);
   return recording;
 }
 

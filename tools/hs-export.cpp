@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "common_options.h"
+#include "exchange/deck_error.h"
 #include "exchange/scene.h"
 #include "formats/field_vtu.h"
 #include "formats/mesh_file.h"
@@ -144,11 +145,12 @@ int run(const Arguments& arguments) {
   if (solved && (scene.mesh.order == 2 || scene.finite))
     say(arguments, "hs-export",
         "hapsim averages the change of volume here and is less stiff; see hs-export(1)");
-  say(arguments, "hs-export",
+  const bool pressed = solved && !scene.tool.empty();
+  say(arguments,
       fmt::format("{} tetrahedra of order {}{}", scene.mesh.tets.size(), scene.mesh.order,
-                  scene.tool.empty() || !solved ? ""
-                                                : fmt::format(", {} nodes under the tool, {} steps",
-                                                              scene.tool.size(), scene.t.size())));
+                  pressed ? fmt::format(", {} steps", scene.t.size()) : ""));
+  if (pressed && !arguments.quiet())
+    say(arguments, deck_words(scene, deck_error(body, scene, recording, press.front())));
   return 0;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "cli/tool.h"
 #include "io/stream.h"
+#include "recording/contradictions.h"
 #include "shared_flags.h"
 
 namespace hapsim {
@@ -30,7 +31,12 @@ inline std::vector<Option> online_flags(const std::string& who) {
 // --tool-radius, or the stream's own [m].
 inline double stream_radius(const Arguments& arguments, const Metadata& metadata,
                             const std::string& name) {
-  if (arguments.given(flag::tool_radius)) return arguments[flag::tool_radius];
+  if (arguments.given(flag::tool_radius)) {
+    const double given = arguments[flag::tool_radius];
+    if (const std::string words = other_radius_words(metadata, given, name); !words.empty())
+      say(arguments, words);
+    return given;
+  }
   const double radius = metadata.number("tool_radius", name).value_or(0);
   if (!(radius > 0))
     fail_input(name, "the motion does not say its tool's radius", "give --tool-radius M [m]");

@@ -51,6 +51,26 @@ TermsRequest parse_terms(const std::optional<std::string>& terms,
   return asked;
 }
 
+void require_within_bounds(const std::vector<std::string>& fix) {
+  for (const std::string& what : fix) {
+    const std::size_t equals = what.find('=');
+    double value = 0;
+    if (equals == std::string::npos || !parse_number(what.substr(equals + 1), value)) continue;
+    const std::string name = what.substr(0, equals);
+    std::string bounds;
+    bool within = false;
+    for (const Effect* effect : catalogue())
+      for (const ParameterCard& p : effect->card().parameters) {
+        if (name != p.name && name != effect->card().name + "." + p.name) continue;
+        within = within || (value >= p.lower && value <= p.upper);
+        bounds += fmt::format("{}{:g} to {:g}", bounds.empty() ? "" : " or ", p.lower, p.upper);
+      }
+    if (!bounds.empty() && !within)
+      fail_usage(fmt::format("{} = {:g} is out of bounds", name, value),
+                 "give a value from " + bounds);
+  }
+}
+
 void set_poisson_range(const FitRequest& request, ExperimentOptions& options) {
   set_poisson_range(request.start, options);
   if (!request.start.parameters.empty()) return;

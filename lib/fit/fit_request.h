@@ -36,6 +36,10 @@ struct FitRequest {
   std::function<void(const std::string&)> say;  // what was chosen on the way; may be empty
 };
 
+// Error(kUsage) where a value of `fix` ("nu=0.45", "elastic.nu=0.45") lies outside the bounds of
+// every parameter of that name.
+void require_within_bounds(const std::vector<std::string>& fix);
+
 // The range of Poisson's ratio that will be asked: that of the start, or the value at which it is
 // fixed.
 void set_poisson_range(const FitRequest& request, ExperimentOptions& options);

@@ -28,7 +28,11 @@ export_to() { # CODE TEXT FORMAT MODEL ARGUMENTS...
 }
 well_formed() { xmllint --noout out 2>err || complain "$1 is XML"; } # the file out
 need xmllint
-export_to 0 'nodes under the tool, 20 steps' calculix elastic.csv
+export_to 0 'order 1, 20 steps' calculix elastic.csv
+grep -q 'nodes under the tool: this mesh is' err || complain 'what the mesh does under the tool is said'
+sed 's/0.006/0.001/' motion.csv >small.csv
+"$bin/hs-export" elastic.csv --format calculix --body body.ply --data small.csv -o small.inp 2>err
+grep -q 'warning: [0-9]* nodes* under the tool: this mesh is too coarse there, [0-9]* % s' err || complain 'a coarse deck is a warning'
 [[ $(grep -c '^\*STEP' out) == 20 ]] && grep -q '^TOOL, 3, 3, -1.2' out || complain 'the deepest row is a step'
 awk -F, '/^\*NODE,/ { n = 1; next } /^\*/ { n = 0 } n && (length($2) > 20 || length($4) > 21) { exit 1 }' out ||
   complain 'a field of CalculiX has 20 characters at most'

@@ -25,6 +25,7 @@ inline FitRequest asked_fit(const Arguments& arguments) {
   plan.terms = asked_terms(arguments);
   plan.say = [&arguments](const std::string& text) { say(arguments, "hs-identify", text); };
   plan.fix = arguments.list(flag::fix);
+  require_within_bounds(plan.fix);
   plan.automatic = arguments.list(flag::effects) == std::vector<std::string>{"auto"};
   if (plan.automatic && (arguments.given(flag::add) || arguments.given(flag::diagnosis)))
     fail_usage("--effects auto finds what to add by itself", "leave --add and --diagnosis out");

@@ -75,5 +75,12 @@ TEST(FitRequest, EffectsAreAddedOneAfterTheOther) {
   EXPECT_NEAR(unseen.pooled, 0.01, 0.001);  // the noise: nothing that positions do not share
 }
 
+TEST(FitRequest, FixedValuesOutOfBoundsAreRefusedBeforeTheFit) {
+  require_within_bounds({"nu=0.45", "E", "elastic.nu=0.3", "viscoelastic.tau1=0.5", "unknown=7"});
+  EXPECT_EQ(error_of([] { require_within_bounds({"nu=45"}); }, ExitCode::kUsage),
+            "nu = 45 is out of bounds; give a value from 0 to 0.499");
+  EXPECT_NE(error_of([] { require_within_bounds({"elastic.E=-3"}); }, ExitCode::kUsage), "");
+}
+
 }  // namespace
 }  // namespace hapsim
