@@ -20,7 +20,7 @@ again "$heart/fast.csv" >motion.csv
 again "$heart/fast.exact.csv" >exact.csv
 "$bin/hs-simulate" motion.csv --model "$heart/acfm.csv" -q -o alone.csv
 cat motion.csv | "$bin/hs-fuse" --live - --body "$heart/organ.ply" --model "$heart/organ.csv" \
-  --acfm "$heart/acfm.csv" --parameters "$heart/filter.csv" --rate "$rate" 2>said | cat >fused.csv
+  --acfm-model "$heart/acfm.csv" --parameters "$heart/filter.csv" --rate "$rate" 2>said | cat >fused.csv
 sed 's/^hs-fuse: //' said
 error() { # FILE: root mean square of a component, and the largest step in a millisecond
   paste -d, <(grep '^[0-9]' exact.csv | cut -d, -f1,9-11) <(grep '^[0-9]' "$1" | cut -d, -f9-11) |

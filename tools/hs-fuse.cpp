@@ -19,7 +19,7 @@
 
 namespace hapsim {
 namespace flag {
-inline constexpr FileFlag slow{"--slow"}, acfm{"--acfm"}, parameters{"--parameters"},
+inline constexpr FileFlag slow{"--slow"}, acfm{"--acfm-model"}, parameters{"--parameters"},
     learn{"--learn"}, exact{"--exact"};
 inline constexpr TimeFlag delay{"--delay"};
 inline constexpr SwitchFlag live{"--live"};
@@ -75,7 +75,7 @@ ToolSpec specification() {
        .maximum = 100},
       {.flag = flag::live,
        .help =
-           "Answers a motion line by line: --acfm is the fast source, finite elements of --model "
+           "Answers a motion line by line: --acfm-model is the fast source, finite elements of --model "
            "on --body run beside it at their own pace.",
        .group = "Live"},
       {.flag = flag::body,
@@ -138,7 +138,7 @@ ToolSpec specification() {
       {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --parameters filter.csv --exact fine.csv -o "
        "fused.csv",
        "Another motion with it, compared with the exact forces."},
-      {"hs-fuse --live motion.csv --body body.ply --model finite.csv --acfm acfm.csv --parameters "
+      {"hs-fuse --live motion.csv --body body.ply --model finite.csv --acfm-model acfm.csv --parameters "
        "filter.csv",
        "Finite elements beside a loop at 1 kHz."}};
   spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};

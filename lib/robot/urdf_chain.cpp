@@ -111,7 +111,7 @@ std::string only_end(const urdf::ModelInterface& model, const std::string& name)
   std::string list;
   for (const std::string& end : ends) list += (list.empty() ? "" : ", ") + end;
   fail_input(name, fmt::format("the robot ends in {} links", ends.size()),
-             "choose one by --tip: " + list.substr(0, 400));
+             "choose one by --tip-link: " + list.substr(0, 400));
 }
 
 ChainJoint convert(const urdf::Joint& joint, const std::string& name) {
@@ -130,11 +130,11 @@ ChainJoint convert(const urdf::Joint& joint, const std::string& name) {
     result.fixed = true;
     return result;
   }
-  if (joint.mimic) fail("follows another joint (mimic)", "choose a --tip before it");
+  if (joint.mimic) fail("follows another joint (mimic)", "choose a --tip-link before it");
   const bool slides = joint.type == urdf::Joint::PRISMATIC;
   const bool endless = joint.type == urdf::Joint::CONTINUOUS;
   if (!slides && !endless && joint.type != urdf::Joint::REVOLUTE) {
-    fail("neither turns nor slides about one axis", "choose a chain without it by --root, --tip");
+    fail("neither turns nor slides about one axis", "choose a chain without it by --root, --tip-link");
   }
   result.axis = Vec3(joint.axis.x, joint.axis.y, joint.axis.z);
   if (const double length = result.axis.norm(); !(length > 1e-6 && std::isfinite(length))) {
@@ -185,7 +185,7 @@ UrdfChain read_urdf_chain(const std::string& urdf, const std::string& name, cons
   if (std::all_of(chain.joints.begin(), chain.joints.end(),
                   [](const ChainJoint& j) { return j.fixed; })) {
     fail_input(name, "no joint moves between " + shown(chain.root) + " and " + shown(chain.tip),
-               "choose another --tip");
+               "choose another --tip-link");
   }
   return chain;
 }

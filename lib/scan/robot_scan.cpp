@@ -69,7 +69,7 @@ std::vector<std::string> joint_columns(const CsvTable& table, const Robot& robot
     fail_input(table.name,
                fmt::format("there is a column {} but {} moves only {} joints up to link {}", next,
                            robot.name(), columns.size(), robot.tip()),
-               "give the robot that was used, or another --tip");
+               "give the robot that was used, or another --tip-link");
   }
   return columns;
 }

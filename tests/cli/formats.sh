@@ -47,7 +47,7 @@ use() { # TOOL BODY
   hs-compare)
     "$tool" data.csv --simulated forces.csv --body "$body" --ply map.ply -q -o residuals.csv &&
       "$tool" --follow data.csv --accuracy 0.3 --body "$body" --model model.csv --rate 20 -q -o made.csv && cat map.ply >>made.csv ;;
-  hs-fuse) "$tool" --live fast.csv --body "$body" --model model.csv --acfm acfm.csv -q -o live.csv && grep -c '^1,' live.csv >made.csv ;;
+  hs-fuse) "$tool" --live fast.csv --body "$body" --model model.csv --acfm-model acfm.csv -q -o live.csv && grep -c '^1,' live.csv >made.csv ;;
   hs-link)
     : >far.err  # the last one's words are not this one's
     "$tool" --listen 0 --accuracy 0.3 --body "$body" --model model.csv --tool-radius 0.004 --idle 60 2>far.err &
@@ -148,7 +148,7 @@ done
 # A table may be called anything that promises nothing else.
 quiet hs-simulate motion.csv --body body.ply --model model.csv --own-mesh -o forces.new && cmp -s forces.csv forces.new || complain 'a table of another name'
 refused 2 '--format is febio' hs-export model.csv --body body.ply --format febio -o none.inp
-refused 2 'a plan is a table' hs-scan2ply points.ply --plan surface --robot none.urdf -o none.ply
+refused 2 'a plan is a table' hs-scan2ply points.ply --scan-plan surface --robot none.urdf -o none.ply
 
 ((failures == 0)) || { printf '%d failures\n' "$failures"; exit 1; }
 echo 'formats: passed'

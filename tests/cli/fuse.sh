@@ -35,12 +35,12 @@ awk 'BEGIN { print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
   complain 'no finite elements'
 awk -F, -v OFS=, '/^#/ || !h++ { print; next } { for (k = 9; k <= 11; ++k) $k *= 0.8; print }' truth.csv >soft.csv
 "$bin/hs-identify" soft.csv --body body.ply --acfm 0 -q -o acfm.csv 2>err || complain 'no analytical model'
-cat motion.csv | "$bin/hs-fuse" --live - --body body.ply --model model.csv --acfm acfm.csv 2>err | cat >live.csv
+cat motion.csv | "$bin/hs-fuse" --live - --body body.ply --model model.csv --acfm-model acfm.csv 2>err | cat >live.csv
 [[ $(grep -c '^[0-9]' live.csv) == 802 ]] || complain 'not every line was answered'
 grep -q '^hs-fuse: finite elements: [0-9]* samples' err && grep -q 'slow forces taken' err ||
   complain 'what the finite elements did is not told'
 # For a hand: no force above its limit, zero at the end.
-"$bin/hs-fuse" --live motion.csv --hand --max-force 0.1 --rate 1000 --body body.ply --model model.csv --acfm acfm.csv \
+"$bin/hs-fuse" --live motion.csv --hand --max-force 0.1 --rate 1000 --body body.ply --model model.csv --acfm-model acfm.csv \
   >hand.csv 2>err || complain 'no forces for a hand'
 awk -F, '/^[0-9]/ { if (sqrt($9 * $9 + $10 * $10 + $11 * $11) > 0.1) bad = 1; if (int($14) % 2 == 1) ++cut; ++n; f = $11 }
   END { exit bad || !cut || n != 803 || f != 0 }' hand.csv || complain 'a hand may feel more than its limit'
@@ -63,8 +63,8 @@ refuse() { # CODE TEXT ARGUMENTS...
     complain "exit $got, not $code with '$text': $*"
 }
 refuse 2 '--slow is required' fast.csv
-refuse 2 '--live needs --acfm' --live motion.csv --body body.ply --model model.csv
-refuse 2 'is of whole recordings' --live motion.csv --body body.ply --model model.csv --acfm acfm.csv --delay 0.1
+refuse 2 '--live needs --acfm-model' --live motion.csv --body body.ply --model model.csv
+refuse 2 'is of whole recordings' --live motion.csv --body body.ply --model model.csv --acfm-model acfm.csv --delay 0.1
 refuse 2 'is of the live mode' fast.csv --slow slow.csv --rate 100
 refuse 2 'leave one of them out' fast.csv --slow slow.csv --learn a.csv --parameters filter.csv
 sed 's/^3,/4,/' slow.csv >other.csv

@@ -41,7 +41,7 @@ awk -F, '!/^[#x]/ { y = 0.04 + 0.15 * ($1 - 0.03)
 sed -i '/,nu,/s/free/fixed/' start.csv
 tool=$bin/hs-identify name=hs-identify
 expect 0 'boundaries moved by' data.csv --body regions.ply --rim-edge 0.3 --noise 0.002 \
-  --model start.csv --boundary 5 --folds 0 -o m1.csv
+  --model start.csv --refine-boundary 5 --folds 0 -o m1.csv
 error() { sed -n 's/^# rmse: //p' "$1"; }
 awk -v plain="$(error m0.csv)" -v refined="$(error m1.csv)" 'BEGIN { exit !(refined < 0.2 * plain) }' ||
   complain "the error falls: $(error m0.csv), $(error m1.csv)"
@@ -55,7 +55,7 @@ done
 cmp -s body-forces.csv regions-forces.csv || complain 'labels change no force'
 hs-compare -q data.csv --simulated regions-forces.csv -o residuals.csv || complain 'the comparison'
 expect 3 'the model has no boundary between regions' data.csv "${common[@]}" --model m0.csv \
-  --boundary 5 --folds 0 -o no.csv
+  --refine-boundary 5 --folds 0 -o no.csv
 [[ ! -e no.csv ]] || complain 'a refused run leaves nothing behind'
 
 ((failures == 0)) && echo 'all as expected'

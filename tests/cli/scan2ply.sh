@@ -125,24 +125,24 @@ else
   complain 'robot.sh fails'
 fi
 # Planned points come back from their joint angles.
-setup=(--robot "$example/arm.urdf" --tip sensor --mount 0.02,0,0.015 --object 0.45,0.05,0.10,0,0,0.4)
+setup=(--robot "$example/arm.urdf" --tip-link sensor --mount 0.02,0,0.015 --object-frame 0.45,0.05,0.10,0,0,0.4)
 "$bin/hs-scan2ply" -q plan.csv "${setup[@]}" --keep-outliers --ascii -o back.ply
 paste -d, <(grep -v '^[#q]' plan.csv) <(awk '/^end_header/ { on = 1; next } on { print $1 "," $2 "," $3 }' back.ply) |
   awk -F, '{ if (($8 - $14) ^ 2 + ($9 - $15) ^ 2 + ($10 - $16) ^ 2 > 1e-18) exit 1 }' || complain 'plan and back'
-expect 0 'out of reach: 1.0000,0.0000,0.0000' --robot "$example/arm.urdf" --plan grid --region 0.4,0,1,0 --pitch 0.1 -o grid.csv
-expect 1 'out of reach' --robot "$example/arm.urdf" --plan grid --region 0.4,0,1,0 --pitch 0.1 --check -o grid.csv
-expect 4 'none of 11 places can be reached' --robot "$example/arm.urdf" --plan grid --region 4,0,5,0 --pitch 0.1 -o none.csv
+expect 0 'out of reach: 1.0000,0.0000,0.0000' --robot "$example/arm.urdf" --scan-plan grid --area 0.4,0,1,0 --pitch 0.1 -o grid.csv
+expect 1 'out of reach' --robot "$example/arm.urdf" --scan-plan grid --area 0.4,0,1,0 --pitch 0.1 --check -o grid.csv
+expect 4 'none of 11 places can be reached' --robot "$example/arm.urdf" --scan-plan grid --area 4,0,5,0 --pitch 0.1 -o none.csv
 printf 'X,Y,Z\n0.4,0,0.1\n0.45,0.05,0.12\n' >press.csv
-expect 0 '2 poses, 0 of 2' press.csv --robot "$example/arm.urdf" --plan positions --bar 0.12 -o press-plan.csv
+expect 0 '2 poses, 0 of 2' press.csv --robot "$example/arm.urdf" --scan-plan positions --bar 0.12 -o press-plan.csv
 "$bin/hs-scan2ply" -q press-plan.csv --robot "$example/arm.urdf" --bar 0.12 2>.err
 grep -q 'only 2 different points' .err || complain 'a plan of two presses is read again'
-expect 2 'add --robot' --plan grid
+expect 2 'add --robot' --scan-plan grid
 expect 2 'holds 2 numbers' driven.csv "${setup[@]}" --beam 0,1
 refuse "column 'q1' is missing" dome.csv "${setup[@]}"
 refuse 'cells are not finite numbers' <(printf 'q1,q2,q3,q4,q5,q6,d\n0,0,0,0,0,0,\n0,0,0,0,0,0,x\n') "${setup[@]}"
 head -c 900 "$example/arm.urdf" >cut.urdf
 refuse 'cannot be read as URDF' driven.csv --robot cut.urdf
-refuse "no link 'senser'; did you mean 'sensor'?" driven.csv --robot "$example/arm.urdf" --tip senser
+refuse "no link 'senser'; did you mean 'sensor'?" driven.csv --robot "$example/arm.urdf" --tip-link senser
 
 ((failures == 0)) && echo 'all as expected'
 exit $((failures > 0))

@@ -11,7 +11,7 @@ inline constexpr FileFlag simulated{"--simulated"}, html{"--html"}, figures{"--f
     events{"--events"};
 inline constexpr LengthFlag reach{"--reach"};
 inline constexpr TextFlag title{"--title"}, fail_above{"--fail-above"};
-inline constexpr SwitchFlag follow{"--follow"}, hold{"--hold"};
+inline constexpr SwitchFlag follow{"--follow"}, hold{"--keep-model"};
 inline constexpr NumberFlag rate{"--rate"}, false_alarms{"--false-alarms"};
 inline constexpr TimeFlag learning{"--learning"};
 }  // namespace flag

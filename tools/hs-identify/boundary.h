@@ -1,4 +1,4 @@
-// hs-identify --boundary: the boundaries between regions move with their moduli.
+// hs-identify --refine-boundary: the boundaries between regions move with their moduli.
 #pragma once
 
 #include "cli/tool.h"

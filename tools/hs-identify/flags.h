@@ -14,7 +14,7 @@ inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"-
     regions{"--regions"};
 inline constexpr TimesFlag windows{"--windows"};
 inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"}, memory{"--memory"},
-    boundary{"--boundary"}, starts{"--starts"}, seed{"--seed"};
+    boundary{"--refine-boundary"}, starts{"--starts"}, seed{"--seed"};
 inline constexpr SwitchFlag stiffening{"--stiffening"}, profile{"--profile"}, follow{"--follow"},
     resume{"--resume"};
 inline constexpr ChoiceFlag robust{"--robust"};

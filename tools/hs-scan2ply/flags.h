@@ -12,15 +12,15 @@ inline constexpr LengthFlag spacing{"--spacing"}, most_drift{"--most-drift"},
     section_distance{"--section-distance"};
 inline constexpr ForceFlag touch_force{"--touch-force"};
 inline constexpr PressureFlag touch_modulus{"--touch-modulus"};
-inline constexpr PoseFlag mount{"--mount"}, object{"--object"};
-inline constexpr LengthsFlag range{"--range"}, region{"--region"};
+inline constexpr PoseFlag mount{"--mount"}, object{"--object-frame"};
+inline constexpr LengthsFlag range{"--range"}, region{"--area"};
 inline constexpr NumberFlag touch_stiffness{"--touch-stiffness"}, touch_nu{"--touch-nu"},
     steepest{"--steepest"}, threshold{"--threshold"};
 inline constexpr SwitchFlag keep_outliers{"--keep-outliers"}, ascii{"--ascii"},
     register_{"--register"}, flat_tip{"--flat-tip"}, check{"--check"}, below{"--below"},
     all_parts{"--all-parts"}, cavities{"--cavities"}, sections{"--sections"};
-inline constexpr TextFlag fix_zone{"--fix-zone"}, root{"--root"}, tip{"--tip"}, beam{"--beam"};
-inline constexpr ChoiceFlag unit{"--unit"}, angle_unit{"--angle-unit"}, plan{"--plan"};
+inline constexpr TextFlag fix_zone{"--fix-zone"}, root{"--root"}, tip{"--tip-link"}, beam{"--beam"};
+inline constexpr ChoiceFlag unit{"--unit"}, angle_unit{"--angle-unit"}, plan{"--scan-plan"};
 inline constexpr FileFlag json{"--json"}, zone{"--zone"}, robot{"--robot"};
 }  // namespace flag
 

@@ -74,20 +74,20 @@ Robot load_robot(const Arguments& arguments) {
 }
 
 int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
-  if (file.robot == nullptr) fail_usage("--plan needs a robot", "add --robot FILE.urdf");
+  if (file.robot == nullptr) fail_usage("--scan-plan needs a robot", "add --robot FILE.urdf");
   const std::string what = arguments[flag::plan];
   const double pitch = arguments[flag::pitch];
   std::optional<Region> region;
   if (arguments.given(flag::region)) {
     const std::vector<double> r = numbers(arguments, flag::region, {4});
     if (!(r[0] <= r[2] && r[1] <= r[3])) {
-      fail_usage("--region ends before it begins", "write --region X0,Y0,X1,Y1");
+      fail_usage("--area ends before it begins", "write --area X0,Y0,X1,Y1");
     }
     region = {{r[0], r[1], r[2], r[3]}};
   }
   std::vector<Target> targets;
   if (what == "grid") {
-    if (!region) fail_usage("--plan grid needs a region", "add --region X0,Y0,X1,Y1");
+    if (!region) fail_usage("--scan-plan grid needs a region", "add --area X0,Y0,X1,Y1");
     if ((region->at(2) - region->at(0)) * (region->at(3) - region->at(1)) > 1e6 * pitch * pitch) {
       fail_usage("the grid would have more than a million places", "give a larger --pitch");
     }
@@ -118,7 +118,7 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
   if (plan.poses.empty()) {
     fail_numerics(file.robot->name(),
                   fmt::format("none of {} places can be reached", targets.size()),
-                  "check --object, --tip, --mount and --region");
+                  "check --object-frame, --tip-link, --mount and --area");
   }
   Output output(arguments.output());
   write_plan(output.stream(), *file.robot, targets, plan, standoff);

@@ -98,7 +98,7 @@ inline std::vector<Option> scan2ply_options() {
       {{.flag = flag::plan,
         .value = "WHAT",
         .help = "Writes joint angles instead: a raster over the input's surface, a level grid over "
-                "--region, or one pose a row of the input.",
+                "--area, or one pose a row of the input.",
         .choices = {"surface", "grid", "positions"}},
        number_option(flag::pitch, "M", "Distance of raster points [m].", 1e-5, 1, "0.005"),
        number_option(flag::standoff, "M",
@@ -143,7 +143,7 @@ inline ToolSpec scan2ply_specification() {
       "or, for a patch seen from one side, upward.",
       "Robots: with --robot the table holds joint angles q1..qN (or the joints' names) and the "
       "laser's distance d; points are the forward kinematics' sensor place plus d along the beam. "
-      "With --bar they are the end of a touching bar. --plan goes the other way: joint angles that "
+      "With --bar they are the end of a touching bar. --scan-plan goes the other way: joint angles that "
       "put the sensor --standoff off each place, its beam against the normal (free to turn about "
       "it); what is out of reach is named on standard error. Neither collisions nor the way "
       "between "
@@ -175,7 +175,7 @@ inline ToolSpec scan2ply_specification() {
         {"section, contour", "number of a section, name of a contour in it; x, y, z along it"}}},
       {"Output, PLY element vertex",
        {{"x, y, z", "point [m], double"}, {"nx, ny, nz", "outward unit normal, double"}}},
-      {"Output with --plan",
+      {"Output with --scan-plan",
        {{"q1, q2, ...", "joint angles [rad], or [m] of a sliding joint"},
         {"d", "distance that the sensor should read there [m]"},
         {"x, y, z, nx, ny, nz", "place [m] and outward normal in the object's frame"}}}};
@@ -183,7 +183,7 @@ inline ToolSpec scan2ply_specification() {
       {"hs-scan2ply scan.csv | hs-reconstruct | hs-tetmesh -o body.ply", "A body from a scan."},
       {"hs-scan2ply touched.csv --unit mm --spacing 0.001 -o points.ply",
        "Millimetres; at most one point a cubic millimetre."},
-      {"hs-scan2ply coarse.ply --robot arm.urdf --plan surface --pitch 0.004 -o plan.csv",
+      {"hs-scan2ply coarse.ply --robot arm.urdf --scan-plan surface --pitch 0.004 -o plan.csv",
        "Joint angles for a raster 4 mm apart."},
       {"hs-scan2ply driven.csv --robot arm.urdf --range 0.02,0.3 -o points.ply",
        "What the laser saw there."},

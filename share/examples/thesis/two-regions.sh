@@ -33,7 +33,7 @@ grep -E '  *E |E \(region|: error' said.txt || true
 awk -F, '$1 == "regions" && $3 ~ /^y/ { ++n; right += $2 == ($4 > 0.1) }
   END { printf "places in the right region: %d of %d (the thesis: all 20)\n", right, n }' model.csv
 # The boundary by eight points, moved with the moduli until the forces fit.
-hs-identify data.csv --body block.ply --model model.csv --boundary 8 --folds 0 -o boundary.csv 2>moved.txt
+hs-identify data.csv --body block.ply --model model.csv --refine-boundary 8 --folds 0 -o boundary.csv 2>moved.txt
 grep -E '  *E |E \(region|: error [0-9.]* N =' moved.txt || true
 # Half-way between the points of the one region and the other, inside the block: root mean square from y = 100 mm.
 off=$(awk -F, '$1 == "regions" { v[$2, $3] = $4 }

@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# help.sh BIN: -h of every tool is a screen, with the command's use, what is required and an example; --help
+# has every option of it with an explanation; a word means the same in all tools.
+set -uo pipefail
+bin=$1
+failures=0
+complain() { echo "FAILED: $1"; failures=$((failures + 1)); }
+words=$(mktemp)
+trap 'rm -f "$words"' EXIT
+
+for path in "$bin"/hs-*; do
+  tool=${path##*/}
+  [[ $tool != hs-sample ]] || continue
+  short=$("$path" -h) full=$("$path" --help)
+  lines=$(wc -l <<<"$short")
+  ((lines <= 30)) || complain "$tool -h has $lines lines"
+  for part in "Usage: $tool " 'Options:' 'Examples:' "--help, or man $tool"; do
+    grep -qF -- "$part" <<<"$short" || complain "$tool -h has no '$part'"
+  done
+  long=$(awk '!/^  hs-|^  make|^  [a-z]/ && length > 84' <<<"$short")
+  [[ -z $long ]] || complain "$tool -h is wider than a terminal: $long"
+  for flag in $(awk '/^Options:/ {on = 1; next} /^$/ {on = 0} on' <<<"$short" | grep -oE -- '--[a-z][a-z0-9-]*'); do
+    grep -qE -- "^  (-., )?$flag( |$)" <<<"$full" || complain "$tool --help does not explain $flag"
+  done
+  # flag and the name of its value, of all tools
+  awk '/^[A-Z]/ {on = /^Options/} on' <<<"$full" | grep -oE -- '^  (-., )?--[a-z][a-z0-9-]*( [A-Z][A-Z0-9,:|=.]*)?' | sed "s/^  *\(-., \)*//; s/$/ ($tool)/" >>"$words"
+done
+
+# A word with values of two kinds means two things. PREFIX is the beginning of the FILEs that are written.
+sed -i 's/ PREFIX / FILE /' "$words"
+two=$(awk '{ value = NF > 2 ? $2 : "-"; if (!($1 in of)) of[$1] = value; else if (of[$1] != value) print $1 ": " of[$1] " and " value " " $NF }' "$words")
+[[ -z $two ]] || complain "words with two meanings: $two"
+echo "$(wc -l <"$words") options, $failures failures"
+((failures == 0))
