@@ -1,7 +1,11 @@
 #include "compare/comparison_report.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 
+#include "base/shell_words.h"
 #include "compare/report_body.h"
 #include "compare/report_tables.h"
 #include "compare/wording.h"
@@ -19,6 +23,33 @@ std::string model_verdict(const Report& report) {
       return row.verdict;
     }
   return "";
+}
+
+// What the last diagnosis asks for; without one, a diagnosis.
+void add_next(const Recording& measured, const ReportExtras& extras, Report& report) {
+  if (report.diagnoses.empty()) {
+    std::string command = "hs-diagnose " + shell_quoted(measured.name);
+    for (const char* kind : {"body", "model"}) {
+      const auto file = std::find_if(extras.files.begin(), extras.files.end(),
+                                     [&](const auto& known) { return known.first == kind; });
+      report.next_is_command = report.next_is_command && file != extras.files.end();
+      command += fmt::format(" --{} {}", kind,
+                             file == extras.files.end() ? "FILE" : shell_quoted(file->second));
+    }
+    report.next = command + " -o effects.csv";
+    return;
+  }
+  for (const DiagnosisRow& row : report.diagnoses.back().rows) {
+    if (row.verdict == "missing") {
+      report.next = row.command;
+      return;
+    }
+    if (row.verdict != "indistinguishable") continue;
+    for (const auto& [name, text] : row.notes)
+      if (name == kNextMeasurement) report.next = "to tell them apart: " + text;
+    report.next_is_command = false;
+    return;
+  }
 }
 
 void add_provenance(const Recording& measured, const std::vector<SimulatedVersion>& versions,
@@ -54,9 +85,12 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
   report.verdict = verdict_line(c) + (diagnosed.empty() ? "" : " The model is " + diagnosed);
   report.good = diagnosed.empty() ? only_noise_left(c) : diagnosed.rfind("complete", 0) == 0;
   for (const Observation& o : c.observations) report.sentences.push_back(o.sentence);
+  add_next(measured, extras, report);
   add_numbers(c, simulated.metadata, report);
   if (extras.model) add_parameters(*extras.model, report);
   add_body(c, map, extras.model ? &*extras.model : nullptr, report);
+  if (versions.size() > 1)
+    add_body_before(compare(measured, versions.front().recording), map, report);
   add_presses(measured, versions, c, report);
   add_residual_plots(measured, simulated, c, report);
   add_tables(c, report);

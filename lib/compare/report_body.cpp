@@ -99,4 +99,21 @@ void add_body(const Comparison& c, const ErrorMap& map, const Model* model, Repo
     report.body.layers.push_back(region_layer(c, map, *model));
 }
 
+void add_body_before(const Comparison& before, const ErrorMap& map, Report& report) {
+  if (map.surface.faces.empty() || before.facts.positions.size() != report.body.positions.size())
+    return;
+  ErrorMap earlier = map;
+  std::vector<double> error;
+  for (const BinError& e : before.by_position().errors) error.push_back(e.rmse);
+  // The same surface and reach, so that vertices are the same.
+  earlier.error = map_error(map.surface, before.facts.positions, error, map.reach).error;
+  if (earlier.error.size() != map.error.size()) return;
+  BodyLayer layer = error_layer(before, earlier);
+  layer.name = "error before";
+  layer.note = "Typical error of the first version's presses near by, on the same scale.";
+  BodyLayer& now = report.body.layers.front();
+  now.top = layer.top = std::max(now.top, layer.top);
+  report.body.layers.insert(report.body.layers.begin() + 1, layer);
+}
+
 }  // namespace hapsim

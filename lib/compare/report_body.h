@@ -25,4 +25,7 @@ BodyLayer error_layer(const Comparison& comparison, const ErrorMap& map);
 void add_body(const Comparison& comparison, const ErrorMap& map, const Model* model,
               Report& report);
 
+// The error of an earlier version, on the same scale as that of the compared one.
+void add_body_before(const Comparison& before, const ErrorMap& map, Report& report);
+
 }  // namespace hapsim

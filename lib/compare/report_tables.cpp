@@ -56,9 +56,11 @@ void add_history(const CsvTable& table, Report& report) {
                                                                  : column[r]);
     }
     report.history.rows.push_back(cells);
-    report.versions.push_back({"", number_or_nan(table, "rmse", r),
-                               number_or_nan(table, "heldout", r),
-                               number_or_nan(table, "noise", r)});
+    const int effects = table.find("effects");
+    report.versions.push_back(
+        {effects < 0 ? "" : table.columns[static_cast<std::size_t>(effects)][r],
+         number_or_nan(table, "rmse", r), number_or_nan(table, "heldout", r),
+         number_or_nan(table, "noise", r)});
   }
   for (std::string& name : report.history.columns)
     if (name == "rmse" || name == "heldout" || name == "noise" || name == "force_rms")
@@ -91,7 +93,7 @@ void add_diagnosis(const CsvTable& table, const std::string& version, Report& re
           cell("confused_with", r));
     for (const auto& [column, name] :
          {std::pair{"where", "where it acts"}, std::pair{"evidence", "evidence"},
-          std::pair{"next_measurement", "what to measure next"}})
+          std::pair{"next_measurement", kNextMeasurement}})
       if (!cell(column, r).empty()) row.notes.emplace_back(name, cell(column, r));
     row.command = cell("command", r);
     report.diagnoses.back().rows.push_back(std::move(row));
@@ -129,7 +131,7 @@ void add_tables(const Comparison& c, Report& report) {
     all.clear();
     for (std::size_t i = 0; i < b.errors.size(); ++i) all.push_back(static_cast<int>(i));
     const bool positions = &b == &c.by_position();
-    report.tables.push_back(report_table(b, positions ? "position (x, y, z)" : "",
+    report.tables.push_back(report_table(b, positions ? "position (x, y, z)" : "group",
                                          positions ? c.worst_positions() : all, positions));
   }
   ReportTable& first = report.tables.front();

@@ -10,6 +10,8 @@
 
 namespace hapsim {
 
+inline constexpr const char* kNextMeasurement = "what to measure next";  // name of a note
+
 // Model versions from a table of hs-identify --history: its cells, fractions to four digits, and
 // the errors rmse, heldout and noise [N] of each version; NaN where a column or a number is
 // missing.

@@ -7,5 +7,6 @@ extern const char* const kStyle;
 extern const char* const kPresses;
 extern const char* const kBody;
 extern const char* const kTable;
+extern const char* const kCopy;
 
 }  // namespace hapsim::assets

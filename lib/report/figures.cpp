@@ -40,18 +40,57 @@ Plot versions_plot(const Report& report) {
   return plot;
 }
 
+namespace {
+
+// The part of the force along its own direction at the peak.
+std::vector<double> along(const ReportPress& press, const std::vector<Vec3>& f) {
+  std::vector<double> y;
+  for (const Vec3& v : f) y.push_back(press.direction.dot(v));
+  return y;
+}
+
+double squares(const ReportPress& press, const std::vector<Vec3>& simulated) {
+  double sum = 0;
+  for (std::size_t i = 0; i < press.measured.size(); ++i)
+    sum += (press.measured[i] - simulated[i]).squaredNorm();
+  return sum / static_cast<double>(std::max<std::size_t>(1, press.measured.size()));
+}
+
+}  // namespace
+
+const ReportPress& deciding_press(const Report& report) {
+  const ReportPress* worst = &report.presses.front();
+  for (const ReportPress& p : report.presses)
+    if (!p.simulated.empty() &&
+        squares(p, p.simulated.front()) > squares(*worst, worst->simulated.front()))
+      worst = &p;
+  return *worst;
+}
+
+Plot deciding_plot(const Report& report) {
+  const ReportPress& press = deciding_press(report);
+  Plot plot(560, 320, report.time_label, "force [N]");
+  plot.title(fmt::format("press {}, where the {} most", press.id,
+                         press.simulated.size() > 1 ? "first model fails" : "model fails"));
+  plot.include_y(0);
+  plot.line(press.t, along(press, press.measured), {"#1b2733", 2.2}, "measured");
+  for (const std::size_t v : {std::size_t{0}, press.simulated.size() - 1}) {
+    if (v >= press.simulated.size()) break;
+    plot.line(press.t, along(press, press.simulated[v]),
+              {version_line_colour(report, v), 2, 1, v + 1 < press.simulated.size() ? "5 3" : ""},
+              report.curves[v]);
+    if (press.simulated.size() == 1) break;
+  }
+  return plot;
+}
+
 Plot press_plot(const Report& report, const ReportPress& press) {
   Plot plot(362, 190, report.time_label, "force [N]");
   plot.title(fmt::format("press {}, error {:.3g} N", press.id, press.rmse));
   plot.include_y(0);
-  const auto along = [&](const std::vector<Vec3>& f) {
-    std::vector<double> y;
-    for (const Vec3& v : f) y.push_back(press.direction.dot(v));
-    return y;
-  };
-  plot.line(press.t, along(press.measured), {"#1b2733", 1.6});
+  plot.line(press.t, along(press, press.measured), {"#1b2733", 1.6});
   for (std::size_t v = 0; v < press.simulated.size(); ++v)
-    plot.line(press.t, along(press.simulated[v]), {version_line_colour(report, v), 1.5});
+    plot.line(press.t, along(press, press.simulated[v]), {version_line_colour(report, v), 1.5});
   return plot;
 }
 

@@ -11,6 +11,9 @@
 namespace hapsim {
 
 Plot versions_plot(const Report& report);  // errors by model version; report.versions not empty
+// The press that the first version fails most at; report.presses not empty.
+const ReportPress& deciding_press(const Report& report);
+Plot deciding_plot(const Report& report);  // of it: measured, before and after
 Plot press_plot(const Report& report, const ReportPress& press);  // along the force at its peak
 // Residual `k` of the report; all share one force scale.
 Plot residual_plot(const Report& report, std::size_t k);

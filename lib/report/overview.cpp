@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "base/median.h"
 #include "report/assets.h"
@@ -61,6 +62,25 @@ std::vector<std::pair<std::string, std::vector<OverviewRow>>> by_effects(const O
   return groups;
 }
 
+// "viscoelastic missing in 5 of 5, friction in 1", the most frequent first; empty where nothing is.
+std::string missing_words(const std::vector<OverviewRow>& rows) {
+  std::map<std::string, int> count;
+  int diagnosed = 0;
+  for (const OverviewRow& row : rows) {
+    diagnosed += row.verdict.empty() ? 0 : 1;
+    std::istringstream names(row.missing);
+    for (std::string name; names >> name;) ++count[name];
+  }
+  std::vector<std::pair<std::string, int>> order(count.begin(), count.end());
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::string words;
+  for (const auto& [name, times] : order)
+    words += words.empty() ? fmt::format("{} missing in {} of {}", name, times, diagnosed)
+                           : fmt::format(", {} in {}", name, times);
+  return words;
+}
+
 Report header_of(const Overview& o) {
   const Common c = common_of(o.rows);
   Report report;
@@ -78,6 +98,8 @@ Report header_of(const Overview& o) {
   add("median error, unseen", c.held_out, " N", "on positions left out of the fit");
   if (!c.verdicts.empty())
     report.numbers.push_back({"models complete", std::to_string(c.complete), c.verdicts});
+  if (const std::string missing = missing_words(o.rows); !missing.empty())
+    report.sentences.push_back(missing + ".");
   return report;
 }
 
@@ -89,7 +111,8 @@ std::string page_groups(const Overview& o) {
   const auto groups = by_effects(o);
   if (groups.empty()) return "";
   std::string out =
-      "<section><h2>By the effects asked for</h2><div class='scroll'><table><thead><tr>"
+      "<section><h2>By the effects asked for</h2><div class='scroll' "
+      "tabindex='0'><table><thead><tr>"
       "<th>effects</th><th class='n'>recordings</th><th class='n'>median error [N]</th>"
       "<th class='n'>over noise</th><th class='n'>unseen [N]</th><th>models</th></tr></thead>"
       "<tbody>\n";
@@ -109,7 +132,9 @@ std::string page_rows(const Overview& o) {
   std::stable_sort(order.begin(), order.end(),
                    [](const auto* a, const auto* b) { return a->rmse > b->rmse; });
   std::string out =
-      "<section><h2>Recordings, largest error first</h2><div class='scroll'>"
+      "<section><h2>Recordings, largest error first</h2><p class='picker'><label for='filter'>only "
+      "rows with</label><input id='filter' placeholder='incomplete, friction, a name'><span "
+      "id='count'></span></p><div class='scroll' tabindex='0'>"
       "<table class='sortable'><thead><tr><th>recording</th><th class='n'>rmse [N]</th>"
       "<th class='n'>over noise</th><th class='n'>unseen [N]</th><th class='n'>E [Pa]</th>"
       "<th class='n'>nu</th><th>effects</th><th>verdict</th><th>missing</th></tr></thead><tbody>\n";
@@ -165,6 +190,8 @@ std::vector<std::string> overview_lines(const Overview& overview) {
         c.verdicts.empty() ? "" : "; models: " + c.verdicts));
   };
   add("", overview.rows);
+  if (const std::string missing = missing_words(overview.rows); !missing.empty())
+    lines.push_back(missing);
   for (const auto& [asked, rows] : by_effects(overview))
     add(fmt::format("{} ({}): ", asked, rows.size()), rows);
   return lines;
@@ -173,8 +200,9 @@ std::vector<std::string> overview_lines(const Overview& overview) {
 void write_overview(std::ostream& out, const Overview& overview) {
   const Report header = header_of(overview);
   write_head(out, header.title);
-  out << page_header(header) << page_failures(overview) << page_groups(overview)
-      << page_rows(overview) << page_provenance(header) << "<script>\n"
+  out << page_header(header) << page_numbers(header) << page_failures(overview)
+      << page_groups(overview) << page_rows(overview) << page_provenance(header)
+      << "</main>\n<script>\n"
       << assets::kTable << "</script>\n</body></html>\n";
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/assets.h"
+#include "report/figures.h"
 #include "report/html.h"
 
 namespace hapsim {
@@ -11,17 +12,31 @@ std::string page_header(const Report& report) {
   std::string out =
       fmt::format("<header><h1>{}</h1><p class='verdict{}'>{}</p>", escape_html(report.title),
                   report.good ? " good" : "", escape_html(report.verdict));
-  out += "<div class='numbers'>";
+  out += page_strip(report) + page_next(report);
+  const std::string body = page_body(report);
+  const bool plot = !report.presses.empty() && !report.curves.empty();
+  if (!plot && body.empty()) return out + "</header>\n";
+  out += fmt::format("<div class='first{}'>", plot && !body.empty() ? " both" : "");
+  if (plot)
+    out += "<section><h2>Where it is decided</h2><figure>" + deciding_plot(report).svg() +
+           "<div class='note'>" + escape_html(deciding_press(report).place) +
+           "</div></figure></section>\n";
+  return out + body + "</div></header>\n";
+}
+
+std::string page_numbers(const Report& report) {
+  if (report.numbers.empty() && report.sentences.empty()) return "";
+  std::string out = "<section><div class='numbers'>";
   for (const KeyNumber& n : report.numbers)
     out += fmt::format("<div><span>{}</span><b>{}</b><small>{}</small></div>", escape_html(n.label),
                        escape_html(n.value), escape_html(n.note));
   out += "</div>";
   if (!report.sentences.empty()) {
-    out += "<h3>What the error depends on</h3><ul class='findings'>";
+    out += "<h2 class='plain'>What the error depends on</h2><ul class='findings'>";
     for (const std::string& s : report.sentences) out += "<li>" + escape_html(s) + "</li>";
     out += "</ul>";
   }
-  return out + "</header>\n";
+  return out + "</section>\n";
 }
 
 std::string page_reading(const Report&) {
@@ -66,15 +81,16 @@ void write_head(std::ostream& out, const std::string& title) {
          "<meta http-equiv='Content-Security-Policy' content=\"default-src 'none'; "
          "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:\">"
       << "<title>" << escape_html(title) << "</title>\n<style>\n"
-      << assets::kStyle << "</style></head><body>\n";
+      << assets::kStyle << "</style></head><body><main>\n";
 }
 
 void write_report(std::ostream& out, const Report& report) {
   write_head(out, report.title);
-  out << page_header(report) << page_versions(report) << page_diagnosis(report)
-      << page_parameters(report) << page_body(report) << page_presses(report)
+  out << page_header(report) << page_numbers(report) << page_versions(report)
+      << page_diagnosis(report) << page_parameters(report) << page_presses(report)
       << page_residuals(report) << page_tables(report) << page_reading(report)
-      << page_provenance(report);
+      << page_provenance(report) << "</main>\n";
+  if (!report.next.empty()) out << "<script>\n" << assets::kCopy << "</script>\n";
   if (!report.presses.empty()) out << "<script>\n" << assets::kPresses << "</script>\n";
   if (!report.body.faces.empty()) out << "<script>\n" << assets::kBody << "</script>\n";
   out << "</body></html>\n";

@@ -11,6 +11,10 @@ namespace hapsim {
 // From the document type to the beginning of the body, with the style.
 void write_head(std::ostream& out, const std::string& title);
 std::string page_header(const Report& report);
+// The versions of the model side by side, each with what it adds and its error on unseen data.
+std::string page_strip(const Report& report);
+std::string page_next(const Report& report);  // the next step, with a button that copies it
+std::string page_numbers(const Report& report);
 std::string page_versions(const Report& report);
 std::string page_parameters(const Report& report);
 std::string page_diagnosis(const Report& report);

@@ -99,8 +99,8 @@ std::string scale_bar(const BodyLayer& layer, std::size_t number, int height) {
 
 std::string colour_bar(const BodyLayer& layer, std::size_t number, int height) {
   std::string out = fmt::format(
-      "<svg class='plot bar{0}'{1} viewBox='0 0 110 {2}' width='110' height='{2}'>"
-      "<text x='0' y='12' class='title'>{3}</text>",
+      "<svg class='plot bar{0}'{1} viewBox='0 0 110 {2}' width='110' height='{2}' role='img' "
+      "aria-label='colours of {3}'><text x='0' y='12' class='title'>{3}</text>",
       number, number == 0 ? "" : " hidden", height, escape_html(layer.title));
   out +=
       layer.scale == BodyLayer::Scale::kKinds ? kinds_bar(layer) : scale_bar(layer, number, height);
@@ -212,6 +212,8 @@ std::string plan(const ReportBody& body) {
   return "<figure>" + plot.svg() + "</figure>";
 }
 
+constexpr int kBarHeight = 330;  // as the stage's in report.css
+
 }  // namespace
 
 std::string page_body(const Report& report) {
@@ -227,16 +229,21 @@ std::string page_body(const Report& report) {
   if (body.layers.size() > 1) {
     out += "<div class='layers' id='layers'>colour by ";
     for (std::size_t k = 0; k < body.layers.size(); ++k)
-      out += fmt::format("<button data-layer='{}'{}>{}</button>", k, k == 0 ? " class='on'" : "",
-                         escape_html(body.layers[k].name));
+      out += fmt::format("<button data-layer='{}' aria-pressed='{}'{}>{}</button>", k, k == 0,
+                         k == 0 ? " class='on'" : "", escape_html(body.layers[k].name));
     out += "</div>";
   }
   out += "<p class='note'><span id='layernote'>" + escape_html(body.layers.front().note) +
          "</span> Circles are the pressed positions, 1 to 3 the worst; a click shows its presses "
          "below. <span id='tip'>Drag to turn, ctrl + wheel to zoom, double click to "
-         "reset.</span></p><div class='body3d'><div class='stage' id='stage'><canvas "
-         "class='surface'></canvas><canvas class='marks'></canvas></div><div id='bars'>";
-  for (std::size_t k = 0; k < body.layers.size(); ++k) out += colour_bar(body.layers[k], k, 480);
+         "reset; or arrow keys, + and -.</span></p><div class='body3d'><div class='stage' "
+         "id='stage' tabindex='0' "
+         "role='application' aria-label='The body, coloured by error: arrow keys turn it, plus and "
+         "minus zoom, Home resets, N goes to the next pressed position'><canvas class='surface' "
+         "aria-hidden='true'></canvas><canvas class='marks' aria-hidden='true'></canvas></div><div "
+         "id='bars'>";
+  for (std::size_t k = 0; k < body.layers.size(); ++k)
+    out += colour_bar(body.layers[k], k, kBarHeight);
   return out + "</div></div>" + viewer_data(body) + "</section>\n";
 }
 

@@ -16,7 +16,10 @@ constexpr std::size_t kBest = 2;
 
 std::string small_plot(const Report& report, std::size_t index) {
   const ReportPress& press = report.presses[index];
-  return fmt::format("<figure data-press='{}' title='show all of it below'>", index) +
+  return fmt::format(
+             "<figure data-press='{}' tabindex='0' role='button' "
+             "aria-label='show all of press {} below'>",
+             index, press.id) +
          press_plot(report, press).svg() + "<div class='note'>" + escape_html(press.place) +
          "</div></figure>";
 }
@@ -86,14 +89,15 @@ std::string page_presses(const Report& report) {
   }
   out +=
       "<div class='picker'><label for='pick'><b>Any press</b></label><button id='before' "
-      "title='previous'>&#8592;</button><select id='pick'>";
+      "title='previous' aria-label='previous press'>&#8592;</button><select id='pick'>";
   for (std::size_t i = 0; i < report.presses.size(); ++i) {
     const ReportPress& p = report.presses[i];
     out += fmt::format("<option value='{}'{}>press {}, error {:.3g} N, {}</option>", i,
                        i == order[0] ? " selected" : "", p.id, p.rmse, escape_html(p.place));
   }
   out +=
-      "</select><button id='after' title='next'>&#8594;</button></div><div class='readout' "
+      "</select><button id='after' title='next' aria-label='next press'>&#8594;</button></div><div "
+      "class='readout' "
       "id='readout'></div><div id='press'></div>";
   return out + press_data(report) + "</section>\n";
 }

@@ -12,6 +12,9 @@
 namespace hapsim {
 namespace {
 
+// Wide tables scroll, by keys too.
+constexpr const char* kScroll = "<div class='scroll' tabindex='0'>";
+
 // Numbers stand at the right, under each other.
 bool numeric(const std::string& cell) {
   double value = 0;
@@ -20,7 +23,7 @@ bool numeric(const std::string& cell) {
 }
 
 std::string table(const ReportTable& t, const std::string& caption) {
-  std::string out = "<div class='scroll'><table>";
+  std::string out = kScroll + std::string("<table>");
   if (!caption.empty()) out += "<caption>" + escape_html(caption) + "</caption>";
   std::vector<bool> right(t.columns.size(), false);
   for (std::size_t c = 0; c < t.columns.size(); ++c) {
@@ -34,7 +37,7 @@ std::string table(const ReportTable& t, const std::string& caption) {
   out += "<thead><tr>";
   for (std::size_t c = 0; c < t.columns.size(); ++c)
     out += fmt::format("<th{}>{}</th>", right[c] ? " class='n'" : "", escape_html(t.columns[c]));
-  if (!t.bar.empty()) out += "<th></th>";
+  if (!t.bar.empty()) out += "<th><span class='unseen'>error as a bar</span></th>";
   out += "</tr></thead><tbody>";
   for (std::size_t r = 0; r < t.rows.size(); ++r) {
     out += "<tr>";

@@ -166,6 +166,12 @@ std::string Plot::legend(const Frame& f) const {
   return out;
 }
 
+// For those who do not see it.
+std::string Plot::name() const {
+  const std::string axes = y_label_ + " over " + x_label_;
+  return title_.empty() ? axes : title_ + ": " + axes;
+}
+
 std::string Plot::svg() const {
   const bool has_legend = std::any_of(elements_.begin(), elements_.end(),
                                       [](const Element& e) { return !e.legend.empty(); });
@@ -188,9 +194,10 @@ std::string Plot::svg() const {
     std::erase_if(f.x.at, [](double v) { return std::abs(v - std::round(v)) > 1e-9; });
     f.x.decimals = 0;
   }
-  std::string out =
-      fmt::format("<svg class='plot' viewBox='0 0 {0} {1}' width='{0}' height='{1}' role='img'>",
-                  width_, height_);
+  std::string out = fmt::format(
+      "<svg class='plot' viewBox='0 0 {0} {1}' width='{0}' height='{1}' role='img' "
+      "aria-label='{2}'>",
+      width_, height_, escape_html(name()));
   out += axes(f);
   for (const Element& e : elements_) out += draw(e, f);
   return out + legend(f) + "</svg>";

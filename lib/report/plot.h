@@ -43,6 +43,7 @@ class Plot {
     std::string legend;
   };
   struct Frame;
+  std::string name() const;
   std::string draw(const Element& element, const Frame& frame) const;
   std::string axes(const Frame& frame) const;
   std::string legend(const Frame& frame) const;

@@ -95,8 +95,10 @@ struct ReportDiagnosis {
 
 struct Report {
   std::string title;
-  std::string verdict;  // one line
-  bool good = false;    // colours the verdict
+  std::string verdict;          // one line
+  bool good = false;            // colours the verdict
+  std::string next;             // the next step: most often a command
+  bool next_is_command = true;  // it can be copied
   std::vector<KeyNumber> numbers;
   std::vector<std::string> sentences;
   ReportTable history;     // no rows: not shown

@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
-# report.sh BIN: the report in a browser: it draws, a click on a press or a position changes the
-# plots, a button changes the colours, and the console stays silent.
+# report.sh BIN: the report in a browser, as wide as a desk's screen and a phone's: it draws, a click or a key on
+# a press or a position changes the plots, a button changes the colours, everything has a name and can be read,
+# the first screen holds the verdict, the versions, the next command, a curve and the body, and the console stays
+# silent.
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
 browser=$(command -v chromium || command -v chromium-browser || command -v google-chrome) || need chromium
 
@@ -30,9 +32,20 @@ recording() { # GAIN
 }
 recording 1 >data.csv
 recording 1.2 >simulated.csv
+recording 2 >first.csv
+cat >history.csv <<'END'
+step,model,effects,parameters,rmse,heldout,noise,force_rms
+0,m.csv: elastic,elastic,2,0.2,0.21,0.005,0.4
+1,m.csv,elastic+regions,3,0.05,0.06,0.005,0.4
+END
+cat >effects.csv <<'END'
+rank,effect,verdict,rmse_now,rmse_after,heldout_now,heldout_after,p_value,confused_with,where,evidence,next_measurement,command
+0,model,incomplete,0.05,0.01,0.06,0.01,,,,missing: friction.,,
+1,friction,missing,0.05,0.01,0.06,0.01,0.001,,sideways,most of it,press sideways,hs-identify data.csv --body body.ply --model model.csv --add friction -o better.csv
+END
 "$bin/hs-tetmesh" box.off -q -o body.ply 2>err || complain 'no body'
-"$bin/hs-compare" data.csv --simulated simulated.csv --body body.ply --model model.csv -q \
-  --html report.html --figures figure- -o residuals.csv 2>err || complain 'no report'
+"$bin/hs-compare" data.csv --simulated first=first.csv --simulated now=simulated.csv --body body.ply --model model.csv -q \
+  --history history.csv --diagnosis effects.csv --html report.html --figures figure- -o residuals.csv 2>err || complain 'no report'
 [[ $(ls figure-*.svg | wc -l) -ge 8 ]] || complain "figures: $(ls figure-*)"
 [[ $(stat -c %s report.html) -lt 5000000 ]] || complain 'the report is larger than 5 MB'
 
@@ -64,33 +77,82 @@ window.addEventListener("load", () => setTimeout(() => {
   stage.setPointerCapture = () => {};
   pointer("pointerdown", 300, 300); pointer("pointermove", 360, 320); pointer("pointerup", 360, 320);
   say("turned", pixels() !== was);
+  const key = (type, name) => document.getElementById(type).dispatchEvent(new KeyboardEvent("keydown", { key: name, bubbles: true }));
+  const before_keys = pixels();
+  key("stage", "ArrowLeft"); key("stage", "+");
+  say("keys", pixels() !== before_keys);
+  const last = figures[figures.length - 1];
+  last.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
+  say("enter", pick.value === last.dataset.press);
+  document.getElementById("copy").click();
+  scrollTo(0, 0);
+  say("named", [...document.querySelectorAll("svg[role=img], button, select, [role=button], [role=application]")].filter(e =>
+    !(e.getAttribute("aria-label") || e.textContent.trim() || (e.labels && e.labels.length))).length);
+  say("heads", [...document.querySelectorAll("th")].filter(h => !h.textContent.trim()).length);
+  say("reach", [...document.querySelectorAll(".scroll, #stage, figure[data-press]")].filter(e => e.tabIndex < 0).length);
+  // Contrast of text by WCAG 2, against the nearest background.
+  const light = colour => colour.map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
+  const rgb = text => text.match(/[\d.]+/g).map(Number);
+  const behind = e => { for (; e; e = e.parentElement) { const c = rgb(getComputedStyle(e).backgroundColor); if (c.length < 4 || c[3] > 0) return c; } return [255, 255, 255]; };
+  const faint = [...document.querySelectorAll("body *")].filter(e => [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) && !e.closest("script, style, pre#probe")).filter(e => {
+    const style = getComputedStyle(e), ink = e.closest("svg") ? style.fill : style.color;
+    if (!ink.startsWith("rgb")) return false;
+    const a = light(rgb(ink)), b = light(behind(e));
+    return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05) < 4.5;
+  });
+  say("faint", faint.length + (faint.length ? " " + faint[0].tagName + " " + faint[0].textContent.slice(0, 40) : ""));
+  say("width", document.documentElement.scrollWidth <= innerWidth);
+  say("inner", innerWidth);
+  const seen = selector => { const e = document.querySelector(selector), box = e && e.getBoundingClientRect(); return box && box.top < innerHeight && box.height > 20 ? Math.round(box.bottom) : "no"; };
+  say("screen", [".verdict", ".strip", ".next", ".first figure", "#stage"].map(seen).every(b => b !== "no" && b <= innerHeight));
+  say("bottoms", [".verdict", ".strip", ".next", ".first figure", "#stage"].map(seen).join(" "));
   say("errors", window.hapsimErrors.join(";"));
   const out = document.createElement("pre");
   out.textContent = lines.join("\n");
-  document.body.appendChild(out);
+  parent.document.body.appendChild(out);
 }, 100));
 END
 awk 'NR == FNR { script = script $0 "\n"; next }
      { at = index($0, "<head>"); if (at) { print substr($0, 1, at + 5); printf "<script>%s</script>\n", script; print substr($0, at + 6) } else print }' \
   probe.js report.html >probed.html
-"$browser" --headless --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
-  --user-data-dir="$work/profile" --enable-logging=stderr --virtual-time-budget=5000 \
-  --window-size=1300,1600 --dump-dom "file://$work/probed.html" >dom.html 2>browser.err ||
-  complain 'the browser failed'
 seen() { # NAME VALUE
   grep -q "probe $1=$2\$" dom.html || grep -q "probe $1=$2<" dom.html ||
-    complain "$1 is not $2: $(grep -o "probe $1=[^<]*" dom.html)"
+    complain "$width px: $1 is not $2: $(grep -o "probe $1=[^<]*" dom.html)"
 }
-seen curves true
-seen figure true
-seen position true
-seen layers 'error+stiffness+regions'
-seen colours 3
-seen bars 1
-seen turned true
-grep -q 'probe errors=' dom.html && ! grep -q 'probe errors=[^<]' dom.html || complain "errors: $(grep -o 'probe errors=[^<]*' dom.html)"
-grep CONSOLE browser.err && complain 'the console speaks'
+# A desk and a phone: in a frame of that size, for the browser's own window has a least width.
+sed 's/&/\&amp;/g; s/"/\&quot;/g' probed.html >escaped
+for size in 1280x800 390x844; do
+  width=${size%x*}
+  { printf '<!DOCTYPE html><body style="margin:0"><iframe style="border:0" width="%s" height="%s" srcdoc="' "$width" "${size#*x}"
+    cat escaped
+    printf '"></iframe></body>'; } >framed.html
+  "$browser" --headless --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader \
+    --hide-scrollbars --user-data-dir="$work/profile" --enable-logging=stderr --virtual-time-budget=5000 \
+    --window-size=1300,1000 --dump-dom "file://$work/framed.html" >dom.html 2>browser.err ||
+    complain 'the browser failed'
+  seen inner "$width"
+  seen curves true
+  seen figure true
+  seen position true
+  seen layers 'error+error before+stiffness+regions'
+  seen colours 4
+  seen bars 1
+  seen turned true
+  seen keys true
+  seen enter true
+  seen named 0
+  seen heads 0
+  seen reach 0
+  seen faint 0
+  seen width true
+  seen screen true
+  grep -q 'probe errors=' dom.html && ! grep -q 'probe errors=[^<]' dom.html || complain "errors: $(grep -o 'probe errors=[^<]*' dom.html)"
+  grep CONSOLE browser.err && complain 'the console speaks'
+done
 grep -q '19706 to 2.029e+04\|1.971e+04 to 2.029e+04' report.html || complain 'no interval of E'
+grep -q "<li><span>+ regions</span><b>0.06 N</b>" report.html || complain 'no strip of versions'
+grep -q "<code id='next'>hs-identify data.csv .* --add friction -o better.csv</code>" report.html || complain 'no next command'
 
 ((failures == 0)) && echo 'all as expected'
 exit $((failures > 0))

@@ -1,6 +1,4 @@
 // hs-compare: measured against simulated forces, row by row, and what the difference depends on.
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -109,7 +107,7 @@ int run(const Arguments& arguments) {
     open(arguments[flag::json]) << comparison_json(c, measured.name, simulated.name);
   if (arguments.given(flag::ply))
     write_ply(open(arguments[flag::ply]), coloured_ply(map, top_error(c)));
-  if (arguments.given(flag::output) || isatty(STDOUT_FILENO) != 1)
+  if (result_is_wanted(arguments))
     write_recording(open(arguments.output()), with_residuals(measured, simulated.f));
   for (const auto& output : outputs) output->stream().flush();
   std::for_each(outputs.rbegin(), outputs.rend(), [](auto& output) { output->commit(); });

@@ -85,7 +85,7 @@
       gl.uniform3fv(gl.getUniformLocation(program, "stops"), layer.stops.flat().map(v => v / 255));
     }
     document.getElementById("layernote").textContent = layer.note;
-    document.querySelectorAll("#layers button").forEach((b, i) => b.classList.toggle("on", i === k));
+    document.querySelectorAll("#layers button").forEach((b, i) => { b.classList.toggle("on", i === k); b.setAttribute("aria-pressed", i === k); });
     document.querySelectorAll("#bars svg").forEach((bar, i) => bar.toggleAttribute("hidden", i !== k));
     draw();
   }
@@ -160,7 +160,7 @@
       return;
     }
     const hit = hit_at(e);
-    tip.textContent = hit ? hit.p.label : "Drag to turn, ctrl + wheel to zoom, double click to reset.";
+    tip.textContent = hit ? hit.p.label : "Drag to turn, ctrl + wheel to zoom, double click to reset; or arrow keys, + and -.";
   };
   stage.addEventListener("wheel", e => {
     if (!e.ctrlKey) return;
@@ -169,6 +169,21 @@
     draw();
   }, { passive: false });
   stage.ondblclick = () => { view = { ...start }; draw(); };
+  const turns = { ArrowLeft: ["yaw", -0.15], ArrowRight: ["yaw", 0.15], ArrowUp: ["pitch", -0.15], ArrowDown: ["pitch", 0.15] };
+  stage.addEventListener("keydown", e => {
+    if (turns[e.key]) view[turns[e.key][0]] += turns[e.key][1];
+    else if (e.key === "+" || e.key === "-") view.zoom *= e.key === "+" ? 1.2 : 1 / 1.2;
+    else if (e.key === "Home") view = { ...start };
+    else if (e.key === "n" || e.key === "N") {
+      const next = (chosen + 1) % data.positions.length;
+      tip.textContent = data.positions[next].label;
+      window.dispatchEvent(new CustomEvent("hapsim-position", { detail: next }));
+    } else return;
+    e.preventDefault();
+    view.pitch = Math.max(-1.57, Math.min(1.57, view.pitch));
+    view.zoom = Math.max(0.4, Math.min(12, view.zoom));
+    draw();
+  });
   window.addEventListener("resize", draw);
   if (!gl) tip.textContent = "This browser has no WebGL 2: only the pressed positions are shown.";
   document.querySelectorAll("#layers button").forEach((b, k) => { b.onclick = () => show(k); });

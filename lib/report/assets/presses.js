@@ -47,7 +47,7 @@
     const p = data.presses[pick.value], unit = data.unit, n = p.s.length;
     t = p.t;
     host.textContent = "";
-    svg = make("svg", { viewBox: `0 0 ${W} 600`, class: "plot", width: W, height: 600 }, host);
+    svg = make("svg", { viewBox: `0 0 ${W} 600`, class: "plot", width: W, height: 600, role: "img", "aria-label": "the chosen press: " + pick.selectedOptions[0].textContent }, host);
     const real = list => list.map(v => v * unit);
     panels = [];
     let X, top = 8;
@@ -62,7 +62,7 @@
     const last = n - 1;
     const residual = [0, 1, 2].map(k => ({ colour: ["#0072b2", "#009e73", "#d55e00"][k], width: 1.2, y: p.m[k].map((v, i) => (v - p.s[last][k][i]) * unit) }));
     panel(top, 118, "residual [N]", residual);
-    ["x", "y", "z"].forEach((name, k) => make("text", { x: W - right - 54 + 20 * k, y: top + 12, style: `fill:${residual[k].colour};font-weight:600` }, svg, name));
+    ["x", "y", "z"].forEach((name, k) => make("text", { x: W - right - 54 + 20 * k, y: top + 12, style: `fill:${["#005a8c", "#00664a", "#a34700"][k]};font-weight:600` }, svg, name));
     const s = ticks(t[0], t[t.length - 1] || 1, 12);
     for (const v of s.out) {
       make("path", { d: `M${X(v)} ${top + 118}v4`, class: "axis" }, svg);
@@ -89,6 +89,7 @@
   const reveal = () => host.parentElement.querySelector(".picker").scrollIntoView({ block: "nearest" });
   document.querySelectorAll("figure[data-press]").forEach(f => {
     f.onclick = () => { choose(Number(f.dataset.press)); reveal(); };
+    f.onkeydown = e => { if (e.key === "Enter" || e.key === " ") { e.preventDefault(); f.click(); } };
   });
   window.addEventListener("hapsim-position", e => {
     const there = data.presses.map((p, i) => i).filter(i => data.presses[i].p === e.detail);

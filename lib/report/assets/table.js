@@ -1,11 +1,15 @@
-// A click on the head of a column sorts the table by it; a second click turns the order round.
+// The head of a column sorts the table by it, by click or key; again it turns the order round. A word in
+// the filter leaves the rows that have it.
 for (const table of document.querySelectorAll("table.sortable")) {
-  const body = table.tBodies[0];
-  [...table.tHead.rows[0].cells].forEach((head, column) => {
-    head.style.cursor = "pointer";
-    head.addEventListener("click", () => {
-      const down = head.dataset.down !== "1";
-      head.dataset.down = down ? "1" : "";
+  const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
+  heads.forEach((head, column) => {
+    const button = document.createElement("button");
+    button.append(...head.childNodes);
+    head.append(button);
+    button.addEventListener("click", () => {
+      const down = head.getAttribute("aria-sort") !== "descending";
+      for (const other of heads) other.removeAttribute("aria-sort");
+      head.setAttribute("aria-sort", down ? "descending" : "ascending");
       const text = (row) => row.cells[column].textContent;
       const order = head.classList.contains("n")
         ? (a, b) => (parseFloat(text(b)) || 0) - (parseFloat(text(a)) || 0)
@@ -14,5 +18,15 @@ for (const table of document.querySelectorAll("table.sortable")) {
       if (!down) rows.reverse();
       body.append(...rows);
     });
+  });
+  const filter = document.getElementById("filter"), count = document.getElementById("count");
+  filter.addEventListener("input", () => {
+    const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+    let shown = 0;
+    for (const row of body.rows) {
+      row.hidden = !words.every(w => row.textContent.toLowerCase().includes(w));
+      shown += !row.hidden;
+    }
+    count.textContent = shown + " of " + body.rows.length;
   });
 }

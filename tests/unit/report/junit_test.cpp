@@ -59,5 +59,20 @@ TEST(Overview, EachKindOfModelHasItsOwnMedian) {
   EXPECT_TRUE(overview_lines({}).empty());
 }
 
+TEST(Overview, CountsWhatIsMissing) {
+  Overview page;
+  page.rows = {{"a", "", "elastic", "incomplete", "viscoelastic friction"},
+               {"b", "", "elastic", "incomplete", "viscoelastic"},
+               {"c", "", "elastic", "complete", ""},
+               {"d", "", "elastic", "", ""}};
+  const std::vector<std::string> lines = overview_lines(page);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines.front(), "viscoelastic missing in 2 of 3, friction in 1");
+  std::ostringstream out;
+  write_overview(out, page);
+  EXPECT_NE(out.str().find("viscoelastic missing in 2 of 3, friction in 1."), std::string::npos);
+  EXPECT_NE(out.str().find("id='filter'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hapsim

@@ -10,6 +10,7 @@ namespace {
 Report full_report(const std::string& word) {
   Report r;
   r.title = r.verdict = word;
+  r.next = word;
   r.numbers = {{word, word, word}};
   r.sentences = {word};
   r.history = {word, {word, "rmse"}, {{word, "0.1"}, {word, "0.05"}}, {}};
@@ -74,14 +75,43 @@ TEST(Page, SectionsComeInOrder) {
   const std::string text = page(full_report("word"));
   std::size_t last = 0;
   for (const char* title :
-       {"Model versions and their errors", "Which physical effect is missing",
-        "Parameters of the model", "The body, coloured", "Force over time", "Residual along",
-        "Where the error is", "How to read", "Where this comes"}) {
+       {"Where it is decided", "The body, coloured", "Model versions and their errors",
+        "Which physical effect is missing", "Parameters of the model", "Force over time",
+        "Residual along", "Where the error is", "How to read", "Where this comes"}) {
     const std::size_t at = text.find(std::string("<h2>") + title);
     ASSERT_NE(at, std::string::npos) << title;
     EXPECT_GT(at, last);
     last = at;
   }
+}
+
+// The story: what each version adds, by its error on unseen data, and what comes next.
+TEST(Page, BeginsWithTheVersionsAndTheNextStep) {
+  Report r = full_report("word");
+  r.versions = {{"elastic", 0.08, 0.0796, 0.01},
+                {"elastic+sensor-drift", 0.04, 0.0395, 0.01},
+                {"elastic+sensor-drift+viscoelastic", 0.01, 0.0102, 0.01}};
+  r.next = "hs-identify a.csv --add <b>";
+  const std::string text = page(r);
+  const std::string strip = text.substr(text.find("<ol class='strip'"));
+  EXPECT_NE(strip.find("<li><span>elastic</span><b>0.0796 N</b>"), std::string::npos);
+  EXPECT_NE(strip.find("<li><span>+ sensor-drift</span><b>0.0395 N</b>"), std::string::npos);
+  EXPECT_NE(strip.find("<li class='good'><span>+ viscoelastic</span><b>0.0102 N</b>"),
+            std::string::npos);
+  EXPECT_NE(
+      strip.find("<code id='next'>hs-identify a.csv --add &lt;b&gt;</code><button id='copy'>"),
+      std::string::npos);
+  r.next_is_command = false;
+  EXPECT_EQ(page(r).find("id='copy'"), std::string::npos);
+}
+
+TEST(Page, EveryPlotAndControlHasAName) {
+  const std::string text = page(full_report("word"));
+  for (std::size_t at = 0; (at = text.find("<svg ", at)) != std::string::npos; ++at)
+    EXPECT_NE(text.substr(at, text.find('>', at) - at).find("aria-label='"), std::string::npos)
+        << text.substr(at, 120);
+  EXPECT_NE(text.find("tabindex='0' role='application' aria-label='The body"), std::string::npos);
+  EXPECT_EQ(text.find("<th></th>"), std::string::npos);
 }
 
 TEST(Page, LeavesOutWhatIsNotThere) {
