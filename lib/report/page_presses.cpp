@@ -16,12 +16,10 @@ constexpr std::size_t kBest = 2;
 
 std::string small_plot(const Report& report, std::size_t index) {
   const ReportPress& press = report.presses[index];
-  return fmt::format(
-             "<figure data-press='{}' tabindex='0' role='button' "
-             "aria-label='show all of press {} below'>",
-             index, press.id) +
-         press_plot(report, press).svg() + "<div class='note'>" + escape_html(press.place) +
-         "</div></figure>";
+  return fmt::format("<figure data-press='{}'>", index) + press_plot(report, press).svg() +
+         "<div class='note'>" + escape_html(press.place) +
+         fmt::format(" <button title='all of press {}, below'>all of it</button></div></figure>",
+                     press.id);
 }
 
 // Forces as integers of a common unit: short, and exact to a 20,000th of the largest.

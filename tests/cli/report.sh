@@ -82,14 +82,14 @@ window.addEventListener("load", () => setTimeout(() => {
   key("stage", "ArrowLeft"); key("stage", "+");
   say("keys", pixels() !== before_keys);
   const last = figures[figures.length - 1];
-  last.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
-  say("enter", pick.value === last.dataset.press);
+  last.querySelector("button").click();
+  say("all of it", pick.value === last.dataset.press);
   document.getElementById("copy").click();
   scrollTo(0, 0);
   say("named", [...document.querySelectorAll("svg[role=img], button, select, [role=button], [role=application]")].filter(e =>
     !(e.getAttribute("aria-label") || e.textContent.trim() || (e.labels && e.labels.length))).length);
   say("heads", [...document.querySelectorAll("th")].filter(h => !h.textContent.trim()).length);
-  say("reach", [...document.querySelectorAll(".scroll, #stage, figure[data-press]")].filter(e => e.tabIndex < 0).length);
+  say("reach", [...document.querySelectorAll(".scroll, #stage")].filter(e => e.tabIndex < 0).length);
   // Contrast of text by WCAG 2, against the nearest background.
   const light = colour => colour.map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
     .reduce((sum, v, k) => sum + v * [0.2126, 0.7152, 0.0722][k], 0);
@@ -140,7 +140,7 @@ for size in 1280x800 390x844; do
   seen bars 1
   seen turned true
   seen keys true
-  seen enter true
+  seen 'all of it' true
   seen named 0
   seen heads 0
   seen reach 0

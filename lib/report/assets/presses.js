@@ -89,7 +89,6 @@
   const reveal = () => host.parentElement.querySelector(".picker").scrollIntoView({ block: "nearest" });
   document.querySelectorAll("figure[data-press]").forEach(f => {
     f.onclick = () => { choose(Number(f.dataset.press)); reveal(); };
-    f.onkeydown = e => { if (e.key === "Enter" || e.key === " ") { e.preventDefault(); f.click(); } };
   });
   window.addEventListener("hapsim-position", e => {
     const there = data.presses.map((p, i) => i).filter(i => data.presses[i].p === e.detail);
