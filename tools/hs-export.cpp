@@ -149,8 +149,12 @@ int run(const Arguments& arguments) {
   say(arguments,
       fmt::format("{} tetrahedra of order {}{}", scene.mesh.tets.size(), scene.mesh.order,
                   pressed ? fmt::format(", {} steps", scene.t.size()) : ""));
-  if (pressed && !arguments.quiet())
+  if (!pressed || arguments.quiet()) return 0;
+  try {
     say(arguments, deck_words(scene, deck_error(body, scene, recording, press.front())));
+  } catch (const Error& error) {  // the deck is right all the same
+    say(arguments, std::string("what its mesh does to the force is not known: ") + error.what());
+  }
   return 0;
 }
 

@@ -8,6 +8,7 @@
 namespace hapsim {
 namespace {
 
+constexpr const char* kNext = "Next:  ";
 constexpr std::size_t kIndent = 2, kLabel = 9;  // columns before and of an item's label
 
 struct MarkLook {
@@ -62,10 +63,16 @@ std::vector<std::string> summary_lines(const Summary& s) {
   for (const std::string& note : s.notes) add_paragraph(lines, note, kIndent);
   if (!s.next.empty()) {
     lines.emplace_back();
-    lines.push_back("Next:  " + s.next);
+    lines.push_back(kNext + s.next);
   }
   if (!s.details.empty()) lines.push_back(s.details);
   return lines;
+}
+
+void say_next(const Arguments& arguments, const std::string& command) {
+  if (arguments.quiet() || command.empty()) return;
+  clear_progress_line();
+  std::fprintf(stderr, "%s%s\n", kNext, command.c_str());
 }
 
 void say_summary(const Arguments& arguments, const Summary& summary) {

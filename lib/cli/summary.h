@@ -29,6 +29,9 @@ struct Summary {
 // The verdict first; nothing but the command is wider than kTextWidth.
 std::vector<std::string> summary_lines(const Summary& summary);
 
+// The last line alone, of a tool that says the rest in sentences; nothing for "".
+void say_next(const Arguments& arguments, const std::string& command);
+
 // On standard error, unless --quiet; the verdict in colour on a terminal.
 void say_summary(const Arguments& arguments, const Summary& summary);
 

@@ -25,30 +25,37 @@ std::string model_verdict(const Report& report) {
   return "";
 }
 
-// What the last diagnosis asks for; without one, a diagnosis.
+// A command on the recording with the body and the model of the report; FILE where it has none, and
+// then it is no command to copy.
+void set_command(const std::string& tool, const Recording& measured, const ReportExtras& extras,
+                 const std::string& output, Report& report) {
+  report.next = tool + " " + shell_quoted(measured.name);
+  for (const char* kind : {"body", "model"}) {
+    const auto file = std::find_if(extras.files.begin(), extras.files.end(),
+                                   [&](const auto& known) { return known.first == kind; });
+    const bool known = file != extras.files.end();
+    report.next_is_command = report.next_is_command && known;
+    report.next += fmt::format(" --{} {}", kind, known ? shell_quoted(file->second) : "FILE");
+  }
+  report.next += " -o " + output;
+}
+
+// What the last diagnosis asks for; without one, a diagnosis; of a complete model, its use.
 void add_next(const Recording& measured, const ReportExtras& extras, Report& report) {
   if (report.diagnoses.empty()) {
-    std::string command = "hs-diagnose " + shell_quoted(measured.name);
-    for (const char* kind : {"body", "model"}) {
-      const auto file = std::find_if(extras.files.begin(), extras.files.end(),
-                                     [&](const auto& known) { return known.first == kind; });
-      report.next_is_command = report.next_is_command && file != extras.files.end();
-      command += fmt::format(" --{} {}", kind,
-                             file == extras.files.end() ? "FILE" : shell_quoted(file->second));
-    }
-    report.next = command + " -o effects.csv";
+    set_command("hs-diagnose", measured, extras, "effects.csv", report);
     return;
   }
   for (const DiagnosisRow& row : report.diagnoses.back().rows) {
-    if (row.verdict == "missing") {
-      report.next = row.command;
-      return;
+    if (row.effect == "model" && row.verdict == "complete")
+      set_command("hs-simulate", measured, extras, "forces.csv", report);
+    if (row.verdict == "missing") report.next = row.command;
+    if (row.verdict == "indistinguishable") {
+      report.next_is_command = false;
+      for (const auto& [name, text] : row.notes)
+        if (name == kNextMeasurement) report.next = "to tell them apart: " + text;
     }
-    if (row.verdict != "indistinguishable") continue;
-    for (const auto& [name, text] : row.notes)
-      if (name == kNextMeasurement) report.next = "to tell them apart: " + text;
-    report.next_is_command = false;
-    return;
+    if (!report.next.empty()) return;
   }
 }
 

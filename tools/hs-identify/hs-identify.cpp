@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/shell_words.h"
+#include "cli/summary.h"
 #include "common_options.h"
 #include "diagnose/improve.h"
 #include "diagnose/wording.h"
@@ -101,6 +103,17 @@ void refuse_other_flags(const Arguments& arguments) {
                  "leave one of them out");
   if (arguments.list(flag::body).size() > 1)
     fail_usage("--follow is for one body", "give --body once");
+}
+
+// A diagnosis of the model, or its use where the diagnosis is done; "" where there is no file of
+// it.
+std::string next_command(const Arguments& arguments, const FitRequest& plan) {
+  if (arguments.output() == "-" || arguments.input() == "-" || arguments.given(flag::data))
+    return "";
+  return fmt::format("{} {} --body {} --model {}{}", plan.automatic ? "hs-simulate" : "hs-diagnose",
+                     shell_quoted(arguments.input()), shell_quoted(arguments.list(flag::body)[0]),
+                     shell_quoted(arguments.output()),
+                     plan.automatic ? " -o forces.csv" : " -o effects.csv");
 }
 
 int run(const Arguments& arguments) {
@@ -226,6 +239,7 @@ int run(const Arguments& arguments) {
   if (!cut_short.empty())
     fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,
                   "the model that was fitted is written: go on from it with --model");
+  say_next(arguments, next_command(arguments, plan));
   return 0;
 }
 

@@ -41,6 +41,52 @@ const KeyNumber* number_named(const Report& report, const std::string& label) {
   return found == report.numbers.end() ? nullptr : &*found;
 }
 
+// A diagnosis without one, what it asks for with one, the model's use where that is nothing.
+TEST(ComparisonReport, SaysTheNextStep) {
+  const Compared c = compared(12, 0.5);
+  ReportExtras extras;
+  const auto report = [&] {
+    return comparison_report(c.measured, c.versions, c.comparison, ErrorMap{}, extras);
+  };
+  EXPECT_FALSE(report().next_is_command);  // of which model?
+  extras.files = {{"body", "my body.ply"}, {"model", "m0.csv"}};
+  EXPECT_TRUE(report().next_is_command);
+  EXPECT_EQ(report().next, "hs-diagnose " + c.measured.name +
+                               " --body 'my body.ply' --model m0.csv -o effects.csv");
+  const auto diagnosed = [&](const std::string& rows) {
+    extras.diagnoses = {{"", table("effect,verdict,next_measurement,command\n" + rows)}};
+    return report();
+  };
+  EXPECT_EQ(diagnosed("model,incomplete,,\nregions,missing,,add it\n").next, "add it");
+  EXPECT_EQ(diagnosed("model,complete,,\nregions,absent,,\n").next.rfind("hs-simulate ", 0), 0u);
+  const Report open = diagnosed("model,ambiguous,,\ntip,indistinguishable,press deeper,add it\n");
+  EXPECT_EQ(open.next, "to tell them apart: press deeper");
+  EXPECT_FALSE(open.next_is_command);
+  EXPECT_EQ(diagnosed("model,unexplained,,\n").next, "");
+}
+
+// Before and after are on one scale.
+TEST(ComparisonReport, ColoursTheBodyBeforeAndAfterAlike) {
+  Compared c = compared(12, 0.9);
+  SimulatedVersion worse{"worse", c.versions[0].recording};
+  for (Vec3& f : worse.recording.f) f *= 0.2;
+  c.versions.insert(c.versions.begin(), worse);
+  std::vector<double> error;
+  for (const BinError& e : c.comparison.by_position().errors) error.push_back(e.rmse);
+  Surface square;
+  square.vertices = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  square.faces = {{0, 1, 2}, {0, 2, 3}};
+  const ErrorMap map = map_error(square, c.comparison.facts.positions, error);
+  const Report report = comparison_report(c.measured, c.versions, c.comparison, map, {});
+  ASSERT_GE(report.body.layers.size(), 2u);
+  const BodyLayer &now = report.body.layers[0], &before = report.body.layers[1];
+  EXPECT_EQ(before.name, "error before");
+  EXPECT_EQ(before.top, now.top);
+  EXPECT_EQ(before.value.size(), report.body.vertices.size());
+  EXPECT_GT(*std::max_element(before.at_position.begin(), before.at_position.end()),
+            2 * *std::max_element(now.at_position.begin(), now.at_position.end()));
+}
+
 TEST(ReportBody, ScalesEndAtRoundNumbers) {
   for (const auto& [value, top] : {std::pair{1.0, 1.0},
                                    {1.01, 1.5},
