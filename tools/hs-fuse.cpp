@@ -74,9 +74,9 @@ ToolSpec specification() {
        .minimum = 0,
        .maximum = 100},
       {.flag = flag::live,
-       .help =
-           "Answers a motion line by line: --acfm-model is the fast source, finite elements of --model "
-           "on --body run beside it at their own pace.",
+       .help = "Answers a motion line by line: --acfm-model is the fast source, finite elements of "
+               "--model "
+               "on --body run beside it at their own pace.",
        .group = "Live"},
       {.flag = flag::body,
        .value = "FILE",
@@ -138,7 +138,8 @@ ToolSpec specification() {
       {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --parameters filter.csv --exact fine.csv -o "
        "fused.csv",
        "Another motion with it, compared with the exact forces."},
-      {"hs-fuse --live motion.csv --body body.ply --model finite.csv --acfm-model acfm.csv --parameters "
+      {"hs-fuse --live motion.csv --body body.ply --model finite.csv --acfm-model acfm.csv "
+       "--parameters "
        "filter.csv",
        "Finite elements beside a loop at 1 kHz."}};
   spec.see_also = {"hs-simulate(1)", "hs-identify(1)"};

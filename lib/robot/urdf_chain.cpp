@@ -134,7 +134,8 @@ ChainJoint convert(const urdf::Joint& joint, const std::string& name) {
   const bool slides = joint.type == urdf::Joint::PRISMATIC;
   const bool endless = joint.type == urdf::Joint::CONTINUOUS;
   if (!slides && !endless && joint.type != urdf::Joint::REVOLUTE) {
-    fail("neither turns nor slides about one axis", "choose a chain without it by --root, --tip-link");
+    fail("neither turns nor slides about one axis",
+         "choose a chain without it by --root, --tip-link");
   }
   result.axis = Vec3(joint.axis.x, joint.axis.y, joint.axis.z);
   if (const double length = result.axis.norm(); !(length > 1e-6 && std::isfinite(length))) {

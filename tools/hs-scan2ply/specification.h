@@ -143,7 +143,8 @@ inline ToolSpec scan2ply_specification() {
       "or, for a patch seen from one side, upward.",
       "Robots: with --robot the table holds joint angles q1..qN (or the joints' names) and the "
       "laser's distance d; points are the forward kinematics' sensor place plus d along the beam. "
-      "With --bar they are the end of a touching bar. --scan-plan goes the other way: joint angles that "
+      "With --bar they are the end of a touching bar. --scan-plan goes the other way: joint angles "
+      "that "
       "put the sensor --standoff off each place, its beam against the normal (free to turn about "
       "it); what is out of reach is named on standard error. Neither collisions nor the way "
       "between "

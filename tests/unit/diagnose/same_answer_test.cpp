@@ -38,7 +38,8 @@ void add(std::string& bytes, const Model& model) {
 std::string bytes_of(const Diagnosis& d) {
   std::string bytes = verdict_name(d.verdict) + d.explanation;
   for (const Finding& f : d.findings) {
-    bytes += f.effect + verdict_name(f.verdict) + f.where + f.evidence + f.fitted + f.next_measurement;
+    bytes +=
+        f.effect + verdict_name(f.verdict) + f.where + f.evidence + f.fitted + f.next_measurement;
     for (const std::string& other : f.confused_with) bytes += other;
     for (const double value :
          {f.rmse_now.pooled, f.rmse_after.pooled, f.held_out_now.pooled, f.held_out_after.pooled,
