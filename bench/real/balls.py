@@ -1,6 +1,7 @@
 """balls.py BIN OUT [COUNT]: presses of a ball by closed forms, imported, fitted and diagnosed; a row a press.
 
-Half of them are Hertz's (J. reine angew. Math. 92, 1882) on a block 150 contact radii deep (0.7 % stiffer than a half-space, which the first touch makes 2 % of E), half those of a
+Half of them are Hertz's (J. reine angew. Math. 92, 1882) on a block 150 contact radii deep, 0.7 % stiffer than a
+half-space, which the first touch makes 2 % of E; half those of a
 layer bonded to its support (Dimitriadis et al., Biophys. J. 82, 2002), nu = 0.45, which is given. E from 1 kPa to
 10 MPa; the courses a ramp of constant speed, one of constant loading rate and a ramp that is held; contact declared
 off by up to 5 % of the depth; noise of 0.3 to 3 % of the peak. Columns: E found over the true one, whether that is

@@ -85,6 +85,26 @@ bool is_excited(const std::vector<Model>& starts, const Effect& effect, const Ba
   return false;
 }
 
+// Whether an error of the sensor that runs on in time could be all of the force, without a body: a
+// drift, where the force rises at a steady rate and is nowhere zero or held. What it then takes
+// away is the body's, however well it foretells.
+bool runs_like_the_force(const Model& start, const Effect& effect, const Baseline& base,
+                         const TrialGround& g) {
+  constexpr double kAlike = 0.05;  // of the force is left; a ball pressed at a steady speed: 0.14
+  const EffectCard& card = effect.card();
+  if (card.stage != Stage::kSensor || !card.needs_time) return false;
+  const Selection all = all_episodes(g.dataset);
+  const Signal signal = model_forces(start, g.experiment, base.fitted.about, all, true);
+  std::vector<int> own;
+  const std::vector<int> free = start.free_parameters();
+  for (std::size_t c = 0; c < free.size(); ++c)
+    if (start.parameters[free[c]].effect == card.name) own.push_back(static_cast<int>(c));
+  const Eigen::MatrixXd columns = signal.df(Eigen::all, own);
+  const Eigen::VectorXd f = measured_forces(g.dataset, all);
+  const Eigen::VectorXd left = f - columns * columns.colPivHouseholderQr().solve(f);
+  return left.norm() < kAlike * f.norm();
+}
+
 // Scores by press of the columns with what the baseline's own parameters can do taken out.
 CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const TrialGround& g) {
   if (y.offsets) take_out_press_means(g.dataset, all_episodes(g.dataset), columns);
@@ -134,6 +154,10 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
   try {
     if (!card.per_press && !card.is_map && !card.is_field && !is_excited(starts, effect, base, g)) {
       lack = "nothing in these presses depends on it; record " + card.separated_by;
+      return std::nullopt;
+    }
+    if (runs_like_the_force(starts.front(), effect, base, g)) {
+      lack = "the force itself runs like it in time; record air before and after, or a hold";
       return std::nullopt;
     }
     // Estimates; refine() solves where that is promising.

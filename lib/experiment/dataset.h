@@ -33,6 +33,9 @@ struct Dataset {
   // Relative error of a position's stiffness beyond that of all (Allowance::floor), by position;
   // empty: none.
   std::vector<double> doubt;
+  // Of how a ball's force grows with its contact: relative, at the largest force, by position;
+  // empty: none (GainBlock::curve).
+  std::vector<double> curve_doubt;
   double floor_at(std::size_t position, double floor) const;  // of both together
   std::size_t rows() const { return recording.rows(); }
   int axes() const { return measured_axes(recording.f); }  // of the force that were measured

@@ -39,6 +39,7 @@ Dataset at_positions(const Dataset& dataset, const std::vector<std::size_t>& pos
     result.positions.push_back(dataset.positions[p]);
     result.setup_of.push_back(dataset.setup_of[p]);
     if (!dataset.doubt.empty()) result.doubt.push_back(dataset.doubt[p]);
+    if (!dataset.curve_doubt.empty()) result.curve_doubt.push_back(dataset.curve_doubt[p]);
   }
   for (const Episode& e : dataset.episodes) {
     const int position = renumbered[static_cast<std::size_t>(e.position)];

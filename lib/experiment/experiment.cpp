@@ -158,9 +158,11 @@ Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
     const auto b = static_cast<std::size_t>(s.body);
     windows.push_back(b < options.windows.size() ? options.windows[b] : std::vector<Vec3>{});
   }
-  dataset.doubt = together(
-      places.beyond_windows(windows),
-      series_doubt(places, dataset, (options.nu_low + std::min(options.nu_high, 0.45)) / 2));
+  dataset.curve_doubt =
+      series_doubt(places, dataset, (options.nu_low + std::min(options.nu_high, 0.45)) / 2);
+  dataset.doubt = together(places.beyond_windows(windows), dataset.curve_doubt);
+  for (std::size_t p = 0; p < dataset.curve_doubt.size(); ++p)
+    dataset.curve_doubt[p] = std::hypot(dataset.curve_doubt[p], places.contact(p).mesh_uncertainty);
   Noise noise;
   if (options.noise > 0)
     noise = {options.noise, false};

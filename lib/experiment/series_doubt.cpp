@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "effects/local_contact.h"
-#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
@@ -31,23 +30,6 @@ std::vector<double> series_doubt(const Places& places, const Dataset& dataset, d
     doubt.push_back(share_of(K, places.contact(p).normal, disc));
   }
   return doubt;
-}
-
-Eigen::VectorXd series_doubt(const Model& model, const Linearisation& about,
-                             const Experiment& experiment, const Selection& selection,
-                             const Eigen::VectorXd& forces) {
-  const Dataset& dataset = experiment.dataset;
-  if (!is_ball(dataset)) return {};
-  const MaterialSpec material = material_of(model);
-  const DiscStiffness disc =
-      bonded_disc(material.modulus[0], material.nu, dataset.setups.front().tool_radius);
-  const auto doubted = [&](std::size_t p) {
-    const PreparedContact& contact = experiment.places.contact(p);
-    PositionStiffness s = about.at(p, material);
-    s.K *= 1 + std::hypot(share_of(s.K, contact.normal, disc), contact.mesh_uncertainty);
-    return s;
-  };
-  return model_forces(model, dataset, doubted, selection, false).f - forces;
 }
 
 }  // namespace hapsim

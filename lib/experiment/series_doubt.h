@@ -2,9 +2,6 @@
 #pragma once
 
 #include "experiment/experiment.h"
-#include "experiment/forces.h"
-#include "experiment/linearisation.h"
-#include "model/model.h"
 
 namespace hapsim {
 
@@ -13,12 +10,5 @@ namespace hapsim {
 // series), at most a half. On layers as thick as the contact E is off by up to 0.26, of which this
 // is 0.2 to 0.3 (bench/real/balls.py). Empty where no ball is declared.
 std::vector<double> series_doubt(const Places& places, const Dataset& dataset, double nu);
-
-// The change of the stacked forces by that doubt and the mesh's of all positions together: where the
-// first touch is fitted too, E feels it several times over, for both shape the curve. Empty as
-// above.
-Eigen::VectorXd series_doubt(const Model& model, const Linearisation& about,
-                             const Experiment& experiment, const Selection& selection,
-                             const Eigen::VectorXd& forces);
 
 }  // namespace hapsim

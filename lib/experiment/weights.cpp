@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -38,7 +39,24 @@ std::array<Eigen::Matrix3d, 6> symmetric_basis(const Vec3& n) {
           pair(s, t),        pair(n, s),        pair(n, t)};
 }
 
+// Forces that are off by `share` of the largest there, and by less as the contact is smaller.
+Eigen::VectorXd bend(Eigen::VectorXd force, double share) {
+  double most = 0;
+  for (Eigen::Index i = 0; i < force.size(); i += 3)
+    most = std::max(most, force.segment<3>(i).norm());
+  for (Eigen::Index i = 0; i < force.size(); i += 3)
+    force.segment<3>(i) *= most > 0 ? share * std::cbrt(force.segment<3>(i).norm() / most) : 0;
+  return force;
+}
+
 }  // namespace
+
+Eigen::MatrixXd GainBlock::deviations(double floor) const {
+  Eigen::MatrixXd D(Z.rows(), Z.cols() + (curve.size() > 0 ? 1 : 0));
+  D.leftCols(Z.cols()) = floor * Z;
+  if (curve.size() > 0) D.rightCols<1>() = curve;
+  return D;
+}
 
 std::vector<GainBlock> gain_directions(const Dataset& dataset, const Selection& selection,
                                        const Eigen::VectorXd& reference) {
@@ -55,6 +73,9 @@ std::vector<GainBlock> gain_directions(const Dataset& dataset, const Selection& 
         block.Z.block<3, 1>(at, c) = basis[static_cast<std::size_t>(c)] * reference.segment<3>(row);
       at += 3;
     }
+    if (!dataset.curve_doubt.empty())
+      block.curve =
+          bend(reference(block.rows), dataset.curve_doubt[static_cast<std::size_t>(position)]);
     blocks.push_back(std::move(block));
   }
   return blocks;
@@ -65,14 +86,15 @@ Weights::Weights(const Dataset& dataset, const Selection& selection,
     : noise_(noise) {
   if (floor <= 0) return;
   for (GainBlock& gains : gain_directions(dataset, selection, reference)) {
-    // Z Z' = Q diag(s^2) Q'.
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(gains.Z, Eigen::ComputeThinU);
+    // D D' = Q diag(s^2) Q'.
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(
+        gains.deviations(dataset.floor_at(static_cast<std::size_t>(gains.position), floor)),
+        Eigen::ComputeThinU);
     Block block;
     block.rows = std::move(gains.rows);
     block.Q = svd.matrixU();
     const Eigen::VectorXd s = svd.singularValues();
-    const double own = dataset.floor_at(static_cast<std::size_t>(gains.position), floor);
-    block.shrink = 1 - (1 + (own / noise * s.array()).square()).sqrt().inverse();
+    block.shrink = 1 - (1 + (s.array() / noise).square()).sqrt().inverse();
     blocks_.push_back(std::move(block));
   }
 }

@@ -13,10 +13,19 @@ namespace hapsim {
 // on the force: f_n n (a gain along the normal), three for the tangential plane, and n t' + t n'
 // for both tangents (a tilted normal). So a model is not blamed for what a mesh and a scanned
 // surface are worth: a stiffness that errs by a few per cent, differently at each position.
+//
+// Under a ball the contact grows, and what the body adds to a half-space grows with it: to first
+// order in proportion to the contact's radius, which is the cube root of the force (Hertz, 1882;
+// Dimitriadis et al., Biophys. J. 82, 2002). So a doubt of that bends the force over depth, by
+// Dataset::curve_doubt at the largest force; what looks like it, or moves the first touch, is not
+// blamed on the model either.
 struct GainBlock {
   int position = 0;
   std::vector<Eigen::Index> rows;  // of the stacked vectors (3 x rows)
   Eigen::MatrixXd Z;               // the same rows x 6 [N]
+  Eigen::VectorXd curve;           // one standard deviation of that bend [N]; empty: none
+  // V = noise^2 I + D D': the columns of floor Z, and the bend.
+  Eigen::MatrixXd deviations(double floor) const;
 };
 // One block for each position that the selection visits. `reference`: stacked forces.
 std::vector<GainBlock> gain_directions(const Dataset& dataset, const Selection& selection,

@@ -8,7 +8,6 @@
 
 #include "estimate/identifiability.h"
 #include "estimate/profile.h"
-#include "experiment/series_doubt.h"
 
 namespace hapsim {
 namespace {
@@ -44,22 +43,16 @@ void set_standard_errors(Fit& result, const LeastSquaresResult& solution, const 
   Eigen::MatrixXd covariance =
       options.robust == RobustLoss::kNone ? variance * solution.covariance : solution.covariance;
   if (options.floor > 0) {
-    // A gain error of each position, carried through to the parameters (sandwich).
+    // What each position may err by, carried through to the parameters (sandwich).
     for (const GainBlock& block : gain_directions(experiment.dataset, selection, signal.f)) {
       const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
       const double floor =
           experiment.dataset.floor_at(static_cast<std::size_t>(block.position), options.floor);
-      const Eigen::MatrixXd through = solution.covariance * (rows.transpose() * block.Z) *
-                                      (floor / (options.noise * options.noise));
+      const Eigen::MatrixXd through = solution.covariance *
+                                      (rows.transpose() * block.deviations(floor)) /
+                                      (options.noise * options.noise);
       covariance += through * through.transpose();
     }
-  }
-  if (const Eigen::VectorXd doubt =
-          series_doubt(result.model, result.about, experiment, selection, signal.f);
-      doubt.size() > 0) {
-    const Eigen::VectorXd through =
-        solution.covariance * (signal.df.transpose() * doubt) / (options.noise * options.noise);
-    covariance += through * through.transpose();
   }
   const std::vector<int> free = result.model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c) {

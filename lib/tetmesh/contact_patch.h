@@ -11,8 +11,9 @@
 namespace hapsim {
 
 // The base as one contact needs it: what the tool's force feels of a place falls with its distance,
-// so edges may grow with that, to the lesser of `growth` and 0.4 of it, and no faster: a body a
-// hundred radii wide was 1 to 13 % too stiff where the tool stood on one of its triangles.
+// so edges may grow with that, to the lesser of `growth` and 0.4 of it. Nor are they much longer:
+// on a body a hundred radii wide, one of whose triangles is larger than all that the tool feels,
+// the stiffness was 1 to 13 % too high.
 ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
                              double growth);
 

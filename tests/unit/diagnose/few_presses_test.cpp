@@ -224,6 +224,35 @@ TEST(FewPresses, OfThreePressesWholeOnesAreLeftOutToo) {
   EXPECT_LT(d.held_out_end.told(), 0.02);
 }
 
+// A machine that loads at a steady rate makes any force run straight in time: no drift of the
+// sensor is told from that, whatever the body does that the model does not.
+TEST(FewPresses, TheRateOfLoadingIsNoDrift) {
+  constexpr double kDepth = 0.006, kForce = 5, kLast = 20;
+  Recording r = press({}, 1);
+  Random random(2);
+  for (std::size_t i = 0; i < r.t.size(); ++i) {
+    const double force = kForce * r.t[i] / kLast;
+    r.u[i].z() = -kDepth * std::pow(force / kForce, 1 / 1.6);
+    r.f[i].z() = force + 0.01 * random.normal();
+  }
+  ExperimentOptions options;
+  options.rim_edge = 0.3;
+  options.noise = 0.01;
+  options.floor = 0.01;
+  const TetMesh body = test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1);
+  const Experiment w = make_experiment(body, r, options);
+  const Diagnosis d = diagnose(start_of(w), w, w.allowance(), {});
+  EXPECT_TRUE(holds(with_verdict(d, Verdict::kNotTestable), "sensor-drift")) << d.explanation;
+  // With air before it there is a sensor to be seen without the body.
+  for (std::size_t i = 0; i < r.t.size() / 4; ++i) {
+    r.u[i] = {0, 0, 0.001};
+    r.f[i] = {0, 0, 0.01 * random.normal()};
+  }
+  const Experiment in_air = make_experiment(body, r, options);
+  const Diagnosis tested = diagnose(start_of(in_air), in_air, in_air.allowance(), {});
+  EXPECT_FALSE(holds(with_verdict(tested, Verdict::kNotTestable), "sensor-drift"));
+}
+
 // The finite elements of one set's layer are no basis for what another set's layer does.
 TEST(EffectSets, AreComputedWithTheirOwnBody) {
   const Experiment w = experiment({1.2, 0.6, {{0.4, 1}}}, 1);
