@@ -94,7 +94,7 @@ void Progress::show(const std::string& state, std::size_t k, std::size_t n) {
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
   if (state != state_) state_since_ = now;
-  if (k > 0 && k <= k_) sweep_since_ = now;
+  if (k > 0 && k < k_) sweep_since_ = now;
   state_ = state;
   if (k > 0) k_ = k;
   n_ = k > 0 ? n : 0;

@@ -17,7 +17,7 @@ searching() {
   TERM=xterm script -qefc "$(printf '%q ' sh -c 'echo $$ >process; exec env --default-signal=INT "$@"' sh "$tool" "$@")" \
     shown </dev/null >/dev/null &
   terminal=$!
-  until_true 300 grep -Eqs 'fit: start ([3-9]|[1-9][0-9]+) of 100000' shown || complain 'the search does not begin'
+  until_true 300 grep -Eqs 'start ([3-9]|[1-9][0-9]+)/100000' shown || complain 'the search does not begin'
   searcher=$(cat process)
 }
 ended() { # leaves the exit code in `code`
@@ -40,7 +40,7 @@ for signal in INT TERM; do
   grep -q '^# converged: no' m.csv && grep -q '^# search: [0-9]* of 100000 starts, seed 3' m.csv ||
     complain 'the model is marked'
 done
-grep -q 'fit: start [0-9]* of 100000, error [0-9.]* N' .err || complain 'progress with the error'
+grep -q 'fitting, error [0-9.]* N, start [0-9]*/100000' .err || complain 'progress with the error'
 done_first=$(sed -n 's/^# search: \([0-9]*\) .*/\1/p' m.csv)
 ((done_first > 0)) || complain 'some starts were done'
 "$bin/hs-simulate" motion.csv --body block.ply --model m.csv --rim-edge 0.3 -o forces.csv 2>.err ||
