@@ -3,18 +3,10 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "base/median.h"
-
 namespace hapsim {
 
 bool Departures::anywhere() const {
   return total > freedom + 3 * std::sqrt(2 * freedom);
-}
-
-bool Departures::at_one() const {
-  constexpr double kRare = 45;   // chi-square of six degrees, 5e-8
-  constexpr double kUnlike = 5;  // a model that errs a little everywhere departs everywhere
-  return largest > kRare && largest > kUnlike * typical;
 }
 
 Departures stiffness_departures(const Fit& fitted, const TrialGround& g) {
@@ -23,7 +15,6 @@ Departures stiffness_departures(const Fit& fitted, const TrialGround& g) {
   Eigen::VectorXd residual = measured_forces(g.dataset, all) - f;
   Weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor).whiten(residual);
   Departures d;
-  std::vector<double> squares;
   const std::vector<GainBlock> blocks = gain_directions(g.dataset, all, f);
   for (std::size_t p = 0; p < blocks.size(); ++p) {
     // The weights map the span of these directions on itself.
@@ -31,13 +22,11 @@ Departures stiffness_departures(const Fit& fitted, const TrialGround& g) {
     const Eigen::VectorXd r = qr.householderQ().transpose() * residual(blocks[p].rows);
     const double square = r.head(qr.rank()).squaredNorm();
     d.total += square;
-    squares.push_back(square);
     d.freedom += static_cast<double>(qr.rank());
     if (square <= d.largest) continue;
     d.largest = square;
     d.where = g.dataset.positions[static_cast<std::size_t>(blocks[p].position)];
   }
-  d.typical = upper_median(std::move(squares));
   return d;
 }
 

@@ -1,4 +1,4 @@
-// Whether residuals ask for another contact stiffness, over all positions and at the worst one.
+// Whether residuals ask for another contact stiffness, over all positions, and where most.
 #pragma once
 
 #include "diagnose/trial_ground.h"
@@ -12,11 +12,8 @@ namespace hapsim {
 struct Departures {
   double total = 0, freedom = 0;
   double largest = 0;         // of one position, of six degrees
-  double typical = 0;         // median over the positions
   Vec3 where = Vec3::Zero();  // that position [m]
   bool anywhere() const;      // beyond three standard deviations
-  // One position beyond what chance does to one in ten million, and unlike the others.
-  bool at_one() const;
 };
 Departures stiffness_departures(const Fit& fitted, const TrialGround& ground);
 

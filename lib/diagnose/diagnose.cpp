@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "diagnose/departures.h"
 #include "diagnose/few_presses.h"
 #include "diagnose/foretold.h"
 #include "diagnose/rivals_together.h"
@@ -78,19 +77,6 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
   return rivals;
 }
 
-// A structure that noise does not have: neighbouring whitened residuals that go together.
-double neighbour_correlation(const Eigen::VectorXd& residual, const TrialGround& g) {
-  double product = 0, square = 0;
-  Eigen::Index at = 0;
-  for (const Episode& e : g.dataset.episodes) {
-    for (std::size_t i = 0; i < e.rows.size(); ++i, ++at) {
-      square += residual.segment<3>(3 * at).squaredNorm();
-      if (i > 0) product += residual.segment<3>(3 * at).dot(residual.segment<3>(3 * at - 3));
-    }
-  }
-  return square > 0 ? product / square : 0;
-}
-
 // What is settled first, as it was found; then the largest gain.
 void put_in_order(std::vector<Finding>& findings) {
   const auto settled = [](const Finding& f) {
@@ -107,11 +93,14 @@ void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
                       const DiagnoseOptions& options, Diagnosis& d) {
   for (std::size_t k = 0; k + 1 < d.findings.size();) {
     const Finding& earlier = d.findings[k];
-    const bool repeated = std::any_of(d.findings.begin() + static_cast<std::ptrdiff_t>(k) + 1,
-                                      d.findings.end(), [&](const Finding& f) {
-                                        return f.effect == earlier.effect ||
-                                               contains(require_effect(f.effect), earlier.effect);
-                                      });
+    // Of a map that a later one includes nothing can be taken away by itself.
+    const bool is_map = require_effect(earlier.effect).card().is_map;
+    const bool repeated =
+        std::any_of(d.findings.begin() + static_cast<std::ptrdiff_t>(k) + 1, d.findings.end(),
+                    [&](const Finding& f) {
+                      return f.effect == earlier.effect ||
+                             (is_map && contains(require_effect(f.effect), earlier.effect));
+                    });
     if (repeated || !base.fitted.model.has(earlier.effect)) {
       ++k;
       continue;
@@ -151,6 +140,7 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
       rivals.clear();  // the next rounds find the other
     if (!rivals.empty()) {
       rivals.insert(rivals.begin(), best);
+      d.left = left_over(last.candidates[best].fitted, g);
       for (const std::size_t k : rivals) {
         d.rivals.push_back(last.candidates[k].fitted.model);
         Finding finding = last.findings[k];
@@ -269,28 +259,15 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;
-  const Selection all = all_episodes(g.dataset);
-  const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
-  Eigen::VectorXd left = measured - f;
-  Weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor).whiten(left);
-  d.reduced_chi_square_end = left.squaredNorm() / static_cast<double>(left.size());
-  const double correlation = neighbour_correlation(left, g);
-  const bool structure = d.reduced_chi_square_end > 1.5 && correlation > 0.2;
-  const Departures departures = stiffness_departures(base.fitted, g);
-  const bool local = departures.at_one();
+  if (few_presses || !ambiguous) d.left = left_over(base.fitted, g);
   const bool missing =
       std::any_of(d.findings.begin(), d.findings.end(),
                   [](const Finding& finding) { return finding.verdict == Verdict::kMissing; });
-  d.verdict = ambiguous            ? ModelVerdict::kAmbiguous
-              : missing            ? ModelVerdict::kIncomplete
-              : structure || local ? ModelVerdict::kUnexplained
-                                   : ModelVerdict::kComplete;
-  d.explanation = describe_verdict(d, structure && !ambiguous);
-  if (local && d.verdict == ModelVerdict::kUnexplained && !structure)
-    d.explanation = fmt::format(
-        "the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
-        "position confirms: press around it, a few millimetres apart.",
-        1e3 * departures.where.x(), 1e3 * departures.where.y(), 1e3 * departures.where.z());
+  d.verdict = ambiguous               ? ModelVerdict::kAmbiguous
+              : missing               ? ModelVerdict::kIncomplete
+              : !d.left.noise_alone() ? ModelVerdict::kUnexplained
+                                      : ModelVerdict::kComplete;
+  d.explanation = describe_verdict(d);
   if (!few_presses) return d;
   const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "diagnose/gates.h"
+#include "diagnose/left_over.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
 
@@ -73,7 +74,8 @@ struct Diagnosis {
   ForceError rmse, held_out;  // of the model as given, refitted
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
-  double reduced_chi_square_end = 1;  // whitened
+  LeftOver
+      left;  // by the model with all missing effects, of an ambiguous verdict by the best rival
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
   // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the

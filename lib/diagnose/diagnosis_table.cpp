@@ -180,6 +180,10 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
   j["heldout"] = d.held_out.told();
   j["rmse_with_missing_effects"] = d.rmse_end.told();
   j["heldout_with_missing_effects"] = d.held_out_end.told();
+  j["left"] = {{"kind", d.left.kind},
+               {"error_over_noise", d.left.error},
+               {"strain", d.left.strain},
+               {"common", d.left.common}};
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));
   return j.dump(2) + "\n";

@@ -143,33 +143,32 @@ std::string shape_words(const Diagnosis& d) {
          "and so is what differs by place";
 }
 
-std::string describe_verdict(const Diagnosis& d, bool structure_left) {
+std::string describe_verdict(const Diagnosis& d) {
   std::string missing, rivals;
   for (const Finding& f : d.findings) {
     if (f.verdict == Verdict::kMissing) missing += (missing.empty() ? "" : ", then ") + f.effect;
     if (f.verdict == Verdict::kIndistinguishable)
       rivals += (rivals.empty() ? "" : " or ") + f.effect;
   }
-  const std::string left = structure_left
-                               ? fmt::format(
-                                     " After that {:.3g} N ({:.2g} x noise) with structure is left "
-                                     "that no known effect takes away.",
-                                     d.rmse_end.told(), d.rmse_end.told() / d.noise)
-                               : "";
+  const std::string left = d.left.noise_alone() ? "" : " Beside that " + d.left.words;
   switch (d.verdict) {
     case ModelVerdict::kIncomplete:
       return "missing: " + missing + "." + left;
     case ModelVerdict::kAmbiguous:
       return (missing.empty() ? "" : "missing: " + missing + "; beyond that ") +
-             "the data cannot tell " + rivals + " apart; see the next measurement.";
+             "the data cannot tell " + rivals + " apart; see the next measurement." +
+             (left.empty() ? "" : " None of them explains all: " + d.left.words);
     case ModelVerdict::kUnexplained:
-      return fmt::format(
-          "the model fails with structure ({:.2g} x noise) that none of the effects "
-          "it knows takes away.",
-          d.rmse_end.told() / d.noise);
+      return "none of the effects it knows explains the error: " + d.left.words;
     default:
       return "nothing is missing that these data could show above the sizes named with each "
-             "effect.";
+             "effect." +
+             (d.left.error < kLikeNoise
+                  ? ""
+                  : fmt::format(
+                        " What is left, {:.2g} x noise, is within the {:.1f} % that mesh and "
+                        "shape may err by.",
+                        d.left.error, 100 * d.floor));
   }
 }
 

@@ -18,7 +18,7 @@ void describe_fit(const Candidate& candidate, const Measured& measured, Finding&
 std::string evidence_words(const Finding& finding);
 // Where contact points lie off the body's surface; "" where they do not.
 std::string shape_words(const Diagnosis& diagnosis);
-std::string describe_verdict(const Diagnosis& diagnosis, bool structure_left);
+std::string describe_verdict(const Diagnosis& diagnosis);
 
 // A version of an improved model with its errors; `noise` of the force [N].
 std::string step_words(const ImprovementStep& step, double noise);

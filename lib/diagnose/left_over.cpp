@@ -1,0 +1,220 @@
+#include "diagnose/left_over.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "compare/structure.h"
+#include "diagnose/gates.h"
+#include "estimate/probability.h"
+
+namespace hapsim {
+namespace {
+
+using Gains = Eigen::Matrix<double, 6, 1>;
+
+// A model's residual [N] with what the allowance is of.
+struct Ground {
+  const TrialGround& g;
+  Eigen::VectorXd f;
+  std::vector<GainBlock> blocks;
+  Weights weights;
+};
+
+// The gains of each position over delta, and the residual without them.
+struct Posterior {
+  std::vector<Gains> gains;
+  Eigen::VectorXd beside;
+  double squares() const {
+    double sum = 0;
+    for (const Gains& z : gains) sum += z.squaredNorm();
+    return sum;
+  }
+};
+
+Posterior posterior(const Eigen::VectorXd& residual, const Ground& on) {
+  Posterior p{{}, residual};
+  const double sigma = on.g.allowance.noise;
+  for (const GainBlock& block : on.blocks) {
+    const auto position = static_cast<std::size_t>(block.position);
+    const Eigen::MatrixXd D =
+        block.deviations(on.g.dataset.floor_at(position, on.g.allowance.floor)) / sigma;
+    Eigen::MatrixXd H = D.transpose() * D;
+    H.diagonal().array() += 1;
+    const Eigen::VectorXd z = H.ldlt().solve(D.transpose() * residual(block.rows) / sigma);
+    p.beside(block.rows) -= sigma * (D * z);
+    p.gains.emplace_back(z.head<6>());
+  }
+  return p;
+}
+
+// What gains that all positions share do to the force, a column each: the six symmetric matrices in
+// the recording's axes.
+Eigen::MatrixXd shared_in_axes(const Ground& on) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(on.f.size(), 6);
+  const double half = std::sqrt(0.5);
+  for (Eigen::Index row = 0; row < on.f.size(); row += 3) {
+    const Eigen::Vector3d f = on.f.segment<3>(row);
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      columns(row + k, k) = f[k];
+      columns(row + a, 3 + k) = half * f[b];
+      columns(row + b, 3 + k) = half * f[a];
+    }
+  }
+  return columns;
+}
+
+// The same along each place's normal and across it: about the normal a frame is arbitrary.
+Eigen::MatrixXd shared_in_contact(const Ground& on) {
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(on.f.size(), 2);
+  for (const GainBlock& block : on.blocks)
+    for (std::size_t i = 0; i < block.rows.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      columns(block.rows[i], 0) = block.Z(at, 0);
+      columns(block.rows[i], 1) = std::sqrt(0.5) * (block.Z(at, 1) + block.Z(at, 2));
+    }
+  return columns;
+}
+
+// Gains that all positions share, as means of the allowed ones: posterior under their own prior, of
+// standard deviation delta / sqrt(positions).
+struct Shared {
+  double largest = 0;  // over that deviation
+  double rest = 0;     // sum |c_p|^2 / delta^2 without them
+};
+Shared shared_gains(const Eigen::VectorXd& residual, const Eigen::MatrixXd& columns,
+                    const Ground& on) {
+  const double sd = on.g.allowance.floor / std::sqrt(static_cast<double>(on.blocks.size()));
+  Eigen::MatrixXd C = sd * columns;
+  Eigen::VectorXd r = residual;
+  on.weights.whiten(C);
+  on.weights.whiten(r);
+  Eigen::MatrixXd H = C.transpose() * C;
+  H.diagonal().array() += 1;
+  const Eigen::VectorXd m = H.ldlt().solve(C.transpose() * r);
+  return {m.cwiseAbs().maxCoeff(), posterior(residual - sd * (columns * m), on).squares()};
+}
+
+double chance_of_sum(double sum, double freedom) {
+  return fisher_upper(sum / freedom, freedom, 1e9);
+}
+
+void judge_gains(const Posterior& p, const Eigen::VectorXd& residual, const Ground& on,
+                 LeftOver& left) {
+  constexpr double kMost = 0.5;
+  const auto count = static_cast<double>(p.gains.size());
+  const double sum = p.squares();
+  double largest = 0;
+  for (std::size_t k = 0; k < p.gains.size(); ++k) {
+    if (p.gains[k].squaredNorm() <= largest) continue;
+    largest = p.gains[k].squaredNorm();
+    left.where = on.g.dataset.positions[static_cast<std::size_t>(on.blocks[k].position)];
+  }
+  const Shared axes = shared_gains(residual, shared_in_axes(on), on);
+  const Shared contact = shared_gains(residual, shared_in_contact(on), on);
+  left.strain = sum / (6 * count);
+  left.common = std::max(axes.largest, contact.largest);
+  left.common_share = 1 - std::min(axes.rest, contact.rest) / std::max(sum, 1e-300);
+  const double by_all = chance_of_sum(sum, 6 * count);
+  const double by_mean = std::min(1.0, 8 * student_two_sided(left.common, 1e9));
+  const double by_one = std::min(1.0, count * chance_of_sum(largest, 6));
+  left.strained = 3 * std::min({by_all, by_mean, by_one}) < kStrained;
+  if (!left.strained) return;
+  const bool several = count > 2;
+  const bool at_one = several && by_one < by_all && largest > kMost * sum;
+  left.kind = at_one ? "place" : several && left.common_share > kMost ? "set-up" : "body";
+}
+
+// What is beyond noise and mesh in the whitened residual and goes together from one sample to the
+// next: more than a fifth of the noise's square (half, where the noise was measured from
+// differences, which are too small where noise has a colour).
+bool is_structured(Eigen::VectorXd residual, const Ground& on) {
+  const TrialGround& g = on.g;
+  const double most = g.experiment.noise.measured ? 0.5 : 0.2;
+  on.weights.whiten(residual);
+  double product = 0;
+  Eigen::Index at = 0;
+  for (const Episode& e : g.dataset.episodes)
+    for (std::size_t i = 0; i < e.rows.size(); ++i, ++at)
+      if (i > 0) product += residual.segment<3>(3 * at).dot(residual.segment<3>(3 * at - 3));
+  const auto count = static_cast<double>(residual.size());
+  return std::min(product, residual.squaredNorm() - count) > most * count;
+}
+
+// What hs-compare finds first in the same forces.
+Observation first_observation(const Eigen::VectorXd& f, const Eigen::VectorXd& beside,
+                              const TrialGround& g) {
+  const std::vector<int> rows = stacked_rows(g.dataset, all_episodes(g.dataset));
+  const Recording& recording = g.dataset.recording;
+  std::vector<Vec3> measured(recording.f), simulated(recording.f);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto at = 3 * static_cast<Eigen::Index>(i);
+    simulated[static_cast<std::size_t>(rows[i])] = f.segment<3>(at);
+    measured[static_cast<std::size_t>(rows[i])] = f.segment<3>(at) + beside.segment<3>(at);
+  }
+  const auto found =
+      find_structure(row_facts(recording), measured, simulated, g.allowance.noise, 1);
+  return found.empty() ? Observation{} : found.front();
+}
+
+std::string words_of(const LeftOver& left) {
+  const std::string much = fmt::format("{:.2g} x the noise is left", left.error);
+  const std::string strain =
+      fmt::format("{:.2g} times the squares that mesh and shape are allowed", left.strain);
+  if (left.kind == "set-up")
+    return fmt::format(
+        "{}, and it is the same gain at all positions ({:.2g} standard deviations of what mesh and "
+        "shape may do): look at what they share, the sensor, the robot and the tool, before the "
+        "body",
+        much, left.common);
+  if (left.kind == "place")
+    return fmt::format(
+        "{}; the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
+        "position confirms: press around it, a few millimetres apart",
+        much, 1e3 * left.where.x(), 1e3 * left.where.y(), 1e3 * left.where.z());
+  if (left.kind == "body")
+    return fmt::format(
+        "{}, and it is a stiffness that differs by place ({}): look at the body, its shape and its "
+        "support",
+        much, strain);
+  return much + " with structure";
+}
+
+}  // namespace
+
+LeftOver left_over(const Fit& fitted, const TrialGround& g) {
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd f = model_forces(fitted, g.experiment, all, false).f;
+  const Eigen::VectorXd residual = measured_forces(g.dataset, all) - f;
+  const bool allowed = g.allowance.floor > 0;
+  const Ground on{g, f, allowed ? gain_directions(g.dataset, all, f) : std::vector<GainBlock>{},
+                  Weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor)};
+  const Posterior p = posterior(residual, on);
+  LeftOver left;
+  left.error = force_error(g.dataset, residual).told() / g.allowance.noise;
+  left.beside_gains = force_error(g.dataset, p.beside).told() / g.allowance.noise;
+  if (allowed) judge_gains(p, residual, on, left);
+  left.structured = is_structured(residual, on);
+  if (left.noise_alone()) return left;
+  // The gains are the story where they take most of it away.
+  const double all_of_it = left.error * left.error - 1;
+  const bool by_gains =
+      left.strained &&
+      left.error * left.error - left.beside_gains * left.beside_gains > 0.5 * all_of_it;
+  if (!by_gains) left.kind = "left";
+  std::string also;
+  if (left.structured && left.beside_gains > kLikeNoise) {
+    const Observation seen = first_observation(f, by_gains ? p.beside : residual, g);
+    if (!by_gains && !seen.kind.empty()) left.kind = seen.kind;
+    if (!seen.sentence.empty()) also = ". " + seen.sentence;
+  }
+  left.words = words_of(left) + also;
+  if (left.words.back() != '.') left.words += '.';
+  return left;
+}
+
+}  // namespace hapsim
