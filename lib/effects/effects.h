@@ -9,13 +9,13 @@ namespace hapsim {
 // In the order in which a force passes through them: motion, body, support, contact, sensor.
 // clang-format off
 #define HAPSIM_EFFECTS(X) \
-  X(backlash) X(touch) \
+  X(motion_scale) X(backlash) X(touch) \
   X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(hyperelastic) X(temperature) \
   X(softening) X(viscoelastic) X(damper) \
   X(base) X(shift) \
-  X(tip) X(slack) X(friction) X(adhesion) X(learned_place) \
-  X(sensor_rotation) X(sensor_gain) X(sensor_curve) X(sensor_lag) X(sensor_bias) X(sensor_drift) \
-  X(deadband) X(tare)
+  X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(arm_compliance) \
+  X(drag) X(sensor_rotation) X(sensor_crosstalk) X(sensor_gain) X(sensor_curve) X(sensor_lag) \
+  X(sensor_bias) X(sensor_drift) X(deadband) X(tare)
 // clang-format on
 
 #define HAPSIM_DECLARE_EFFECT(name) const Effect& name##_effect();

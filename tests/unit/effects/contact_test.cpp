@@ -181,5 +181,30 @@ TEST(Touch, IsInDoubtUnderABall) {
   EXPECT_FALSE(touch_effect().doubted(data));
 }
 
+// Springs in series: 1/k = 1/200 + c, along each axis.
+TEST(ArmCompliance, IsASpringInSeries) {
+  const auto f = forces_after(arm_compliance_effect(), test::press_along({{1e-3, 2e-3, -3e-3}}),
+                              {{0, "cx", 0.005}, {0, "cy", 0}, {0, "cz", 0.015}});
+  EXPECT_NEAR((f[0] - Vec3(-0.1, -0.4, 0.15)).norm(), 0, 1e-12);
+}
+
+// u = u_recorded + C f balances f = -K u of a stiffness that couples the axes.
+TEST(ArmCompliance, BalancesACoupledBody) {
+  PressView press = test::press_along({{1e-3, -2e-3, -3e-3}});
+  press.contact.K << 150, 10, -20, 10, 120, 30, -20, 30, 300;
+  const Values values{{0, "cx", 0.001}, {0, "cy", 0.004}, {0, "cz", 0.002}};
+  Signal signal{-press.contact.K * press.u[0], {}};
+  signal.df.resize(3, 0);
+  arm_compliance_effect().apply(press, values, signal);
+  const Vec3 u = press.u[0] + Vec3(0.001, 0.004, 0.002).cwiseProduct(Vec3(signal.f));
+  EXPECT_NEAR((Vec3(signal.f) + press.contact.K * u).norm(), 0, 1e-12);
+}
+
+TEST(MotionScale, StretchesTwoAxes) {
+  const auto f = forces_after(motion_scale_effect(), test::press_along({{1e-3, 2e-3, -3e-3}}),
+                              {{0, "sx", 1.5}, {0, "sy", 0.5}});
+  EXPECT_NEAR((f[0] - Vec3(-0.3, -0.2, 0.6)).norm(), 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace hapsim

@@ -35,6 +35,23 @@ TEST(SensorGain, ScalesOneAxis) {
   EXPECT_NEAR((f[2] - Vec3(0, -0.2, 0.4)).norm(), 0, 1e-12);
 }
 
+TEST(SensorCrosstalk, ShowsSharesOfTheOtherAxes) {
+  const Values values{{0, "cxy", 0}, {0, "cxz", 0.1},  {0, "cyx", 0},
+                      {0, "cyz", 0}, {0, "czx", -0.2}, {0, "czy", 0.5}};
+  const auto f = forces_after(sensor_crosstalk_effect(), test::press_along(kPath), values);
+  EXPECT_NEAR((f[0] - Vec3(0.02, 0, 0.2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[1] - Vec3(0.4, 0, -0.08)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[2] - Vec3(0.04, -0.2, 0.4 - 0.1)).norm(), 0, 1e-12);
+}
+
+// In by 1 mm, held, out again: too large by 0.1 N, then too small; half of it after half of x0.
+TEST(Drag, GoesAgainstTheMotion) {
+  const auto f = forces_after(drag_effect(), test::press_to({0, 5e-6, 1e-3, 1e-3, 0.5e-3}),
+                              {{0, "D", 0.1}, {0, "x0", 1e-5}});
+  const double expected[] = {0, 0.001 + 0.05, 0.2 + 0.1, 0.2 + 0.1, 0.1 - 0.1};
+  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i].z(), expected[i], 1e-12) << i;
+}
+
 TEST(SensorCurve, BendsEachAxisOddly) {
   const Values values{{0, "c2", 0.1}, {0, "c3", 0.5}, {0, "d2", -0.2}, {0, "d3", 0}};
   const auto f = forces_after(sensor_curve_effect(),

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# run.sh BIN OUT [CAUSE...]: causes in the set-up, which bodies know nothing of, given one at a time to recordings that
+# CalculiX computed of a block and a ball (bench/independent), diagnosed as a user would; a table at the end. OUT may be
+# that of bench/independent/run.sh; with HAPSIM_SHARED the block's recording is the one that lies there. What is there
+# is not made again: delete OUT/worlds/diagnosed to diagnose anew. Recorded in bench/results/open-world.txt.
+set -euo pipefail
+bin=$1 out=$2
+shift 2
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+for program in ccx gmsh /usr/bin/python3; do
+  command -v "$program" >/dev/null || { echo "open-world: skipped, $program is missing" >&2; exit 0; }
+done
+python=/usr/bin/python3 worlds=$out/worlds
+"$python" -c 'import numpy' || { echo "open-world: skipped, python3-numpy is missing" >&2; exit 0; }
+mkdir -p "$worlds/diagnosed"
+for body in cuboid ball; do
+  null=${HAPSIM_SHARED:-}/independent/null.csv
+  if [[ $body == ball || ! -e $null ]]; then
+    "$python" "$here/../independent/stiffnesses.py" "$out" "$body" 4 plain >&2
+    null=$out/data/null-$body.csv
+  fi
+  "$python" "$here/../independent/make.py" "$out" "${null:+null-$body}" 2>/dev/null
+  [[ -e $out/$body-stl.ply ]] || "$bin/hs-tetmesh" -q "$out/$body.stl" -o "$out/$body-stl.ply"
+  "$python" "$here/worlds.py" "$null" "$worlds" "$body" "$@"
+  for data in "$worlds/data/$body"-*.csv; do
+    world=$(basename "$data" .csv) results=$worlds/diagnosed
+    [[ $# -eq 0 || " $* " == *" ${world#"$body"-} "* ]] || continue
+    [[ ! -e $results/$world.json ]] || continue
+    [[ -e $results/$world.m0.csv ]] || "$bin/hs-identify" -q "$data" --body "$out/$body-stl.ply" --effects elastic \
+      -o "$results/$world.m0.csv" || { echo "$world: hs-identify failed" >&2; continue; }
+    "$bin/hs-diagnose" -q "$data" --body "$out/$body-stl.ply" --model "$results/$world.m0.csv" \
+      -o "$results/$world.csv" --json "$results/$world.part" || { echo "$world: hs-diagnose failed" >&2; continue; }
+    mv "$results/$world.part" "$results/$world.json"
+  done
+done
+"$python" "$here/table.py" "$worlds"
