@@ -2,9 +2,10 @@
 noise (of the elastic model, and with all that is named).
 
 named: what is missing is the cause, and nothing else. set: a set of at most three that are told to look alike, with
-the cause in it, nothing wrong beside it. kind: its kind is said. open: called unexplained without a kind, or another.
-hedged: something wrong is named, but the words say that more is left. unseen: called complete, and the elastic model
-does leave no more than noise (1.1 times). wrong: the rest. right: a null called complete."""
+the cause in it, nothing wrong beside it; wide: such a set of more. kind: its kind is said. open: called unexplained
+without a kind, or with another. hedged: something wrong is named, but the words say that more is left. unseen: called
+complete, and the elastic model leaves no more than noise (1.1 times). wrong: the rest. right: a null called
+complete."""
 import csv
 import json
 import pathlib
@@ -24,8 +25,8 @@ def judge(names, kind, missing, alike, verdict, said, error):
     clean = set(missing) <= good
     if good & set(missing) and clean and verdict == "incomplete" and not said:
         return "named"
-    if good & set(alike) and len(alike) <= 3 and clean:
-        return "set"
+    if good & set(alike) and clean:
+        return "set" if len(alike) <= 3 else "wide"
     if clean and not alike:
         return "kind" if KINDS.get(said, said) == kind else "open"
     return "hedged" if said else "wrong"
