@@ -3,9 +3,9 @@ noise (of the elastic model, and with all that is named).
 
 named: what is missing is the cause, and nothing else. set: a set of at most three that are told to look alike, with
 the cause in it, nothing wrong beside it; wide: such a set of more. kind: its kind is said. open: called unexplained
-without a kind, or with another. hedged: something wrong is named, but the words say that more is left. unseen: called
-complete, and the elastic model leaves no more than noise (1.1 times). wrong: the rest. right: a null called
-complete."""
+without a kind, or with another. hedged: something wrong is named, but the words say that more is left, or that the
+set-up would do the same. unseen: called complete, and the elastic model leaves no more than noise (1.1 times). wrong:
+the rest. right: a null called complete."""
 import csv
 import json
 import pathlib
@@ -16,7 +16,7 @@ import sys
 KINDS = {"offset": "set-up", "drift": "time", "session-time": "time"}
 
 
-def judge(names, kind, missing, alike, verdict, said, error):
+def judge(names, kind, missing, alike, verdict, said, hint, error):
     if verdict == "complete":
         return "right" if not kind else "unseen" if error < 1.1 else "wrong"
     if not kind:
@@ -29,7 +29,7 @@ def judge(names, kind, missing, alike, verdict, said, error):
         return "set" if len(alike) <= 3 else "wide"
     if clean and not alike:
         return "kind" if KINDS.get(said, said) == kind else "open"
-    return "hedged" if said else "wrong"
+    return "hedged" if said or hint else "wrong"
 
 
 def row(out, name, truth):
@@ -41,6 +41,7 @@ def row(out, name, truth):
     return (name, found["verdict"], named.strip() or "-", said or "-", found["rmse"] / found["force_noise"],
             found["rmse_with_missing_effects"] / found["force_noise"],
             judge(truth["names"].split(), truth["kind"], missing, alike, found["verdict"], said,
+                  "before the body" in found["explanation"],
                   found["rmse"] / found["force_noise"]))
 
 

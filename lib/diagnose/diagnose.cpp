@@ -246,6 +246,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   d.shape = g.experiment.shape;
   d.mesh_uncertainty = g.experiment.places.mesh_uncertainty();
   d.rmse = base.fitted.error;
+  d.kind_now = left_over(base.fitted, g).kind;
   d.held_out = base.held_out.error;
   d.held_out_by = folds.by;
   const Eigen::VectorXd measured = measured_forces(g.dataset, all_episodes(g.dataset));

@@ -74,8 +74,8 @@ struct Diagnosis {
   ForceError rmse, held_out;  // of the model as given, refitted
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
-  LeftOver
-      left;  // by the model with all missing effects, of an ambiguous verdict by the best rival
+  std::string kind_now;               // LeftOver::kind of the model as given, refitted
+  LeftOver left;  // with all missing effects, of an ambiguous verdict with the best rival
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
   // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the

@@ -180,6 +180,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
   j["heldout"] = d.held_out.told();
   j["rmse_with_missing_effects"] = d.rmse_end.told();
   j["heldout_with_missing_effects"] = d.held_out_end.told();
+  j["kind_now"] = d.kind_now;
   j["left"] = {{"kind", d.left.kind},
                {"error_over_noise", d.left.error},
                {"strain", d.left.strain},

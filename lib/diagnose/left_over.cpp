@@ -126,7 +126,7 @@ void judge_gains(const Posterior& p, const Eigen::VectorXd& residual, const Grou
   if (!left.strained) return;
   const bool several = count > 2;
   const bool at_one = several && by_one < by_all && largest > kMost * sum;
-  left.kind = at_one ? "place" : several && left.common_share > kMost ? "set-up" : "body";
+  left.kind = at_one ? "place" : several && left.common_share > kMost ? kSetUp : "body";
 }
 
 // What is beyond noise and mesh in the whitened residual and goes together from one sample to the
@@ -165,7 +165,7 @@ std::string words_of(const LeftOver& left) {
   const std::string much = fmt::format("{:.2g} x the noise is left", left.error);
   const std::string strain =
       fmt::format("{:.2g} times the squares that mesh and shape are allowed", left.strain);
-  if (left.kind == "set-up")
+  if (left.kind == kSetUp)
     return fmt::format(
         "{}, and it is the same gain at all positions ({:.2g} standard deviations of what mesh and "
         "shape may do): look at what they share, the sensor, the robot and the tool, before the "

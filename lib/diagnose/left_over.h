@@ -8,6 +8,8 @@
 
 namespace hapsim {
 
+inline constexpr const char* kSetUp = "set-up";  // LeftOver::kind
+
 // The allowance for mesh and shape error is a prior of the six gains c_p of each position
 // (experiment/weights.h), of standard deviation delta. What the forces say of them is tested: with
 // the model's residual r and the gains' directions Z,

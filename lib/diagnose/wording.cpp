@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/catalogue.h"
 #include "fit/learned_field.h"
 #include "model/model_edit.h"
 
@@ -143,6 +144,22 @@ std::string shape_words(const Diagnosis& d) {
          "and so is what differs by place";
 }
 
+namespace {
+
+// A body's effect that is told from the same gain at all positions is one of many causes.
+std::string set_up_words(const Diagnosis& d) {
+  const bool of_body = std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable) &&
+           require_effect(f.effect).card().solved;
+  });
+  if (d.kind_now != kSetUp || !of_body) return "";
+  return " The model misses the same gain at all positions, and so it would for a wrong tool "
+         "radius, "
+         "an arm that bends or a scale that is wrong: check these before the body.";
+}
+
+}  // namespace
+
 std::string describe_verdict(const Diagnosis& d) {
   std::string missing, rivals;
   for (const Finding& f : d.findings) {
@@ -153,11 +170,11 @@ std::string describe_verdict(const Diagnosis& d) {
   const std::string left = d.left.noise_alone() ? "" : " Beside that " + d.left.words;
   switch (d.verdict) {
     case ModelVerdict::kIncomplete:
-      return "missing: " + missing + "." + left;
+      return "missing: " + missing + "." + set_up_words(d) + left;
     case ModelVerdict::kAmbiguous:
       return (missing.empty() ? "" : "missing: " + missing + "; beyond that ") +
              "the data cannot tell " + rivals + " apart; see the next measurement." +
-             (left.empty() ? "" : " None of them explains all: " + d.left.words);
+             set_up_words(d) + (left.empty() ? "" : " None of them explains all: " + d.left.words);
     case ModelVerdict::kUnexplained:
       return "none of the effects it knows explains the error: " + d.left.words;
     default:
