@@ -45,12 +45,13 @@ ContactBase make_contact_base(const TetMesh& body, double edge) {
 ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
                              double growth) {
   const double slope = std::min(growth, kFarGrowth);
-  const ClassedSurface coarse = coarsen_surface(
-      {base.surface, base.fixed_face},
-      [&](const Vec3& p) { return std::max(slope * (p - contact).norm(), kShortest); }, kFar);
-  return split_long_edges(coarse, [&](const Vec3& p) {
+  const auto wanted = [&](const Vec3& p) {
+    return std::max(slope * (p - contact).norm(), kShortest);
+  };
+  const auto longest = [&](const Vec3& p) {
     return kLongest * slope * std::max((p - contact).norm(), kNear * radius);
-  });
+  };
+  return coarsen_surface(split_long_edges({base.surface, base.fixed_face}, longest), wanted, kFar);
 }
 
 }  // namespace hapsim
