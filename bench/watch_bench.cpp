@@ -1,5 +1,6 @@
 // A model that watches itself: how soon it notices a change, what it calls it, and what error is
-// left; or, with `hours N`, how many alarms N hours of an unchanged body give. Prints tables.
+// left; or, with `hours N [FIRST [LAST]]`, how many alarms N hours of an unchanged body give, for
+// these seeds of presses. Prints tables.
 // Recorded in bench/results/watch*.txt (bench/record.sh).
 #include <fmt/format.h>
 
@@ -251,9 +252,12 @@ void hours(const PreparedBody& truth, const PreparedBody& known, double hours, s
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
   const auto truth = test::prepared_dome(7), known = test::prepared_dome(5);
-  if (argc > 2 && std::string(argv[1]) == "hours")
-    hours(*truth, *known, std::atof(argv[2]),
-          argc > 3 ? static_cast<std::uint64_t>(std::atoi(argv[3])) : 1);
-  else
+  if (argc > 2 && std::string(argv[1]) == "hours") {
+    const int first = argc > 3 ? std::atoi(argv[3]) : 1,
+              last = argc > 4 ? std::atoi(argv[4]) : first;
+    for (int seed = first; seed <= last; ++seed)
+      hours(*truth, *known, std::atof(argv[2]), static_cast<std::uint64_t>(seed));
+  } else {
     changes(*truth, *known, argc > 1 ? std::atoi(argv[1]) : 10, argc > 2 ? argv[2] : "");
+  }
 }

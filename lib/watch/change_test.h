@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "base/vec3.h"
@@ -13,21 +14,67 @@ namespace hapsim {
 struct ChangeTestOptions {
   double rate = 1000;         // samples a second
   double false_alarms = 0.1;  // an hour, while nothing changes
-  double block = 0.05;        // samples of this time are one step of the test [s]
+  double block = 0.05;        // samples of this time are taken together [s]
   double learning = 5;        // time in contact in which the usual error is learned [s]
 };
 
-// Residuals over their usual size (noise and a share of the force, learned at the start) make the
-// cube root of the mean square of a block, which is nearly normal (Wilson and Hilferty, 1931); its
-// cumulative sum above half a standard deviation (Page, Biometrika 41, 1954) raises the alarm at
-// the limit that Siegmund's formula gives for the false-alarm rate (Sequential Analysis, 1985,
-// 2.56).
+struct TestedSample {
+  Vec3 model = Vec3::Zero(), measured = Vec3::Zero();  // [N]
+  double uncertainty = 0;  // relative standard uncertainty of the model's force at this place
+  bool touches = false;
+  std::int32_t press = 0;
+};
+
+// The limit h of a one-sided cumulative sum of independent unit normal values, less half a standard
+// deviation each, at which false alarms come every `run` values (Siegmund, Sequential Analysis,
+// 1985, 2.56).
+double change_limit(double run);
+
+// Cumulative sum of what a press has shown at most, press by press: where it lies a model is as
+// wrong from the first sample to the last, so a press is one value, however long it lasts.
+class PressSum {
+ public:
+  // Of so many samples each, the mean square of the standardised residuals makes a block.
+  explicit PressSum(std::size_t block_length) : block_length_(block_length) {}
+  // Presses' values while nothing changes: mean and scatter, to the safe side; false alarms every
+  // `run` presses. Of one press the scatter is that of a stated error; of none nothing is ever
+  // told.
+  void learn(const std::vector<double>& values, double run);
+  void restart();
+  // The next sample; true when a block has ended with it. `stated`: the share of the usual square
+  // that the model states of its error there; presses may scatter as much as that.
+  bool add(double square, double stated);
+  double end_press();                      // its value, < 0: none
+  double level() const;                    // of the sum, with this press so far
+  double limit() const { return limit_; }  // after learning
+  bool above() const { return learned_ && level() > limit_; }
+  bool is_low() const { return level() <= 0.5 * limit_; }
+  // Times which the usual error must grow for the sum to grow.
+  double least_growth() const { return std::pow((mean_ + kReference * deviation_) / seen_, 1.5); }
+
+ private:
+  static constexpr double kReference = 0.5;  // standard deviations
+  static constexpr std::size_t kWindow = 8;  // blocks whose mean square makes a value
+  std::size_t block_length_;
+  std::array<double, kWindow> window_{};
+  std::size_t blocks_ = 0, samples_ = 0;
+  double squares_ = 0, stated_ = 0, most_stated_ = 0, most_ = -1, sum_ = 0;
+  bool learned_ = false;
+  double mean_ = 1, deviation_ = 1, limit_ = 0;
+  double seen_ = 1;  // mean while learning
+};
+
+// Residuals over their usual size: noise, a share of the force, learned at the start, and beside
+// that what the model itself states of its force there. The cube root of their mean square over 0.4
+// s is nearly normal (Wilson and Hilferty, 1931); its largest in each press enters a cumulative sum
+// (Page, Biometrika 41, 1954), one for what is in contact and one for what is not, each allowed
+// half the false alarms.
 class ChangeTest {
  public:
   explicit ChangeTest(const ChangeTestOptions& options);
 
-  // The next sample; true when the sum has passed the limit with it.
-  bool add(const Vec3& model, const Vec3& measured, bool touches);
+  // The next sample; true when a sum has passed its limit with it.
+  bool add(const TestedSample& sample);
   // From here on, with a sum of zero.
   void restart();
   // As at the start: what is usual now. Until then sizes are the former ones.
@@ -36,26 +83,32 @@ class ChangeTest {
   bool learned() const { return learned_; }
   double size(const Vec3& force) const;    // usual size of a residual component there [N]
   double share() const { return share_; }  // of the force in that
-  double limit() const { return limit_; }
-  // Times which the usual error must grow for the sum to grow.
-  double least_growth() const { return std::pow((mean_ + kReference * deviation_) / seen_, 1.5); }
-  std::size_t since() const { return since_; }  // sample at which the sum was last zero
+  // Times which the usual error in contact must grow for an alarm.
+  double least_growth() const { return sums_[1].least_growth(); }
+  double limit() const { return sums_[1].limit(); }  // of the sum in contact, after learning
+  // Sample at which the sum was last low: from there it rises beyond what usual presses make of it.
+  std::size_t since() const { return since_; }
 
  private:
-  static constexpr double kReference = 0.5;  // of the cumulative sum, in standard deviations
-
+  struct Usual {
+    double force, residual, uncertainty;  // squared; uncertainty relative
+    std::int32_t press;
+    bool touches;
+  };
+  double usual_square(double force, double uncertainty) const;
   void learn();
 
   ChangeTestOptions options_;
   std::size_t block_length_;
-  double limit_ = 0;
   bool learned_ = false;
-  double noise_ = 0, share_ = 0, mean_ = 1, deviation_ = 1;
-  double seen_ = 1;  // mean while learning; mean_ is to the safe side of it
-  std::vector<std::array<double, 2>> usual_;  // squared force and squared residual, while learning
-  std::size_t count_ = 0, in_contact_ = 0, since_ = 0;
-  double block_squares_ = 0, sum_ = 0;
-  std::size_t block_samples_ = 0;
+  double noise_ = 0, share_ = 0;
+  double beside_ = 0;             // of share_, squared, beyond what the model states
+  std::array<PressSum, 2> sums_;  // in the air; in contact
+  std::vector<Usual> usual_;      // while learning
+  std::int32_t press_ = 0;
+  std::size_t count_ = 0, in_contact_ = 0;
+  std::array<std::size_t, 2> left_{};  // since when each sum is not low
+  std::size_t since_ = 0;
 };
 
 }  // namespace hapsim

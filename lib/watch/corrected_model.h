@@ -28,6 +28,8 @@ class CorrectedModel {
   // `gap`: the surface lies so much further out than known, at this press [m].
   Vec3 step(const MotionLine& line, bool fresh, const Correction& c, double gap = 0);
   void take_state(const CorrectedModel& other);
+  // Relative standard uncertainty of the force that the place leaves.
+  double uncertainty() const { return loop_.uncertainty(); }
 
  private:
   void touch_between(double t, const Vec3& tool);

@@ -14,9 +14,9 @@ constexpr double kPatience = 6;   // after the alarm at most [s]
 constexpr double kNextPress = 2;  // [s]
 constexpr int kPresses = 3;   // one press tells a shift along its normal alone, and not from a bias
 constexpr double kClear = 5;  // margin of an explanation by fewer presses
-constexpr int kLeastPresses = 4;     // from which an error can be stated
-constexpr double kKnown = 0.4;       // of the usual error may be the shift's
-constexpr double kThinned = 100;     // samples a second that a change is explained from
+constexpr int kLeastPresses = 4;  // from which an error can be stated
+constexpr double kKnown = 0.5;    // of the usual error may be the shift's: both are 1.12 times that
+constexpr double kThinned = 100;  // samples a second that a change is explained from
 constexpr int kMaterialPresses = 6;  // over which a material is refined
 constexpr int kSearchedPresses = 8;  // from so few on a shift is searched for everywhere
 
@@ -74,7 +74,9 @@ Vec3 ModelWatch::step(const MotionLine& line, const Vec3& measured) {
   if (!refining)
     factors_.add(line.press, press_begun_, line.point - correction_.shift, model - correction_.bias,
                  measured - correction_.bias);
-  if (test_.add(model, measured, !line.in_air && model.norm() > 0) && alarm_ < 0 && !refining) {
+  const bool in_contact = !line.in_air && model.norm() > 0;
+  if (test_.add({model, measured, model_.uncertainty(), in_contact, line.press}) && alarm_ < 0 &&
+      !refining) {
     alarm_ = line.t;
     change_ = test_.since();
     waits_until_ = count_ + static_cast<std::size_t>(options_.evidence * options_.test.rate);
@@ -87,7 +89,8 @@ double ModelWatch::usual_error() const {
   double squares = 0;
   const std::size_t from = oldest();
   for (std::size_t i = from; i < count_; ++i) squares += std::pow(test_.size(kept(i).model), 2);
-  return count_ > from ? std::sqrt(squares / static_cast<double>(count_ - from)) : test_.size({});
+  return count_ > from ? std::sqrt(squares / static_cast<double>(count_ - from))
+                       : test_.size(Vec3::Zero());
 }
 
 // The error of a stiffness that has changed by a share x, beside that usual share s of the force:

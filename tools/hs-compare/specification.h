@@ -38,8 +38,10 @@ inline ToolSpec compare_specification() {
       "contact points and displacements are checked to 0.01 mm.",
       "On a terminal the residuals themselves are not printed unless asked for with -o.",
       "With --follow a stream of rows is compared with a model as they come. The usual error is "
-      "learned at the beginning; then a cumulative sum of it raises an alarm, tuned to the false "
-      "alarms an hour that are put up with. What follows the alarm tells whether the body has "
+      "learned at the beginning; then a cumulative sum of it, press by press, raises an alarm, "
+      "tuned "
+      "to the false alarms an hour that are put up with; what the model states of its force at a "
+      "place is no change. What follows the alarm tells whether the body has "
       "moved "
       "or is gone, its stiffness has changed or the sensor's zero has; the model goes on with "
       "that, "
