@@ -49,7 +49,7 @@ ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, doubl
     return std::max(slope * (p - contact).norm(), kShortest);
   };
   const auto longest = [&](const Vec3& p) {
-    return kLongest * slope * std::max((p - contact).norm(), kNear * radius);
+    return kLongest * kFarGrowth * std::max((p - contact).norm(), kNear * radius);
   };
   return coarsen_surface(split_long_edges({base.surface, base.fixed_face}, longest), wanted, kFar);
 }

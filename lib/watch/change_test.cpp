@@ -33,21 +33,16 @@ bool ChangeTest::add(const TestedSample& s) {
   }
   if (fresh)
     for (PressSum& sum : sums_) sum.end_press();
-  const std::size_t which = s.touches ? 1 : 0;
-  PressSum& sum = sums_[which];
-  const bool was_low = sum.is_low();
+  PressSum& sum = sums_[s.touches ? 1 : 0];
   const double usual = usual_square(force, uncertainty);
-  if (!sum.add(residual / usual, uncertainty * force / usual)) return false;
-  if (was_low) left_[which] = count_ - std::min(count_, block_length_);
-  if (!sum.above()) return false;
-  since_ = left_[which];
+  if (!sum.add(residual / usual, uncertainty * force / usual, count_) || !sum.above()) return false;
+  since_ = sum.since();
   return true;
 }
 
 void ChangeTest::restart() {
   for (PressSum& sum : sums_) sum.restart();
   since_ = count_;
-  left_.fill(count_);
 }
 
 void ChangeTest::learn_anew() {
@@ -88,7 +83,7 @@ void ChangeTest::learn() {
   for (std::size_t i = 0; i < usual_.size(); ++i) {
     const Usual& u = usual_[i];
     if (i > 0 && u.press != usual_[i - 1].press) end_press(), presses += 1;
-    sums[u.touches ? 1 : 0].add(u.residual / usual_square(u.force, u.uncertainty), 0);
+    sums[u.touches ? 1 : 0].add(u.residual / usual_square(u.force, u.uncertainty), 0, i);
   }
   end_press();
   const double hours = n / options_.rate / 3600;

@@ -41,24 +41,36 @@ class PressSum {
   // told.
   void learn(const std::vector<double>& values, double run);
   void restart();
-  // The next sample; true when a block has ended with it. `stated`: the share of the usual square
-  // that the model states of its error there; presses may scatter as much as that.
-  bool add(double square, double stated);
+  // The next sample, number `at` of the stream; true when a block has ended with it. `stated`: the
+  // share of the usual square that the model states of its error there; presses may scatter as much
+  // as that.
+  bool add(double square, double stated, std::size_t at);
   double end_press();                      // its value, < 0: none
   double level() const;                    // of the sum, with this press so far
   double limit() const { return limit_; }  // after learning
   bool above() const { return learned_ && level() > limit_; }
-  bool is_low() const { return level() <= 0.5 * limit_; }
+  // The sample from which the error is most likely another one: of the presses since the sum was
+  // zero those from which on their excess over half its mean adds up to most (Hinkley, Biometrika
+  // 57, 1970), and in the first of them the block that has half of what it shows at most.
+  std::size_t since() const;
   // Times which the usual error must grow for the sum to grow.
   double least_growth() const { return std::pow((mean_ + kReference * deviation_) / seen_, 1.5); }
 
  private:
   static constexpr double kReference = 0.5;  // standard deviations
   static constexpr std::size_t kWindow = 8;  // blocks whose mean square makes a value
+  struct Excess {
+    std::size_t at;
+    double value;  // over the usual mean, in standard deviations
+  };
+  double excess() const;      // of this press so far
+  Excess this_press() const;  // with the sample at which it shows
+  void begin_press();
   std::size_t block_length_;
   std::array<double, kWindow> window_{};
   std::size_t blocks_ = 0, samples_ = 0;
   double squares_ = 0, stated_ = 0, most_stated_ = 0, most_ = -1, sum_ = 0;
+  std::vector<Excess> blocks_of_press_, presses_;  // so far; ended since the sum was zero
   bool learned_ = false;
   double mean_ = 1, deviation_ = 1, limit_ = 0;
   double seen_ = 1;  // mean while learning
@@ -86,7 +98,6 @@ class ChangeTest {
   // Times which the usual error in contact must grow for an alarm.
   double least_growth() const { return sums_[1].least_growth(); }
   double limit() const { return sums_[1].limit(); }  // of the sum in contact, after learning
-  // Sample at which the sum was last low: from there it rises beyond what usual presses make of it.
   std::size_t since() const { return since_; }
 
  private:
@@ -107,8 +118,7 @@ class ChangeTest {
   std::vector<Usual> usual_;      // while learning
   std::int32_t press_ = 0;
   std::size_t count_ = 0, in_contact_ = 0;
-  std::array<std::size_t, 2> left_{};  // since when each sum is not low
-  std::size_t since_ = 0;
+  std::size_t since_ = 0;  // sample at which the change was
 };
 
 }  // namespace hapsim

@@ -51,24 +51,36 @@ void PressSum::learn(const std::vector<double>& values, double run) {
   deviation_ = std::max(deviation_, 1e-3);
 }
 
-void PressSum::restart() {
+void PressSum::begin_press() {
   blocks_ = samples_ = 0;
   squares_ = stated_ = most_stated_ = 0;
   most_ = -1;
+  blocks_of_press_.clear();
+}
+
+void PressSum::restart() {
+  begin_press();
   sum_ = 0;
+  presses_.clear();
 }
 
 double PressSum::end_press() {
   // Of a press too short for a block, what there is.
   if (blocks_ == 0 && 2 * samples_ >= block_length_ && samples_ > 0)
     most_ = std::cbrt(squares_ / static_cast<double>(samples_));
-  const double value = most_, sum = level();
-  restart();
-  sum_ = sum;
+  const double value = most_;
+  if (learned_ && most_ >= 0) {
+    sum_ = level();
+    if (sum_ == 0)
+      presses_.clear();
+    else
+      presses_.push_back(this_press());
+  }
+  begin_press();
   return value;
 }
 
-bool PressSum::add(double square, double stated) {
+bool PressSum::add(double square, double stated, std::size_t at) {
   squares_ += square;
   stated_ += stated;
   if (++samples_ < block_length_) return false;
@@ -80,14 +92,38 @@ bool PressSum::add(double square, double stated) {
   double mean = 0;
   for (std::size_t i = 0; i < n; ++i) mean += window_[i] / static_cast<double>(n);
   most_ = std::max(most_, std::cbrt(mean));
+  if (learned_) blocks_of_press_.push_back({at - std::min(at, block_length_), excess()});
   return true;
+}
+
+double PressSum::excess() const {
+  return (most_ - std::max(mean_, kStatedMean)) /
+         std::max(deviation_, most_stated_ * kStatedDeviation);
 }
 
 double PressSum::level() const {
   if (!learned_ || most_ < 0) return sum_;
-  const double mean = std::max(mean_, kStatedMean),
-               deviation = std::max(deviation_, most_stated_ * kStatedDeviation);
-  return std::max(0.0, sum_ + (most_ - mean) / deviation - kReference);
+  return std::max(0.0, sum_ + excess() - kReference);
+}
+
+PressSum::Excess PressSum::this_press() const {
+  const double value = excess();
+  for (const Excess& block : blocks_of_press_)
+    if (block.value >= 0.5 * value) return {block.at, value};
+  return {0, value};  // too short for a block
+}
+
+std::size_t PressSum::since() const {
+  std::vector<Excess> all = presses_;
+  if (!blocks_of_press_.empty()) all.push_back(this_press());
+  double mean = 0, sum = 0, most = 0;
+  for (const Excess& e : all) mean += e.value / static_cast<double>(all.size());
+  std::size_t at = all.empty() ? 0 : all.back().at;
+  for (auto e = all.rbegin(); e != all.rend(); ++e) {
+    sum += e->value - 0.5 * mean;
+    if (sum > most && e->at > 0) most = sum, at = e->at;
+  }
+  return at;
 }
 
 }  // namespace hapsim
