@@ -36,6 +36,7 @@ std::vector<std::string> needs(const hapsim::EffectCard& card) {
   add(card.needs_temperature, "the column temp, warm and cold presses");
   add(card.needs_sideways, "presses that move sideways");
   add(card.needs_return, "presses recorded on their way out");
+  add(card.shows_at_starts, "presses recorded on their way out, or many");
   add(card.needs_rim, "a tool that covers a part of the body");
   add(card.needs_repeats, "a place pressed more than once");
   return list;

@@ -50,6 +50,7 @@ class Drag : public Effect {
         .parameters = {{"D", "N", "drag", 0, 0.02, 0, 1e3, 0.02, false},
                        {"x0", "m", "way within which it is taken up", 1e-5, 1e-5, 1e-7, 1e-2, 1e-5,
                         true, std::numeric_limits<double>::quiet_NaN(), true}},
+        .shows_at_starts = true,
         .signature =
             "an offset that goes against the motion: too large a force on the way in and "
             "too small on the way out, the same at any depth",

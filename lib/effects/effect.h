@@ -49,6 +49,7 @@ struct EffectCard {
   bool needs_temperature = false;  // not testable unless the column temp varies
   bool needs_sideways = false;     // not testable without tangential displacement
   bool needs_return = false;       // not testable unless a recorded press moves out again
+  bool shows_at_starts = false;    // without a way out it shows where presses begin alone: of many
   bool needs_rim = false;          // not testable between plates: acts under a part of the surface
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
   bool one_body = false;       // its parameters are of one body's shape or place

@@ -54,11 +54,17 @@ bool moves_sideways(const PressView& view) {
   return across > kSideways * along;
 }
 
+// Presses whose first samples tell as much as a way out.
+constexpr std::size_t kLeastStarts = 6;
+
+// Not where a press begins above the surface, or wavers there.
 bool comes_back(const PressView& view) {
-  double deepest = 0;
+  constexpr double kIn = 0.1;  // of the largest depth
+  double most = 0, deepest = 0;
+  for (const Vec3& u : view.u) most = std::max(most, u.dot(view.direction));
   for (const Vec3& u : view.u) {
     const double depth = u.dot(view.direction);
-    if (depth < kReturn * deepest) return true;
+    if (deepest > kIn * most && depth < kReturn * deepest) return true;
     deepest = std::max(deepest, depth);
   }
   return false;
@@ -216,6 +222,11 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
     return "no press moves sideways: move the tool along the surface while it presses";
   if (effect.needs_return && !some(comes_back))
     return "no press is recorded on its way out: record until the tool has left";
+  if (effect.shows_at_starts && dataset.episodes.size() < kLeastStarts && !some(comes_back))
+    return fmt::format(
+        "no press is recorded on its way out, and {} begin: record until the tool has left, or {} "
+        "presses",
+        dataset.episodes.size(), kLeastStarts);
   if (effect.needs_repeats && !some([](const PressView& v) {
         return v.past_depth > 0 || (!v.session.empty() && v.session.front() > 0);
       }))

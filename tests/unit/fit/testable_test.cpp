@@ -86,6 +86,9 @@ TEST(Testable, SaysWhatTheDataLack) {
   in.t.resize(3);
   EXPECT_NE(lack("backlash", in).find("way out"), std::string::npos);
   EXPECT_NE(lack("adhesion", in).find("way out"), std::string::npos);
+  EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
+  in.u[0].z() = 1e-4;  // above the surface is no way out
+  EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
 }
 
 TEST(Testable, TemperatureMustVaryBetweenPresses) {
