@@ -154,7 +154,7 @@ ToolSpec specification() {
        "Regions, boundary and tree."},
       {"hs-cluster l.csv --body body.ply --labels regions.ply --model start.csv -o classified.csv",
        "A body with regions, and a model that hs-identify --model can improve."},
-      {"hs-identify data.csv --body body.ply --model start.csv --boundary 8 -o m.csv",
+      {"hs-identify data.csv --body body.ply --model start.csv --refine-boundary 8 -o m.csv",
        "Improves it: the boundary moves with the moduli, as all forces ask."}};
   spec.see_also = {"hs-identify(1)", "hs-tetmesh(1)", "hs-effects(7)"};
   return spec;

@@ -70,7 +70,9 @@ class PressSum {
   std::array<double, kWindow> window_{};
   std::size_t blocks_ = 0, samples_ = 0;
   double squares_ = 0, stated_ = 0, most_stated_ = 0, most_ = -1, sum_ = 0;
-  std::vector<Excess> blocks_of_press_, presses_;  // so far; ended since the sum was zero
+  // Of this press the blocks that showed more than all before, few however long it lasts; presses
+  // that ended since the sum was zero.
+  std::vector<Excess> rises_, presses_;
   bool learned_ = false;
   double mean_ = 1, deviation_ = 1, limit_ = 0;
   double seen_ = 1;  // mean while learning

@@ -55,7 +55,7 @@ void PressSum::begin_press() {
   blocks_ = samples_ = 0;
   squares_ = stated_ = most_stated_ = 0;
   most_ = -1;
-  blocks_of_press_.clear();
+  rises_.clear();
 }
 
 void PressSum::restart() {
@@ -91,8 +91,10 @@ bool PressSum::add(double square, double stated, std::size_t at) {
   const std::size_t n = std::min(blocks_, kWindow);
   double mean = 0;
   for (std::size_t i = 0; i < n; ++i) mean += window_[i] / static_cast<double>(n);
-  most_ = std::max(most_, std::cbrt(mean));
-  if (learned_) blocks_of_press_.push_back({at - std::min(at, block_length_), excess()});
+  if (const double root = std::cbrt(mean); root > most_) {
+    most_ = root;
+    if (learned_) rises_.push_back({at - std::min(at, block_length_), excess()});
+  }
   return true;
 }
 
@@ -108,14 +110,14 @@ double PressSum::level() const {
 
 PressSum::Excess PressSum::this_press() const {
   const double value = excess();
-  for (const Excess& block : blocks_of_press_)
-    if (block.value >= 0.5 * value) return {block.at, value};
+  for (const Excess& rise : rises_)
+    if (rise.value >= 0.5 * value) return {rise.at, value};
   return {0, value};  // too short for a block
 }
 
 std::size_t PressSum::since() const {
   std::vector<Excess> all = presses_;
-  if (!blocks_of_press_.empty()) all.push_back(this_press());
+  if (!rises_.empty()) all.push_back(this_press());
   double mean = 0, sum = 0, most = 0;
   for (const Excess& e : all) mean += e.value / static_cast<double>(all.size());
   std::size_t at = all.empty() ? 0 : all.back().at;

@@ -81,8 +81,8 @@ row hs-scan2ply-pcd-binary binary.pcd hs-scan2ply @
 row hs-scan2ply-nrrd text.nrrd hs-scan2ply @ --threshold 4.5
 row hs-scan2ply-nrrd-gzip gzip.nrrd hs-scan2ply @ --threshold 4.5
 row hs-scan2ply-nifti small.nii hs-scan2ply @ --threshold 4.5
-row hs-scan2ply-joints joints.csv hs-scan2ply @ --robot arm.urdf --tip sensor
-row hs-scan2ply-urdf arm.urdf hs-scan2ply joints.csv --robot @ --tip sensor
+row hs-scan2ply-joints joints.csv hs-scan2ply @ --robot arm.urdf --tip-link sensor
+row hs-scan2ply-urdf arm.urdf hs-scan2ply joints.csv --robot @ --tip-link sensor
 row hs-reconstruct-ply points.ply hs-reconstruct @
 row hs-import-machine machine.csv hs-import @ --block 60x50x40mm --tool-radius 4mm
 row hs-identify-data data.csv hs-identify @ --body body.ply --rim-edge 0.5 --folds 0 --tool-radius 0.004
