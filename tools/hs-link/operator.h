@@ -48,16 +48,21 @@ class OperatorRun {
   void exchange() {
     const std::int64_t now = monotonic_ns();
     if (end_.tick(now, datagram_)) channel_.push(now, datagram_);
+    // What waits may have come any time since all had been taken: where this process was stopped
+    // meanwhile it is old, and no force may go on because of it.
+    const std::int64_t came = emptied_ != 0 ? emptied_ : now;
     std::size_t size = 0;
     constexpr int kAtOnce = 256;  // a flood must not keep the loop from its clock
-    for (int i = 0; i < kAtOnce && (size = socket_.receive(buffer_, from_)) > 0; ++i) {
+    int taken = 0;
+    for (; taken < kAtOnce && (size = socket_.receive(buffer_, from_)) > 0; ++taken) {
       if (!(from_ == peer_)) {
         ++strangers_;
         continue;
       }
       if (const auto received = end_.receive(now, {buffer_.data(), size}))
-        near_.receive(now, *received);
+        near_.receive(came, *received);
     }
+    if (taken < kAtOnce) emptied_ = now;
     while (channel_.pop(now, datagram_)) socket_.send(peer_, datagram_.view());
   }
 
@@ -145,7 +150,7 @@ class OperatorRun {
   std::ostream& out_;
   UdpSocket socket_;
   ImpairedChannel channel_;
-  std::int64_t hold_, moved_ = 0;
+  std::int64_t hold_, moved_ = 0, emptied_ = 0;
   std::array<unsigned char, 2048> buffer_{};
   Datagram datagram_;
   MotionLine last_;
