@@ -1,4 +1,4 @@
-// The guide that the tool slides in drags.
+// The guides that the tool slides in drag.
 #include <algorithm>
 
 #include "effects/effect_step.h"
@@ -7,27 +7,33 @@
 namespace hapsim {
 namespace {
 
-// The share of the drag that acts after a step `ds` along the guide, which is taken up within x0.
+// The share of the drag that acts after a step `ds` along an axis, which is taken up within x0.
 double taken(double q, double ds, double x0) {
   return std::clamp(q + ds / x0, -1.0, 1.0);
 }
 
-// Remembers q and the last way along the guide.
+Vec3 sizes_of(const Values& values) {
+  return {find_value(values, "Dx").value, find_value(values, "Dy").value,
+          find_value(values, "Dz").value};
+}
+
+// Remembers q and the last place.
 class DragStep : public EffectStep {
  public:
-  DragStep(double D, double x0) : D_(D), x0_(x0) {}
-  std::size_t memory() const override { return 2; }
-  void take_place(const StepPlace& place) noexcept override { normal_ = place.normal; }
+  DragStep(const Vec3& D, double x0) : D_(D), x0_(x0) {}
+  std::size_t memory() const override { return 6; }
   void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
-    const double s = sample.u.dot(normal_);
-    memory[0] = sample.first ? 0 : taken(memory[0], s - memory[1], x0_);
-    memory[1] = s;
-    f -= D_ * memory[0] * normal_;
+    for (int k = 0; k < 3; ++k) {
+      double &q = memory[k], &before = memory[3 + k];
+      q = sample.first ? 0 : taken(q, sample.u[k] - before, x0_);
+      before = sample.u[k];
+      f[k] -= D_[k] * q;
+    }
   }
 
  private:
-  double D_, x0_;
-  Vec3 normal_ = Vec3::UnitZ();
+  Vec3 D_;
+  double x0_;
 };
 
 class Drag : public Effect {
@@ -36,18 +42,20 @@ class Drag : public Effect {
     static const EffectCard card{
         .name = "drag",
         .stage = Stage::kSensor,
-        .title = "the guide that the tool slides in drags",
+        .title = "the guides that the tool slides in drag",
         .equation =
-            "f = f_true - D q n, q_i = min(max(q_i-1 + (s_i - s_i-1) / x0, -1), 1), s = u.n: "
-            "friction against the motion along the normal n, taken up within x0",
+            "f_k = f_true,k - D_k q_k, q_k,i = min(max(q_k,i-1 + (u_k,i - u_k,i-1) / x0, -1), 1), "
+            "k = x, y, z: friction against the motion along each axis, taken up within x0",
         .source =
             "elastic and perfectly plastic element: Prandtl 1928; Visintin, Differential "
             "Models of Hysteresis, III.2",
         .assumptions =
-            "the guide lies along the surface's normal; the drag does not depend on the force or "
-            "the speed, acts between the body and the sensor, in the air too, and begins with each "
+            "guides along the recording's axes; the drag does not depend on the force or the "
+            "speed, acts between the body and the sensor, in the air too, and begins with each "
             "press at nothing",
-        .parameters = {{"D", "N", "drag", 0, 0.02, 0, 1e3, 0.02, false},
+        .parameters = {{"Dx", "N", "drag along x", 0, 0.02, 0, 1e3, 0.02, false},
+                       {"Dy", "N", "drag along y", 0, 0.02, 0, 1e3, 0.02, false},
+                       {"Dz", "N", "drag along z", 0, 0.02, 0, 1e3, 0.02, false},
                        {"x0", "m", "way within which it is taken up", 1e-5, 1e-5, 1e-7, 1e-2, 1e-5,
                         true, std::numeric_limits<double>::quiet_NaN(), true}},
         .shows_at_starts = true,
@@ -60,39 +68,43 @@ class Drag : public Effect {
   }
 
   void apply(const PressView& press, const Values& values, Signal& signal) const override {
-    const ParameterValue &D = find_value(values, "D"), &x0 = find_value(values, "x0");
-    const Vec3& n = press.normal;
+    const ParameterValue& x0 = find_value(values, "x0");
+    for (int k = 0; k < 3; ++k)
+      apply_along(k, press, find_value(values, card().parameters[k].name), x0, signal);
+  }
+
+  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
+    return std::make_unique<DragStep>(sizes_of(values), find_value(values, "x0").value);
+  }
+
+  std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
+    const double D = 0.02 * data.peak_force;
+    return {{D, D, D, 1e-5}};
+  }
+
+ private:
+  static void apply_along(int k, const PressView& press, const ParameterValue& D,
+                          const ParameterValue& x0, Signal& signal) {
     const Eigen::Index columns = signal.df.cols();
     const bool moved = press.du.cols() > 0;
     double q = 0;
     Eigen::RowVectorXd dq = Eigen::RowVectorXd::Zero(columns);
     for (std::size_t i = 1; i < press.size(); ++i) {
-      const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
-      const double ds = (press.u[i] - press.u[i - 1]).dot(n);
+      const Eigen::Index row = 3 * static_cast<Eigen::Index>(i) + k;
+      const double ds = press.u[i][k] - press.u[i - 1][k];
       const bool slides = std::abs(q + ds / x0.value) >= 1;
       q = taken(q, ds, x0.value);
-      signal.f.segment<3>(row) -= D.value * q * n;
+      signal.f[row] -= D.value * q;
       if (columns == 0) continue;
       if (slides) {
         dq.setZero();
       } else {
-        if (moved)
-          dq += n.transpose() * (press.du.middleRows(row, 3) - press.du.middleRows(row - 3, 3)) /
-                x0.value;
+        if (moved) dq += (press.du.row(row) - press.du.row(row - 3)) / x0.value;
         if (x0.column >= 0) dq[x0.column] -= ds / (x0.value * x0.value);
       }
-      signal.df.middleRows(row, 3) -= D.value * n * dq;
-      if (D.column >= 0) signal.df.block<3, 1>(row, D.column) -= q * n;
+      signal.df.row(row) -= D.value * dq;
+      if (D.column >= 0) signal.df(row, D.column) -= q;
     }
-  }
-
-  std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
-    return std::make_unique<DragStep>(find_value(values, "D").value,
-                                      find_value(values, "x0").value);
-  }
-
-  std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
-    return {{0.02 * data.peak_force, 1e-5}};
   }
 };
 

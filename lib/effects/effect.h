@@ -51,6 +51,7 @@ struct EffectCard {
   bool needs_return = false;       // not testable unless a recorded press moves out again
   bool shows_at_starts = false;    // without a way out it shows where presses begin alone: of many
   bool needs_rim = false;          // not testable between plates: acts under a part of the surface
+  bool needs_flat = false;         // not testable with a ball
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
   bool one_body = false;       // its parameters are of one body's shape or place
   bool one_tool = false;       // its parameters are of one tool

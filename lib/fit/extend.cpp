@@ -207,6 +207,8 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
   if (effect.needs_rim && std::all_of(dataset.episodes.begin(), dataset.episodes.end(),
                                       [](const Episode& e) { return e.view.height > 0; }))
     return "the tool covers the whole body: press with a tool that covers a part of it";
+  if (effect.needs_flat && dataset.recording.has_ball())
+    return "the contact of a ball is its curvature's (tip): press with a flat tool";
   if (effect.needs_temperature) {
     if (dataset.recording.temp.empty())
       return "the recording has no column temp: record the body's temperature";

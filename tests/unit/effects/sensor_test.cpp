@@ -47,9 +47,19 @@ TEST(SensorCrosstalk, ShowsSharesOfTheOtherAxes) {
 // In by 1 mm, held, out again: too large by 0.1 N, then too small; half of it after half of x0.
 TEST(Drag, GoesAgainstTheMotion) {
   const auto f = forces_after(drag_effect(), test::press_to({0, 5e-6, 1e-3, 1e-3, 0.5e-3}),
-                              {{0, "D", 0.1}, {0, "x0", 1e-5}});
+                              {{0, "Dx", 0.3}, {0, "Dy", 0.3}, {0, "Dz", 0.1}, {0, "x0", 1e-5}});
   const double expected[] = {0, 0.001 + 0.05, 0.2 + 0.1, 0.2 + 0.1, 0.1 - 0.1};
-  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i].z(), expected[i], 1e-12) << i;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    EXPECT_NEAR((f[i] - Vec3(0, 0, expected[i])).norm(), 0, 1e-12) << i;
+}
+
+// Each axis drags by its own motion alone: x goes back while z goes on.
+TEST(Drag, IsOfEachAxisAlone) {
+  const auto f = forces_after(drag_effect(),
+                              test::press_along({{0, 0, 0}, {1e-3, 0, -1e-3}, {0.5e-3, 0, -2e-3}}),
+                              {{0, "Dx", 0.3}, {0, "Dy", 0.2}, {0, "Dz", 0.1}, {0, "x0", 1e-5}});
+  const Vec3 body = -test::kStiffness * Vec3(0.5e-3, 0, -2e-3);
+  EXPECT_NEAR((f[2] - body - Vec3(0.3, 0, 0.1)).norm(), 0, 1e-12);
 }
 
 TEST(SensorCurve, BendsEachAxisOddly) {
