@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh BUILD OUT [FROM:TO [LOW:HIGH [TRUTH...]]] [--object phantom|block|lump] [--protocol rich|robot|few]
-# [--verbose] [--keep FOLDER]: trials on the shipped phantom (or a cuboid, or a lobed dome, each made of a scan
+# [--verbose] [--keep FOLDER] [--leave-out]: trials on the shipped phantom (or a cuboid, or a lobed dome, each made of a scan
 # of its own), pressed as presses.awk says, seeds FROM to TO, errors LOW to HIGH times the noise. The results in
 # OUT/trials.csv are gone on with when it is run again with the same object and protocol; delete OUT to begin
 # anew. Two runs at once share nothing: give each an OUT of its own and put the files together. Inclusions lie

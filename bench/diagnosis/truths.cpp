@@ -165,6 +165,20 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("sensor-gain-z", "sensor-gain", 3, [](double s) {
     return std::vector<double>{1 / (1 + s), 1 / (1 + s)};
   }));
+  t.push_back(own_form("sensor-crosstalk", "sensor-crosstalk", 1, [](double s) {
+    return std::vector<double>{s, -s, -0.5 * s, s, 0.7 * s, s};
+  }));
+  t.push_back(own_form("motion-scale", "motion-scale", 3, [](double s) {
+    return std::vector<double>{1, 1 + s};
+  }));
+  t.push_back(own_form("arm-compliance", "arm-compliance", 0.5, [](double s) {
+    return std::vector<double>{s, s, 0.5 * s};
+  }));
+  t.push_back(own_form("drag", "drag", 5, [](double s) {
+    return std::vector<double>{0, 0, s, 1e-5};
+  }));
+  t.push_back(own_form("tool-radius", "tool-radius", 4,
+                       [](double s) { return std::vector<double>{1 + s}; }));
   t.push_back(own_form("sensor-curve", "sensor-curve", 1, [](double s) {
     return std::vector<double>{-s, 0, -s, 0};
   }));

@@ -24,6 +24,7 @@ struct DiagnoseOptions {
   int folds = 6;
   int flips = 999;
   std::uint64_t seed = 1;
+  std::string unknown;  // an effect that is taken for one of no catalogue: for trials
   // What is being done, and which of how many effects that is (from 1; 0: none of a count). It may
   // throw, which ends the diagnosis.
   std::function<void(const std::string&, std::size_t, std::size_t)> progress;

@@ -69,7 +69,7 @@ const EffectSet* EffectSets::find_below(EffectNames names) {
 }
 
 std::vector<const Effect*> EffectSets::growth(const EffectSet& from) const {
-  std::vector<const Effect*> effects = untried(from.fitted.model);
+  std::vector<const Effect*> effects = untried(from.fitted.model, options_.unknown);
   std::erase_if(effects, [&](const Effect* e) {
     const EffectCard& card = e->card();
     return needs_many_presses(card) || (card.solved && !departs_) || lack_.count(card.name) > 0;

@@ -246,7 +246,7 @@ FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
                     : Verdict::kAbsent;
     result.findings.push_back(f);
   }
-  for (const Effect* effect : untried(base.fitted.model)) {
+  for (const Effect* effect : untried(base.fitted.model, options.unknown)) {
     const EffectCard& card = effect->card();
     Finding f;
     f.effect = card.name;

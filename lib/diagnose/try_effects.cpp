@@ -99,11 +99,11 @@ void judge_by_presses(const Candidate& c, const Baseline& base, const TrialGroun
 
 }  // namespace
 
-std::vector<const Effect*> untried(const Model& model) {
+std::vector<const Effect*> untried(const Model& model, const std::string& unknown) {
   std::vector<const Effect*> effects;
   for (const Effect* effect : catalogue()) {
     const EffectCard& card = effect->card();
-    if (effect == &body_effect()) continue;
+    if (effect == &body_effect() || card.name == unknown) continue;
     if (model.has(card.name) && (!card.terms || card.is_map)) continue;
     const bool included =
         std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
@@ -194,7 +194,7 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
   const bool departs = departures.anywhere();
   double least = base.fitted.error.pooled;
   std::vector<const Effect*> at_some_first;
-  const std::vector<const Effect*> effects = untried(base.fitted.model);
+  const std::vector<const Effect*> effects = untried(base.fitted.model, options.unknown);
   std::size_t tested = 0;
   const Counted count = [&](const Effect& effect) {
     options.tell("testing " + effect.card().name, ++tested, effects.size());

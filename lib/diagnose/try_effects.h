@@ -15,8 +15,9 @@ struct Round {
   std::vector<Finding> untestable;
 };
 
-// Effects worth trying on top of a model: those it lacks, and one more term of those with terms.
-std::vector<const Effect*> untried(const Model& model);
+// Effects worth trying on top of a model: those it lacks, and one more term of those with terms;
+// never `unknown` (DiagnoseOptions).
+std::vector<const Effect*> untried(const Model& model, const std::string& unknown);
 // Relative fall of the error on unseen positions.
 double held_out_fall(const Finding& finding);
 // Whether `effect` includes the effect `other` as a special case.

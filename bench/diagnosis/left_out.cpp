@@ -1,0 +1,79 @@
+#include "left_out.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace hapsim::bench {
+namespace {
+
+constexpr double kAtFloor = 1.1;  // errors over the floor below which nothing is left
+
+// What may be said of each effect (LeftOver::kind), fixed before anything was diagnosed.
+const std::map<std::string, std::vector<std::string>>& kinds() {
+  static const std::vector<std::string> set_up{"set-up", "direction"},
+      body{"body", "place", "position"}, zero{"offset", "drift"}, depth{"depth"},
+      time{"contact-time", "rate"}, session{"session-time", "drift", "cycle"};
+  static const std::map<std::string, std::vector<std::string>> table{
+      {"viscoelastic", time},
+      {"damper", time},
+      {"sensor-lag", time},
+      {"hyperelastic", depth},
+      {"tip", depth},
+      {"sensor-curve", depth},
+      {"deadband", depth},
+      {"backlash", depth},
+      {"adhesion", depth},
+      {"friction", {"direction"}},
+      {"temperature", {"temperature"}},
+      {"softening", session},
+      {"sensor-drift", session},
+      {"sensor-bias", zero},
+      {"tare", zero},
+      {"drag", {"offset", "rate"}},
+      {"sensor-rotation", set_up},
+      {"sensor-gain", set_up},
+      {"sensor-crosstalk", set_up},
+      {"motion-scale", set_up},
+      {"arm-compliance", set_up},
+      {"tool-radius", {"set-up", "body"}},
+      {"regions", body},
+      {"layer", body},
+      {"inclusion", body},
+      {"anisotropic", {"set-up", "direction", "body"}},
+      {"base", body}};
+  return table;
+}
+
+const char* judged(const Trial& t) {
+  if (!t.rivals.empty()) return "set";
+  if (!t.missing.empty()) return !t.left.empty() ? "hedged" : t.after <= kAtFloor ? "same" : "sure";
+  if (t.verdict == "complete") return "unseen";
+  const auto& kind = kinds().find(t.effects);
+  if (kind == kinds().end()) return "open";
+  return std::count(kind->second.begin(), kind->second.end(), t.left) > 0 ? "kind" : "open";
+}
+
+}  // namespace
+
+bool can_be_left_out(const Truth& truth) {
+  return truth.effects.size() == 1 && truth.base.empty() && truth.presses == 0;
+}
+
+void print_left_out(const std::vector<Trial>& trials) {
+  std::map<std::string, int> counts;
+  fmt::print("{:<24} {:>5} {:<12} {:<40} {:<13} {:>6} {:>6}  judged\n", "truth", "level", "verdict",
+             "named {alike}", "left", "before", "after");
+  for (const Trial& t : trials) {
+    const char* const what = judged(t);
+    ++counts[what];
+    const std::string alike = t.rivals.empty() ? "" : "{" + t.rivals + "}";
+    fmt::print("{:<24} {:>5.2g} {:<12} {:<40} {:<13} {:>6.2f} {:>6.2f}  {}\n", t.truth, t.level,
+               t.verdict, t.missing + alike, t.left.empty() ? "-" : t.left, t.now, t.after, what);
+  }
+  fmt::print("\n");
+  for (const auto& [what, n] : counts) fmt::print("{:<8} {:>4} of {}\n", what, n, trials.size());
+}
+
+}  // namespace hapsim::bench

@@ -1,0 +1,24 @@
+// Trials whose hidden effect was taken from the catalogue: an open world.
+#pragma once
+
+#include <vector>
+
+#include "summary.h"
+#include "truths.h"
+
+namespace hapsim::bench {
+
+// One hidden effect on the plain body, all presses.
+bool can_be_left_out(const Truth& truth);
+
+// To standard output: what was said of each, and how often
+//   kind    nothing is named, and its kind is said
+//   open    nothing is named, and no kind or another is said
+//   set     effects that look alike
+//   hedged  something else is named, and it is said that more is left
+//   same    something else is named, and foretells unseen places to the floor: the same force
+//   sure    something else is named, clear, and does not
+//   unseen  called complete
+void print_left_out(const std::vector<Trial>& trials);
+
+}  // namespace hapsim::bench
