@@ -28,8 +28,8 @@ Recording two_presses() {
 
 Dataset dataset_of(const Recording& recording) {
   Dataset d = make_dataset(recording);
-  d = on_body(std::move(d), {{}});
-  return d;
+  const std::vector<ToolStand> stands(d.positions.size());
+  return on_body(std::move(d), stands);
 }
 
 std::string lack(const std::string& effect, const Recording& recording) {
@@ -89,6 +89,18 @@ TEST(Testable, SaysWhatTheDataLack) {
   EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
   in.u[0].z() = 1e-4;  // above the surface is no way out
   EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
+}
+
+TEST(Testable, ARadiusIsThatOfAFlatToolAtSeveralPlaces) {
+  Recording r = two_presses();
+  EXPECT_NE(lack("tool-radius", r).find("too few contact positions"), std::string::npos);
+  for (std::size_t i = 0; i < r.rows(); ++i) {
+    r.press[i] = static_cast<int>(i / 2);
+    r.position[i].x() = 0.01 * r.press[i];
+  }
+  EXPECT_EQ(lack("tool-radius", r), "");
+  r.metadata.set("tool", "sphere");
+  EXPECT_NE(lack("tool-radius", r).find("with a flat tool"), std::string::npos);
 }
 
 TEST(Testable, TemperatureMustVaryBetweenPresses) {
