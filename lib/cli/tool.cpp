@@ -1,6 +1,7 @@
 #include "cli/tool.h"
 
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -169,11 +170,23 @@ void require_address_space(const ToolSpec& spec) {
   _exit(report(spec, ExitCode::kNoConvergence, text));
 }
 
+// Fits take and give back vectors of some hundred kilobytes all the time. Below this size what is
+// given back stays with the program: without, the kernel clears the same pages again and again, a
+// tenth of a diagnosis.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int kKept = 32 << 20;
+  mallopt(M_TRIM_THRESHOLD, kKept);
+  mallopt(M_MMAP_THRESHOLD, kKept);
+#endif
+}
+
 }  // namespace
 
 int run_tool(const ToolSpec& spec, int argc, char** argv,
              const std::function<int(const Arguments&)>& run) {
   require_address_space(spec);
+  keep_freed_memory();
   occupy_standard_streams();
   clean_up_on_signals();
   try {

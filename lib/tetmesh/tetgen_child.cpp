@@ -1,10 +1,10 @@
 #include "tetmesh/tetgen_child.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -14,9 +14,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #ifndef TETLIBRARY
@@ -25,21 +27,23 @@
 #include <tetgen.h>
 
 #include "base/error.h"
+#include "tetmesh/process_spawner.h"
 
 namespace hapsim {
 namespace {
 
-// What the child sends first; the arrays follow.
+// What the worker answers first; the arrays follow.
 struct Head {
   std::int64_t nodes = 0, tets = 0, faces = 0;
 };
 
 // Exit status of a child that TetGen left by throwing its number n: kThrew + n.
 constexpr int kThrew = 10;
-// A child whose work is limited waits for a processor up to so many times that limit.
+// A worker whose time is that of the processor waits for a processor up to so many times that
+// limit.
 constexpr double kMostWaiting = 60;
 constexpr auto kBeat = std::chrono::milliseconds(200);
-constexpr int kForks = 5;  // of children that wait for ever
+constexpr int kMostWorkers = 5;  // where a worker waits for ever, or there is none
 
 std::string switches(const TetgenInput& input, const TetgenOptions& options) {
   std::string text = "pQz";
@@ -103,13 +107,80 @@ void fill_facets(tetgenio& io, const TetgenInput& input) {
 bool write_all(int file, const void* data, std::size_t count) {
   const char* p = static_cast<const char*>(data);
   while (count > 0) {
-    const ssize_t n = write(file, p, count);
+    const ssize_t n = ::send(file, p, count, MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     p += n;
     count -= static_cast<std::size_t>(n);
   }
   return true;
+}
+
+bool read_all(int file, void* to, std::size_t count) {
+  char* p = static_cast<char*>(to);
+  while (count > 0) {
+    const ssize_t n = ::read(file, p, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    p += n;
+    count -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+template <class T>
+bool write_list(int file, const std::vector<T>& list) {
+  static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>);
+  const std::uint64_t count = list.size();
+  return write_all(file, &count, sizeof count) &&
+         write_all(file, list.data(), list.size() * sizeof(T));
+}
+
+template <class T>
+bool read_list(int file, std::vector<T>& list) {
+  std::uint64_t count = 0;
+  if (!read_all(file, &count, sizeof count)) return false;
+  list.resize(count);
+  return read_all(file, list.data(), list.size() * sizeof(T));
+}
+
+// What the worker is asked for.
+struct Task {
+  TetgenInput input;
+  std::string switches;
+  double time_limit = 0;
+  bool processor_time = false;
+};
+
+bool write_task(int file, const TetgenInput& input, const TetgenOptions& options) {
+  const std::string text = switches(input, options);
+  bool good = write_list(file, std::vector<char>(text.begin(), text.end())) &&
+              write_all(file, &options.time_limit, sizeof options.time_limit) &&
+              write_all(file, &options.processor_time, sizeof options.processor_time) &&
+              write_list(file, input.face_marker) && write_list(file, input.seeds) &&
+              write_list(file, input.node_size) && write_list(file, input.surface.vertices) &&
+              write_list(file, input.surface.faces);
+  const std::uint64_t inner = input.inner.size();
+  good = good && write_all(file, &inner, sizeof inner);
+  for (const Surface& surface : input.inner)
+    good = good && write_list(file, surface.vertices) && write_list(file, surface.faces);
+  return good;
+}
+
+bool read_task(int file, Task& task) {
+  std::vector<char> text;
+  std::uint64_t inner = 0;
+  TetgenInput& input = task.input;
+  bool good = read_list(file, text) && read_all(file, &task.time_limit, sizeof task.time_limit) &&
+              read_all(file, &task.processor_time, sizeof task.processor_time) &&
+              read_list(file, input.face_marker) && read_list(file, input.seeds) &&
+              read_list(file, input.node_size) && read_list(file, input.surface.vertices) &&
+              read_list(file, input.surface.faces) && read_all(file, &inner, sizeof inner);
+  task.switches.assign(text.begin(), text.end());
+  input.inner.resize(good ? inner : 0);
+  for (Surface& surface : input.inner)
+    good = good && read_list(file, surface.vertices) && read_list(file, surface.faces);
+  return good;
 }
 
 bool send(int file, const tetgenio& out) {
@@ -124,31 +195,25 @@ bool send(int file, const tetgenio& out) {
          write_all(file, out.trifacemarkerlist, bytes(head.faces, sizeof(int)));
 }
 
-// All that happens in the child. Never returns, so nothing of the parent is destroyed twice.
-[[noreturn]] void run_child(const TetgenInput& input, const TetgenOptions& options, int pipe_end) {
-  // The parent's handlers are not for us; a crash is expected and leaves no core.
-  for (const int number :
-       {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGPIPE, SIGTERM, SIGINT, SIGXCPU})
-    signal(number, SIG_DFL);
+// All that happens in the worker.
+[[noreturn]] void work(int stream) {
+  // A crash is expected and leaves no core.
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
-  // Ends the child also when the parent was killed in the meantime.
-  const auto seconds = static_cast<rlim_t>(std::ceil(options.time_limit));
-  const rlimit cpu{seconds + (options.processor_time ? 0 : 1), seconds + 1};
-  setrlimit(RLIMIT_CPU, &cpu);
-  const int nowhere = open("/dev/null", O_WRONLY);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
   try {
+    Task task;
+    if (!read_task(stream, task)) _exit(2);
+    const auto seconds = static_cast<rlim_t>(std::ceil(task.time_limit));
+    const rlimit cpu{seconds + (task.processor_time ? 0 : 1), seconds + 1};
+    setrlimit(RLIMIT_CPU, &cpu);
     tetgenio out;
     {
       tetgenio in;
-      fill_points(in, input);
-      fill_facets(in, input);
-      std::string text = switches(input, options);
-      tetrahedralize(text.data(), &in, &out);
+      fill_points(in, task.input);
+      fill_facets(in, task.input);
+      tetrahedralize(task.switches.data(), &in, &out);
     }
-    _exit(send(pipe_end, out) ? 0 : 1);
+    _exit(send(stream, out) ? 0 : 1);
   } catch (int number) {
     _exit(kThrew + std::clamp(number, 0, 20));
   } catch (const std::bad_alloc&) {
@@ -255,59 +320,53 @@ std::string why(int status) {
   }
 }
 
-// One child; nothing where it waits for ever on a lock that another thread of ours held at the fork
-// (libc's of random(), which TetGen calls, is not put right in children).
+// The process that forks all workers of this one, begun with the first.
+class Workers {
+ public:
+  Worker spawn(double patience) {
+    for (int trial = 0; trial < kMostWorkers; ++trial) {
+      if (auto worker = current()->spawn(patience)) return std::move(*worker);
+      renew();
+    }
+    throw Error(ExitCode::kIo, "TetGen", "no process", "close other programs");
+  }
+  // Another one from now on: the fork of this one may have taken a lock along that some thread of
+  // ours held (libc's of random(), which TetGen calls, is not put right in children).
+  void renew() {
+    const std::lock_guard lock(mutex_);
+    spawner_.reset();
+  }
+
+ private:
+  std::shared_ptr<ProcessSpawner> current() {
+    const std::lock_guard lock(mutex_);
+    if (!spawner_) spawner_ = std::make_shared<ProcessSpawner>(work);
+    return spawner_;
+  }
+  std::mutex mutex_;
+  std::shared_ptr<ProcessSpawner> spawner_;
+};
+
+Workers& workers() {
+  static Workers all;
+  return all;
+}
+
+// One worker; nothing where it waits for ever.
 std::optional<TetgenAnswer> try_tetgen_child(const TetgenInput& input,
                                              const TetgenOptions& options) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(int));
-  // One fork at a time: no child may inherit the writing end of another one's pipe, or its end
-  // would go unseen.
-  static std::mutex mutex;
-  int ends[2];
-  pid_t child;
-  {
-    const std::lock_guard lock(mutex);
-    if (pipe2(ends, O_CLOEXEC) != 0)
-      throw Error(ExitCode::kIo, "TetGen", std::string("no pipe: ") + std::strerror(errno),
-                  "close other programs");
-    child = fork();
-    if (child == 0) {
-      // With a reader of its own the child would wait for ever on a parent that was killed.
-      close(ends[0]);
-      run_child(input, options, ends[1]);
-    }
-    close(ends[1]);
-  }
-  if (child < 0) {
-    close(ends[0]);
-    throw Error(ExitCode::kIo, "TetGen", std::string("no process: ") + std::strerror(errno),
-                "close other programs");
-  }
-  // Whatever happens to us, the child is ended and waited for.
-  struct Child {
-    pid_t id;
-    int end, status = 0;
-    bool done = false;
-    void finish(bool ended) {
-      if (done) return;
-      done = true;
-      close(end);
-      if (!ended) kill(id, SIGKILL);
-      while (waitpid(id, &status, 0) < 0 && errno == EINTR) {
-      }
-    }
-    ~Child() { finish(false); }
-  } running{child, ends[0]};
+  Worker worker = workers().spawn(options.stall);
   TetgenAnswer answer;
-  Reader reader(ends[0], child, options);
-  const bool whole = receive(reader, answer);
-  running.finish(!reader.timed_out() && !reader.stalled());
+  Reader reader(worker.data(), worker.process(), options);
+  const bool whole = write_task(worker.data(), input, options) && receive(reader, answer);
+  const int status = worker.finish(!reader.timed_out() && !reader.stalled());
   if (reader.stalled()) return std::nullopt;
-  const bool worked_out = WIFSIGNALED(running.status) && WTERMSIG(running.status) == SIGXCPU;
+  const bool worked_out = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;
   if (reader.timed_out() || worked_out)
     answer.failure = fmt::format("TetGen did not finish in {:g} s", options.time_limit);
-  else if (!WIFEXITED(running.status) || WEXITSTATUS(running.status) != 0)
-    answer.failure = why(running.status);
+  else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    answer.failure = why(status);
   else if (!whole)
     answer.failure = "TetGen's answer is cut off";
   else if (answer.tets.empty())
@@ -318,8 +377,10 @@ std::optional<TetgenAnswer> try_tetgen_child(const TetgenInput& input,
 }  // namespace
 
 TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& options) {
-  for (int trial = 0; trial < kForks; ++trial)
+  for (int trial = 0; trial < kMostWorkers; ++trial) {
     if (auto answer = try_tetgen_child(input, options)) return *std::move(answer);
+    workers().renew();
+  }
   TetgenAnswer none;
   none.failure = "TetGen's process does not run";
   return none;

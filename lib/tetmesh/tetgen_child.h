@@ -16,7 +16,7 @@ struct TetgenAnswer {
   std::vector<int> marker;                // one a face
 };
 
-// Forks, meshes, streams the arrays back into their place. Error(kIo): no process or pipe.
+// Has a worker mesh, streams the arrays back into their place. Error(kIo): no process or socket.
 TetgenAnswer run_tetgen_child(const TetgenInput& input, const TetgenOptions& options);
 
 }  // namespace hapsim

@@ -1,0 +1,203 @@
+#include "tetmesh/process_spawner.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+
+namespace hapsim {
+namespace {
+
+constexpr int kControl = 3;  // where the spawner has its socket, beside the standard streams
+
+// Ends of the worker's stream and of the pipe for its status, with a byte.
+struct Ends {
+  std::array<int, 2> file{-1, -1};
+};
+union Control {  // aligned as the kernel wants it
+  char bytes[CMSG_SPACE(sizeof(Ends::file))];
+  cmsghdr align;
+};
+
+bool send_ends(int socket, const Ends& ends) {
+  char byte = 0;
+  iovec part{&byte, 1};
+  Control control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.bytes;
+  message.msg_controllen = sizeof control.bytes;
+  cmsghdr* head = CMSG_FIRSTHDR(&message);
+  head->cmsg_level = SOL_SOCKET;
+  head->cmsg_type = SCM_RIGHTS;
+  head->cmsg_len = CMSG_LEN(sizeof ends.file);
+  std::memcpy(CMSG_DATA(head), ends.file.data(), sizeof ends.file);
+  ssize_t sent;
+  do sent = sendmsg(socket, &message, MSG_NOSIGNAL);
+  while (sent < 0 && errno == EINTR);
+  return sent == 1;
+}
+
+// False when the other side is gone.
+bool receive_ends(int socket, Ends& ends) {
+  char byte;
+  iovec part{&byte, 1};
+  Control control{};
+  msghdr message{};
+  message.msg_iov = &part;
+  message.msg_iovlen = 1;
+  message.msg_control = control.bytes;
+  message.msg_controllen = sizeof control.bytes;
+  ssize_t got;
+  do got = recvmsg(socket, &message, 0);
+  while (got < 0 && errno == EINTR);
+  const cmsghdr* head = got == 1 ? CMSG_FIRSTHDR(&message) : nullptr;
+  if (head == nullptr || head->cmsg_len != CMSG_LEN(sizeof ends.file)) return false;
+  std::memcpy(ends.file.data(), CMSG_DATA(head), sizeof ends.file);
+  return true;
+}
+
+int status_of(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+// The keepers that have ended, so that their time counts as that of our parent's children.
+void take_ended() {
+  while (waitpid(-1, nullptr, WNOHANG) > 0) {
+  }
+}
+
+// Between spawner and worker: says the worker's number, then how it ended.
+[[noreturn]] void keep_worker(const Ends& ends, ProcessSpawner::Work work) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const pid_t worker = fork();
+  if (worker == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    close(ends.file[1]);
+    for (const int number : {SIGPIPE, SIGTERM, SIGINT, SIGHUP}) signal(number, SIG_DFL);
+    work(ends.file[0]);
+    _exit(1);
+  }
+  close(ends.file[0]);
+  if (worker < 0 || write(ends.file[1], &worker, sizeof worker) != sizeof worker) _exit(1);
+  const int status = status_of(worker);
+  _exit(write(ends.file[1], &status, sizeof status) == sizeof status ? 0 : 1);
+}
+
+[[noreturn]] void serve(int control, ProcessSpawner::Work work) {
+  // The parent's handlers are not for us, and its end is what ends us.
+  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGXCPU})
+    signal(number, SIG_DFL);
+  for (const int number : {SIGPIPE, SIGTERM, SIGINT, SIGHUP}) signal(number, SIG_IGN);
+  signal(SIGCHLD, SIG_DFL);
+  // None of its files, or who waits for their end would wait for ours.
+  if (control != kControl) dup2(control, kControl);
+  close_range(kControl + 1, ~0U, 0);
+  const int nowhere = open("/dev/null", O_RDWR);
+  for (int stream = 0; stream < kControl; ++stream) dup2(nowhere, stream);
+  close(nowhere);
+  for (Ends ends; receive_ends(kControl, ends);) {
+    if (fork() == 0) {
+      close(kControl);
+      keep_worker(ends, work);
+    }
+    for (const int file : ends.file) close(file);
+    take_ended();
+  }
+  take_ended();
+  _exit(0);
+}
+
+bool read_whole(int file, void* to, std::size_t count) {
+  ssize_t got;
+  do got = read(file, to, count);
+  while (got < 0 && errno == EINTR);
+  return got == static_cast<ssize_t>(count);
+}
+
+[[noreturn]] void no_process(const char* what) {
+  throw Error(ExitCode::kIo, "TetGen", std::string(what) + std::strerror(errno),
+              "close other programs");
+}
+
+}  // namespace
+
+Worker::Worker(Worker&& other) noexcept
+    : data_(std::exchange(other.data_, -1)),
+      status_pipe_(std::exchange(other.status_pipe_, -1)),
+      process_(other.process_) {}
+
+Worker::~Worker() {
+  finish(false);
+}
+
+int Worker::finish(bool ended) {
+  if (data_ < 0) return 0;
+  close(std::exchange(data_, -1));
+  // Its status has not been read, so it is there, or was until this moment.
+  if (!ended) kill(process_, SIGKILL);
+  int status = SIGKILL;  // of one whose keeper was killed too
+  read_whole(status_pipe_, &status, sizeof status);
+  close(status_pipe_);
+  return status;
+}
+
+ProcessSpawner::ProcessSpawner(Work work) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) no_process("no socket: ");
+  process_ = fork();
+  if (process_ == 0) serve(ends[1], work);
+  close(ends[1]);
+  control_ = ends[0];
+  if (process_ < 0) {
+    close(control_);
+    no_process("no process: ");
+  }
+}
+
+ProcessSpawner::~ProcessSpawner() {
+  close(control_);
+  for (int i = 0; i < 100; ++i) {
+    if (waitpid(process_, nullptr, WNOHANG) != 0) return;
+    usleep(2'000);
+  }
+  kill(process_, SIGKILL);  // it waits for a lock
+  status_of(process_);
+}
+
+std::optional<Worker> ProcessSpawner::spawn(double patience) {
+  int data[2], status[2];
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, data) != 0) no_process("no socket: ");
+  if (pipe2(status, O_CLOEXEC) != 0) {
+    for (const int file : data) close(file);
+    no_process("no pipe: ");
+  }
+  const bool sent = send_ends(control_, {{data[1], status[1]}});
+  close(data[1]);
+  close(status[1]);
+  pollfd watched{status[0], POLLIN, 0};
+  pid_t worker;
+  if (sent && poll(&watched, 1, static_cast<int>(1e3 * patience)) > 0 &&
+      read_whole(status[0], &worker, sizeof worker))
+    return Worker(data[0], status[0], worker);
+  close(data[0]);
+  close(status[0]);
+  return std::nullopt;
+}
+
+}  // namespace hapsim
