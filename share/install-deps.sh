@@ -20,7 +20,7 @@ packages=(
 test_packages=(
   libgtest-dev clang-format
   calculix-ccx gmsh tetgen                        # peers: solver and meshers
-  chromium mandoc libxml2-utils sqlite3 python3   # readers of what the tools write
+  chromium mandoc libxml2-utils sqlite3 python3 python3-jsonschema   # readers of what the tools write
   zsh fish lintian                                # completions and packages
   slurm-wlm munge openssh-server openssh-client parallel
   strace procps bsdextrautils                     # faults at a chosen system call; pgrep; col

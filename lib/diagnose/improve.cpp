@@ -54,6 +54,13 @@ std::string refused_of(const std::vector<ImprovementStep>& steps, std::size_t fr
   return names;
 }
 
+// What is missing; also a field that is learned from what each place asks for, where the data
+// cannot tell it from a cause: it states none, and foretells.
+bool is_to_be_added(const Finding& finding) {
+  return finding.verdict == Verdict::kMissing || (finding.verdict == Verdict::kIndistinguishable &&
+                                                  require_effect(finding.effect).card().is_field);
+}
+
 struct Ended {};  // by the watch of the fits
 
 }  // namespace
@@ -102,7 +109,7 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
     }
     const std::size_t kept = result.steps.size();
     for (const Finding& finding : result.last.findings) {
-      if (finding.verdict != Verdict::kMissing) continue;
+      if (!is_to_be_added(finding)) continue;
       tell("adding " + finding.effect);
       const ImprovementStep& before = result.steps.back();
       extend.regions = finding.every_site ? kEverySite : kAutomaticRegions;

@@ -36,9 +36,10 @@ struct Improvement {
 // Thesis 5.5, with the diagnosis deciding what to add: an effect stays only when the error on
 // whole positions (presses, when there is one position) that the fit has not seen falls by the
 // gate of the diagnosis; of few presses, what is missing stays together when it foretells their
-// rest (diagnose/foretold.h). Ambiguous effects are never added: which of them it is, the data
-// cannot tell. `draft` is `fine` with ExperimentOptions::draft, for the diagnosis. A start without
-// parameters is elastic. Error(kNoConvergence) when the first model does not fit.
+// rest (diagnose/foretold.h). Of effects that the data cannot tell apart none is added but a
+// learned field, which states no cause. `draft` is `fine` with ExperimentOptions::draft, for the
+// diagnosis. A start without parameters is elastic. Error(kNoConvergence) when the first model does
+// not fit.
 Improvement improve(const Model& start, const Experiment& fine, const Experiment& draft,
                     const ImproveOptions& options);
 
