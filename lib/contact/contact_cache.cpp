@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Begins every entry; a new layout or a new meshing gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '1', '1'};
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '1', '2'};
 
 struct Head {
   char magic[8];

@@ -20,6 +20,8 @@ constexpr std::size_t kPool = 1200;  // places among which the next are chosen
 constexpr std::size_t kFirstBoth = 5, kBoth = 12;
 // So near to what is bonded, in tool radii, the meshes differ by more than a common factor.
 constexpr double kBesideSupport = 2.5;
+// Where the surface about turns so much, two radii from a right-angled edge, coarse meshes scatter.
+constexpr double kBesideEdge = 0.07;
 // The share of the pool's squares that may lie above (2.5 tolerances)^2.
 constexpr double kTail = 0.01;
 
@@ -140,63 +142,72 @@ std::vector<PlaceView> FieldSampling::views_of(const std::vector<Vec3>& places) 
   return views;
 }
 
-void FieldSampling::add(const std::vector<Vec3>& places) {
-  // Beside the support the finer mesh alone; elsewhere the samples' mesh, and here and there both.
-  std::vector<std::optional<SampledContact>> found(places.size()), fine(places.size());
-  const auto solve = [&](const std::vector<std::size_t>& which, ContactLevel level,
-                         std::vector<std::optional<SampledContact>>& into) {
-    std::vector<Vec3> where;
-    for (const std::size_t i : which) where.push_back(places[i]);
-    const auto solved =
-        library_->sample(where, material_.solid, material_.description, level, false);
-    for (std::size_t k = 0; k < which.size(); ++k) into[which[k]] = solved[k];
-  };
-  std::vector<std::size_t> beside, off, both;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    (clearance(*bonded_, places[i]) < kBesideSupport * radius_ ? beside : off).push_back(i);
-  solve(beside, ContactLevel::kFine, found);
-  solve(off, ContactLevel::kSample, found);
-  const std::size_t every = samples_.empty() ? kFirstBoth : kBoth;
-  for (std::size_t k = 0; k < off.size(); k += every)
-    if (found[off[k]]) both.push_back(off[k]);
-  solve(both, ContactLevel::kFine, fine);
-  for (const std::size_t i : both)
-    if (fine[i])
-      ratio_.push_back(along_and_across(fine[i]->K, fine[i]->normal) -
-                       along_and_across(found[i]->K, fine[i]->normal));
-  const std::vector<PlaceView> views = views_of(places);
-  const auto add_one = [&](std::size_t i, bool exact) {
-    if (options_.sampled) options_.sampled();
-    if (!found[i]) {
-      refused_.push_back(places[i]);
-      return;
-    }
-    places_.push_back(places[i]);
-    samples_.push_back({views[i], found[i]->K});
-    exact_.push_back(exact);
-  };
-  for (const std::size_t i : beside) add_one(i, true);
-  for (const std::size_t i : off) add_one(i, false);
+ContactLevel FieldSampling::level_at(const PlaceView& view) const {
+  if (clearance(*bonded_, view.point) < kBesideSupport * radius_) return ContactLevel::kFine;
+  return view.turned > kBesideEdge ? ContactLevel::kCoarse : ContactLevel::kSample;
 }
 
-Eigen::Matrix3d FieldSampling::corrected(const Eigen::Matrix3d& K, const Vec3& normal) const {
-  const double along = std::exp(finer_[0] / 2), across = std::exp(finer_[1] / 2);
+void FieldSampling::add(const std::vector<Vec3>& places) {
+  const std::vector<PlaceView> views = views_of(places);
+  const std::size_t every = samples_.empty() ? kFirstBoth : kBoth;
+  const auto solve = [&](const std::vector<std::size_t>& which, ContactLevel level) {
+    std::vector<Vec3> where;
+    for (const std::size_t i : which) where.push_back(places[i]);
+    return library_->sample(where, material_.solid, material_.description, level, false);
+  };
+  for (const ContactLevel level :
+       {ContactLevel::kFine, ContactLevel::kCoarse, ContactLevel::kSample}) {
+    std::vector<std::size_t> which, both;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (level_at(views[i]) == level) which.push_back(i);
+    const auto found = solve(which, level);
+    for (std::size_t k = 0; k < which.size(); ++k) {
+      const std::size_t i = which[k];
+      if (options_.sampled) options_.sampled();
+      if (!found[k]) {
+        refused_.push_back(places[i]);
+        continue;
+      }
+      places_.push_back(places[i]);
+      samples_.push_back({views[i], found[k]->K});
+      levels_.push_back(level);
+    }
+    if (level == ContactLevel::kFine) continue;
+    for (std::size_t k = 0; k < which.size(); k += every)
+      if (found[k]) both.push_back(k);
+    std::vector<std::size_t> again;
+    for (const std::size_t k : both) again.push_back(which[k]);
+    const auto fine = solve(again, ContactLevel::kFine);
+    for (std::size_t j = 0; j < both.size(); ++j)
+      if (fine[j])
+        ratio_[static_cast<std::size_t>(level)].found.push_back(
+            along_and_across(fine[j]->K, fine[j]->normal) -
+            along_and_across(found[both[j]]->K, fine[j]->normal));
+  }
+}
+
+Eigen::Matrix3d FieldSampling::corrected(const Eigen::Matrix3d& K, const Vec3& normal,
+                                         ContactLevel level) const {
+  const Eigen::Vector2d& finer = ratio_[static_cast<std::size_t>(level)].mean;
+  const double along = std::exp(finer[0] / 2), across = std::exp(finer[1] / 2);
   const Eigen::Matrix3d n = normal * normal.transpose();
   const Eigen::Matrix3d S = along * n + across * (Eigen::Matrix3d::Identity() - n);
   return S * K * S;
 }
 
 void FieldSampling::fit() {
-  if (!ratio_.empty()) {
-    finer_.setZero();
-    for (const Eigen::Vector2d& r : ratio_) finer_ += r / static_cast<double>(ratio_.size());
-    double squares = 0;
-    for (const Eigen::Vector2d& r : ratio_) squares += (r - finer_).squaredNorm() / 2;
-    noise_ = std::sqrt(squares / static_cast<double>(ratio_.size()));
+  double squares = 0, count = 0;
+  for (Ratio& ratio : ratio_) {
+    const auto n = static_cast<double>(ratio.found.size());
+    ratio.mean.setZero();
+    for (const Eigen::Vector2d& r : ratio.found) ratio.mean += r / n;
+    for (const Eigen::Vector2d& r : ratio.found) squares += (r - ratio.mean).squaredNorm() / 2;
+    count += std::max(n - 1, 0.0);
   }
+  if (count > 0) noise_ = std::sqrt(squares / count);
   std::vector<StiffnessSample> samples = samples_;
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (!exact_[i]) samples[i].K = corrected(samples[i].K, samples[i].view.normal);
+    samples[i].K = corrected(samples[i].K, samples[i].view.normal, levels_[i]);
   model_ = std::make_unique<PlaceModel>(samples, noise_);
 }
 
@@ -210,7 +221,7 @@ std::unique_ptr<PlaceModel> FieldSampling::model_of(const SampledMaterial& mater
   for (std::size_t i = 0; i < places.size(); ++i)
     if (coarse[i]) {
       StiffnessSample s{views.at(places[i]), coarse[i]->K};
-      s.K = corrected(s.K, s.view.normal);
+      s.K = corrected(s.K, s.view.normal, ContactLevel::kSample);
       samples.push_back(std::move(s));
     }
   return std::make_unique<PlaceModel>(samples, noise_, model_.get());

@@ -1,6 +1,7 @@
 // Samples of a body's contact stiffness, placed until what lies between them is known well enough.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,11 +28,11 @@ struct SampledMaterial {
   std::string description;
 };
 
-// Samples on coarse meshes (kSampled), turned into what the finer ones give by the mean ratio,
-// along and across the normal, of those that were solved on both; beside the support, where that
-// ratio is another, on the finer meshes. The first samples lie apart from each other, later ones
-// where the model of the earlier ones knows least, until the model's own uncertainty over the
-// touchable surface is below the tolerance.
+// Samples on coarse meshes (kSampled; kCoarser beside edges, where coarse ones scatter), turned
+// into what the finer ones give by the mean ratio, along and across the normal, of those that were
+// solved on both; beside the support, where that ratio is another, on the finer meshes. The first
+// samples lie apart from each other, later ones where the model of the earlier ones knows least,
+// until the model's own uncertainty over the touchable surface is below the tolerance.
 class FieldSampling {
  public:
   // `known`: places to be sampled in any case. Error(kBadInput): the tool fits nowhere.
@@ -55,7 +56,8 @@ class FieldSampling {
   std::vector<Vec3> draw(std::size_t count, std::uint64_t seed) const;
   std::size_t tried() const { return places_.size() + refused_.size(); }
   std::vector<PlaceView> views_of(const std::vector<Vec3>& places) const;
-  Eigen::Matrix3d corrected(const Eigen::Matrix3d& K, const Vec3& normal) const;
+  ContactLevel level_at(const PlaceView& view) const;
+  Eigen::Matrix3d corrected(const Eigen::Matrix3d& K, const Vec3& normal, ContactLevel level) const;
 
   std::shared_ptr<const ContactLibrary> library_;
   double radius_;
@@ -64,10 +66,15 @@ class FieldSampling {
   std::unique_ptr<SurfaceTree> bonded_;
   std::unique_ptr<PlaceViews> views_;
   std::vector<StiffnessSample> samples_;
-  std::vector<bool> exact_;             // of the finer mesh
+  std::vector<ContactLevel> levels_;    // of the samples
   std::vector<Vec3> places_, refused_;  // as asked for
-  std::vector<Eigen::Vector2d> ratio_;  // of log K, fine to coarse, along and across
-  Eigen::Vector2d finer_ = Eigen::Vector2d::Zero();
+  // Of log K, fine to a level's, along and across: at places that were solved on both, and the
+  // mean.
+  struct Ratio {
+    std::vector<Eigen::Vector2d> found;
+    Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  };
+  std::array<Ratio, 3> ratio_;  // by ContactLevel
   double noise_ = 0.005, expected_ = 0;
   std::unique_ptr<PlaceModel> model_;
 };

@@ -130,6 +130,7 @@ PlaceView PlaceViews::at(const Vec3& point) const {
   for (const SurfaceWindow& window : windows_) seen.push_back(window.at(point));
   view.normal = seen.front().normal.normalized();
   const Vec3& n = view.normal;
+  view.turned = 1 - seen[1].normal.dot(n);
   const Matrix3d along = n * n.transpose(), across = Matrix3d::Identity() - along;
   std::vector<double> f;
   for (const SurfaceView& s : seen) {

@@ -27,6 +27,7 @@ struct PlaceView {
   Eigen::VectorXd features;                        // scalars
   Eigen::Matrix<double, 6, Eigen::Dynamic> basis;  // tensors that turn with the body, packed
   Eigen::Matrix3d reference;                       // root of the half-space's stiffness
+  double turned = 0;  // what the surface within some two tool radii lacks of facing one way
 };
 
 // Views through windows of 0.7 to 6 tool radii. Thread-safe.

@@ -27,44 +27,74 @@ struct PlanPoints {
   std::size_t loop = 0, rim_begin = 0, rim_end = 0, disc_end = 0;
 };
 
+// Clear of creases, which have nodes of their own, and of the loop, whose edges are long already.
+constexpr double kClear = 0.6;  // edge lengths
+
 void add_ring(PlanPoints& plan, double radius, double size, bool staggered, int least,
-              const ContactRegion* region) {
+              const CreaseNodes& creases, const ContactRegion* region) {
   const int n =
       std::max(least, static_cast<int>(std::lround(2 * std::numbers::pi * radius / size)));
   for (int i = 0; i < n; ++i) {
     const double angle = 2 * std::numbers::pi * (i + (staggered ? 0.5 : 0.0)) / n;
-    const double u = radius * std::cos(angle), v = radius * std::sin(angle);
-    // Clear of the loop, whose edges are long already.
-    if (region == nullptr || region->contains(u, v, 0.6 * size)) plan.points.emplace_back(u, v);
+    const Eigen::Vector2d p(radius * std::cos(angle), radius * std::sin(angle));
+    if (creases.distance(p) >= kClear * size &&
+        (region == nullptr || region->contains(p.x(), p.y(), kClear * size)))
+      plan.points.push_back(p);
   }
+}
+
+// A regular polygon with the area of the disc: inscribed, it would be too soft by the share of the
+// radius that it lacks, 0.5 % at radius/4. Corners move along it to where creases cross.
+std::vector<Eigen::Vector2d> rim_points(int count, double rim, const CreaseNodes& creases) {
+  std::vector<Eigen::Vector2d> points;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.emplace_back(rim * std::cos(angle), rim * std::sin(angle));
+  }
+  std::vector<std::uint8_t> moved(points.size(), 0);
+  for (const Eigen::Vector2d& p : creases.on_rim) {
+    const auto nearest = static_cast<std::size_t>(
+        std::min_element(points.begin(), points.end(),
+                         [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+                           return (a - p).squaredNorm() < (b - p).squaredNorm();
+                         }) -
+        points.begin());
+    if (!moved[nearest]) points[nearest] = p;
+    moved[nearest] = 1;
+  }
+  return points;
 }
 
 PlanPoints plan_points(const ContactRegion& region, double radius, const Grading& grading) {
   PlanPoints plan;
   double farthest = 0;
-  for (const Vec3& p : region.outline) {
-    plan.points.emplace_back(p.head<2>());
-    farthest = std::max(farthest, p.head<2>().norm());
+  for (const Eigen::Vector2d& p : region.outline) {
+    plan.points.push_back(p);
+    farthest = std::max(farthest, p.norm());
   }
   plan.loop = plan.rim_begin = plan.points.size();
-  // A regular polygon with the area of the disc: inscribed, it would be too soft by the share of
-  // the radius that it lacks, 0.5 % at radius/4.
   const double n = std::max(8.0, std::round(2 * std::numbers::pi * radius / grading.size[0]));
   const double rim =
       radius * std::sqrt(2 * std::numbers::pi / (n * std::sin(2 * std::numbers::pi / n)));
-  add_ring(plan, rim, 2 * std::numbers::pi * rim / n, false, 8, nullptr);
+  const CreaseNodes creases = crease_nodes(region, rim, grading);
+  for (const Eigen::Vector2d& p : rim_points(static_cast<int>(n), rim, creases))
+    plan.points.push_back(p);
   plan.rim_end = plan.points.size();
   for (std::size_t k = 1; k < grading.size.size(); ++k) {
     const double inner = radius - grading.distance[k];
     if (inner < 0.45 * grading.size[k]) break;
-    add_ring(plan, inner, grading.size[k], k % 2 != 0, 4, nullptr);
+    add_ring(plan, inner, grading.size[k], k % 2 != 0, 4, creases, nullptr);
   }
-  plan.points.emplace_back(0, 0);
+  if (creases.distance({0, 0}) >= 0.3 * grading.size[0]) plan.points.emplace_back(0, 0);
+  for (const Eigen::Vector2d& p : creases.free)
+    if (p.norm() < rim) plan.points.push_back(p);
   plan.disc_end = plan.points.size();
+  for (const Eigen::Vector2d& p : creases.free)
+    if (p.norm() > rim) plan.points.push_back(p);
   for (std::size_t k = 1; k < grading.size.size(); ++k) {
     const double outer = radius + grading.distance[k];
     if (outer > farthest) break;
-    add_ring(plan, outer, grading.size[k], k % 2 != 0, 6, &region);
+    add_ring(plan, outer, grading.size[k], k % 2 != 0, 6, creases, &region);
   }
   return plan;
 }
@@ -109,7 +139,7 @@ std::vector<Triangle> triangulate(const PlanPoints& plan) {
 }  // namespace
 
 Imprint imprint_disc(const ClassedSurface& coarse, const ContactFrame& frame,
-                     const ContactRegion& region, const HeightMap& heights, double radius,
+                     const ContactRegion& region, const SheetMap& sheet, double radius,
                      const Grading& grading) {
   Imprint result;
   const PlanPoints plan = plan_points(region, radius, grading);
@@ -135,7 +165,7 @@ Imprint imprint_disc(const ClassedSurface& coarse, const ContactFrame& frame,
     }
     const auto& p = plan.points[i];
     patch_vertex.push_back(static_cast<int>(result.surface.vertices.size()));
-    result.surface.vertices.push_back(frame.to_global({p.x(), p.y(), heights.at(p.x(), p.y())}));
+    result.surface.vertices.push_back(frame.to_global(sheet.at(p.x(), p.y()).point));
   }
   const auto on_disc = [&](int i) {
     return static_cast<std::size_t>(i) >= plan.rim_begin &&

@@ -36,9 +36,10 @@ struct Trial {
   double tilt_deg;
 };
 constexpr Trial kTrials[] = {
-    {2.8, 1, 70}, {2.4, 1, 70}, {2, 1, 70},     {3.3, 1, 70},   {1.6, 1, 70}, {1.3, 1, 70},
-    {2, 1, 80},   {1.3, 1, 80}, {2.4, 1.5, 75}, {1.5, 1.5, 80}, {2.4, 2, 75}, {1.5, 2, 80},
-    {2.6, 3, 75}, {1.5, 3, 80}, {4, 1, 65},     {1.15, 1, 85},  {2.8, 4, 80}, {1.15, 2, 85}};
+    {2.8, 1, 100},  {2.4, 1, 100}, {2, 1, 100},  {3.3, 1, 100}, {1.6, 1, 100}, {1.3, 1, 100},
+    {2.8, 1, 70},   {2, 1, 70},    {1.3, 1, 70}, {2, 1, 80},    {1.3, 1, 80},  {2.4, 1.5, 75},
+    {1.5, 1.5, 80}, {2.4, 2, 75},  {1.5, 2, 80}, {2.6, 3, 75},  {1.5, 3, 80},  {4, 1, 65},
+    {1.15, 1, 85},  {2.8, 4, 80},  {1.15, 2, 85}};
 
 std::string place(const Vec3& p) {
   return fmt::format("contact at ({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
@@ -87,11 +88,11 @@ void check_bonded(const ContactBase& base, const Vec3& contact, const SurfacePoi
   }
 }
 
-double mean_edge(const ContactRegion& region) {
+double mean_edge(const Surface& surface, const std::vector<int>& loop) {
   double sum = 0;
-  for (std::size_t i = 0; i < region.outline.size(); ++i)
-    sum += (region.outline[i] - region.outline[(i + 1) % region.outline.size()]).norm();
-  return sum / static_cast<double>(region.outline.size());
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    sum += (surface.vertices[loop[i]] - surface.vertices[loop[(i + 1) % loop.size()]]).norm();
+  return sum / static_cast<double>(loop.size());
 }
 
 // The stress about the rim of a bonded flat tool grows as r^(-1/2). Moving the middles of the edges
@@ -150,12 +151,13 @@ ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, doub
     const auto region = contact_region(coarse, frame, trial.reach * radius, trial.tilt_deg,
                                        radius + std::max(0.18 * radius, 0.7 * rim_edge));
     if (!region) continue;
-    const HeightMap heights(base.fine, coarse.surface, frame, *region);
+    const SheetMap sheet(base.fine, coarse.surface, frame, *region);
     const Grading grading =
-        rim_grading(rim_edge, growth, 100 * radius, std::max(mean_edge(*region), rim_edge));
-    Imprint imprint = imprint_disc(coarse, frame, *region, heights, radius, grading);
+        rim_grading(rim_edge, growth, 100 * radius,
+                    std::max(mean_edge(coarse.surface, region->loop), rim_edge));
+    Imprint imprint = imprint_disc(coarse, frame, *region, sheet, radius, grading);
     TetgenInput input;
-    input.seeds = rim_seeds(imprint.surface, frame, heights, radius, grading, kSeedDepth * radius);
+    input.seeds = rim_seeds(imprint.surface, frame, sheet, radius, grading, kSeedDepth * radius);
     input.surface = std::move(imprint.surface);
     input.face_marker = std::move(imprint.marker);
     TetgenOptions options;

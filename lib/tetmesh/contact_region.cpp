@@ -25,10 +25,10 @@ double distance_to_segment(const Plane& p, const Plane& a, const Plane& b) {
   return (p - a - t * d).norm();
 }
 
-bool inside_polygon(const std::vector<Vec3>& polygon, const Plane& p) {
+bool inside_polygon(const std::vector<Plane>& polygon, const Plane& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Vec3 &a = polygon[i], &b = polygon[j];
+    const Plane &a = polygon[i], &b = polygon[j];
     if ((a.y() > p.y()) != (b.y() > p.y()) &&
         p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
       inside = !inside;
@@ -36,18 +36,17 @@ bool inside_polygon(const std::vector<Vec3>& polygon, const Plane& p) {
   return inside;
 }
 
-double distance_to_polygon(const std::vector<Vec3>& polygon, const Plane& p) {
+double distance_to_polygon(const std::vector<Plane>& polygon, const Plane& p) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-    least = std::min(least, distance_to_segment(p, polygon[j].head<2>(), polygon[i].head<2>()));
+    least = std::min(least, distance_to_segment(p, polygon[j], polygon[i]));
   return least;
 }
 
-bool is_simple(const std::vector<Vec3>& polygon) {
+bool is_simple(const std::vector<Plane>& polygon) {
   const std::size_t n = polygon.size();
   const auto side = [&](std::size_t i, std::size_t j, std::size_t k) {
-    const Plane a = polygon[i].head<2>(), b = polygon[j].head<2>(), c = polygon[k].head<2>();
-    return cross2(b - a, c - a) > 0;
+    return cross2(polygon[j] - polygon[i], polygon[k] - polygon[i]) > 0;
   };
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = i + 2; j < n; ++j) {
@@ -82,19 +81,37 @@ std::vector<std::array<int, 3>> neighbours(const Surface& surface) {
   return result;
 }
 
-// Area of the part of a triangle within `radius` of the origin, by halving its longest edge.
-double area_within(const Vec3& a, const Vec3& b, const Vec3& c, double radius, int depth) {
-  const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
-  const Vec3 centre = (a + b + c) / 3;
-  if (centre.norm() > radius + longest) return 0;
-  const double area = 0.5 * (b - a).cross(c - a).norm();
-  if (std::max({a.norm(), b.norm(), c.norm()}) <= radius) return area;
-  if (depth == 0 || longest < radius / 12) return centre.norm() <= radius ? area : 0;
-  if ((a - b).norm() == longest)
-    return area_within(a, (a + b) / 2, c, radius, depth - 1) +
-           area_within((a + b) / 2, b, c, radius, depth - 1);
-  return area_within(b, c, a, radius, depth);
+// Area that the disc of `radius` about the origin has in common with the triangle of the origin, p
+// and q, negative if that turns clockwise.
+double area_seen(const Plane& p, const Plane& q, double radius) {
+  const auto sector = [&](const Plane& a, const Plane& b) {
+    return 0.5 * radius * radius * std::atan2(cross2(a, b), a.dot(b));
+  };
+  const Plane d = q - p;
+  // |p + t d| = radius
+  const double aa = d.squaredNorm(), ab = p.dot(d),
+               root = ab * ab - aa * (p.squaredNorm() - radius * radius);
+  if (aa == 0) return 0;
+  if (root <= 0) return sector(p, q);
+  const double in = (-ab - std::sqrt(root)) / aa, out = (-ab + std::sqrt(root)) / aa;
+  if (in >= 1 || out <= 0) return sector(p, q);
+  const Plane a = p + std::max(in, 0.0) * d, b = p + std::min(out, 1.0) * d;
+  return (in > 0 ? sector(p, a) : 0) + 0.5 * cross2(a, b) + (out < 1 ? sector(b, q) : 0);
 }
+
+// Area of the part of a triangle within `radius` of the origin; n: its unit normal.
+double area_within(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& n, double radius) {
+  const double height = n.dot(a), square = radius * radius - height * height;
+  if (square <= 0) return 0;
+  const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+  const auto flat = [&](const Vec3& p) { return Plane(p.dot(u), p.dot(v)); };
+  const double r = std::sqrt(square);
+  return std::abs(area_seen(flat(a), flat(b), r) + area_seen(flat(b), flat(c), r) +
+                  area_seen(flat(c), flat(a), r));
+}
+
+// Faces whose normals differ by more meet in a crease.
+constexpr double kCrease = 0.766;  // cosine of 40 degrees
 
 }  // namespace
 
@@ -120,13 +137,14 @@ ContactFrame contact_frame(const Surface& fine, const Vec3& contact, double spre
       continue;
     const Vec3 n = (b - a).cross(c - a).normalized();
     // An edge of a box may turn by a right angle; the far side of a thin body looks away.
-    if (n.dot(own) > -0.2) sum += area_within(a, b, c, spread, 24) * n;
+    if (n.dot(own) > -0.2) sum += area_within(a, b, c, n, spread) * n;
   }
   ContactFrame frame;
   frame.origin = nearest.point;
   frame.normal = sum.norm() > 0 ? Vec3(sum.normalized()) : own;
-  int least = 0;
-  frame.normal.cwiseAbs().minCoeff(&least);
+  int least = 0;  // rounding must not turn the frame
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(frame.normal[k]) < std::abs(frame.normal[least]) - 0.1) least = k;
   frame.axis_u = Vec3::Unit(least).cross(frame.normal).normalized();
   frame.axis_v = frame.normal.cross(frame.axis_u);
   return frame;
@@ -146,11 +164,9 @@ std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const 
     const Vec3 n = face_normal(surface, f);
     return !coarse.face_class[f] && n.dot(frame.normal) > least_cosine * n.norm();
   };
-  const auto distance = [&](int f, bool in_plan) {
-    Vec3 a = local[surface.faces[f][0]], b = local[surface.faces[f][1]],
-         c = local[surface.faces[f][2]];
-    if (in_plan) a.z() = b.z() = c.z() = 0;
-    return nearest_in_triangle(Vec3::Zero(), a, b, c).norm();
+  const auto distance = [&](int f) {
+    const Triangle& t = surface.faces[f];
+    return nearest_in_triangle(Vec3::Zero(), local[t[0]], local[t[1]], local[t[2]]).norm();
   };
 
   const int count = static_cast<int>(surface.faces.size());
@@ -158,7 +174,7 @@ std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const 
   double nearest = std::numeric_limits<double>::infinity();
   for (int f = 0; f < count; ++f) {
     if (!looks_up(f)) continue;
-    if (const double d = distance(f, false); d < nearest) {
+    if (const double d = distance(f); d < nearest) {
       nearest = d;
       start = f;
     }
@@ -174,10 +190,21 @@ std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const 
     const int f = stack.back();
     stack.pop_back();
     for (const int g : across[f])
-      if (g >= 0 && !region.inside[g] && looks_up(g) && distance(g, true) < reach) {
+      if (g >= 0 && !region.inside[g] && looks_up(g) && distance(g) < reach) {
         region.inside[g] = 1;
         stack.push_back(g);
       }
+  }
+
+  for (int f = 0; f < count; ++f) {
+    if (!region.inside[f]) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int g = across[f][k];
+      if (g <= f || !region.inside[g]) continue;
+      const Vec3 n = face_normal(surface, f), m = face_normal(surface, g);
+      if (n.dot(m) < kCrease * n.norm() * m.norm())
+        region.plan.add_crease(local[surface.faces[f][k]], local[surface.faces[f][(k + 1) % 3]]);
+    }
   }
 
   std::map<int, int> next;  // along the boundary, the region to the left
@@ -194,65 +221,12 @@ std::optional<ContactRegion> contact_region(const ClassedSurface& coarse, const 
   int v = first;
   do {
     region.loop.push_back(v);
-    region.outline.emplace_back(local[v]);
+    region.outline.push_back(region.plan.of(local[v]));
     v = next[v];
   } while (v != first && region.loop.size() <= next.size());
   if (region.loop.size() != next.size()) return std::nullopt;  // has a hole
   if (!is_simple(region.outline) || !region.contains(0, 0, clear)) return std::nullopt;
   return region;
-}
-
-HeightMap::HeightMap(const Surface& fine, const Surface& coarse, const ContactFrame& frame,
-                     const ContactRegion& region) {
-  double low_u = 0, high_u = 0, low_v = 0, high_v = 0;
-  for (const Vec3& p : region.outline) {
-    low_u = std::min(low_u, p.x());
-    high_u = std::max(high_u, p.x());
-    low_v = std::min(low_v, p.y());
-    high_v = std::max(high_v, p.y());
-  }
-  const auto facet = [&](const Surface& surface, std::size_t f) {
-    const Triangle& t = surface.faces[f];
-    return Facet{frame.to_local(surface.vertices[t[0]]), frame.to_local(surface.vertices[t[1]]),
-                 frame.to_local(surface.vertices[t[2]])};
-  };
-  for (std::size_t f = 0; f < coarse.faces.size(); ++f)
-    if (region.inside[f]) coarse_.push_back(facet(coarse, f));
-  for (std::size_t f = 0; f < fine.faces.size(); ++f) {
-    const Facet t = facet(fine, f);
-    if (std::max({t.a.x(), t.b.x(), t.c.x()}) < low_u ||
-        std::min({t.a.x(), t.b.x(), t.c.x()}) > high_u ||
-        std::max({t.a.y(), t.b.y(), t.c.y()}) < low_v ||
-        std::min({t.a.y(), t.b.y(), t.c.y()}) > high_v)
-      continue;
-    const Vec3 n = (t.b - t.a).cross(t.c - t.a);
-    if (n.z() > 0.1 * n.norm()) fine_.push_back(t);
-  }
-}
-
-std::optional<double> HeightMap::height(const Facet& t, double u, double v) {
-  const Plane p(u, v), a = t.a.head<2>(), b = t.b.head<2>(), c = t.c.head<2>();
-  const double whole = cross2(b - a, c - a);
-  const double wb = cross2(p - a, c - a) / whole, wc = cross2(b - a, p - a) / whole;
-  constexpr double kSlack = 1e-9;  // points on a common edge belong to both
-  if (!(wb >= -kSlack && wc >= -kSlack && wb + wc <= 1 + kSlack)) return std::nullopt;
-  return t.a.z() + wb * (t.b.z() - t.a.z()) + wc * (t.c.z() - t.a.z());
-}
-
-double HeightMap::at(double u, double v) const {
-  double coarse = 0;
-  for (const Facet& facet : coarse_)
-    if (const auto h = height(facet, u, v)) {
-      coarse = *h;
-      break;
-    }
-  double best = coarse, gap = std::numeric_limits<double>::infinity();
-  for (const Facet& facet : fine_)
-    if (const auto h = height(facet, u, v); h && std::abs(*h - coarse) < gap) {
-      gap = std::abs(*h - coarse);
-      best = *h;
-    }
-  return best;
 }
 
 }  // namespace hapsim

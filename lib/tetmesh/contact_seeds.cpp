@@ -13,6 +13,8 @@ namespace {
 // Distance between rows of even triangles or tetrahedra over their edge length.
 constexpr double kRow = 0.87;
 
+constexpr double kOtherSide = 0.766;  // cosine of 40 degrees, between normals
+
 // Parity of the surface's sheets above p along the frame's normal.
 bool is_inside(const std::vector<Vec3>& local, const Surface& surface, const Vec3& p) {
   bool inside = false;
@@ -43,12 +45,12 @@ Grading rim_grading(double rim_edge, double growth, double largest_distance, dou
 }
 
 std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
-                            const HeightMap& heights, double radius, const Grading& grading,
+                            const SheetMap& sheet, double radius, const Grading& grading,
                             double depth) {
   std::vector<Vec3> local;
   for (const Vec3& p : surface.vertices) local.push_back(frame.to_local(p));
   const SurfaceTree tree(surface);
-  std::vector<Vec3> seeds;
+  std::vector<Vec3> seeds, normals;
   for (std::size_t k = 1; k < grading.size.size() && grading.distance[k] <= depth; ++k) {
     const double distance = grading.distance[k], size = grading.size[k];
     const int parts =
@@ -66,10 +68,18 @@ std::vector<Vec3> rim_seeds(const Surface& surface, const ContactFrame& frame,
             2 * std::numbers::pi * (j + ((k + static_cast<std::size_t>(i)) % 2) * 0.5) / n;
         const double r = n == 1 ? 0 : ring;
         const double u = r * std::cos(angle), v = r * std::sin(angle);
-        const Vec3 p(u, v, heights.at(u, v) - below);
+        const SheetMap::Spot spot = sheet.at(u, v);
+        const Vec3 p = spot.point - below * spot.normal;
         if (!is_inside(local, surface, p)) continue;
         const Vec3 seed = frame.to_global(p);
-        if (tree.nearest(seed).distance >= 0.5 * size) seeds.push_back(seed);
+        if (tree.nearest(seed).distance < 0.5 * size) continue;
+        // From both sides of an edge they come to the same places.
+        bool taken = false;
+        for (std::size_t s = 0; s < seeds.size() && sheet.has_creases() && !taken; ++s)
+          taken = normals[s].dot(spot.normal) < kOtherSide && (seeds[s] - seed).norm() < 0.6 * size;
+        if (taken) continue;
+        normals.push_back(spot.normal);
+        seeds.push_back(seed);
       }
     }
   }

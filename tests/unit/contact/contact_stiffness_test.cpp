@@ -97,6 +97,28 @@ TEST_F(HalfSpace, PoissonDerivativeIsTheDifference) {
   EXPECT_LT((solve(nu).dK_dnu - difference).norm(), 1e-5 * difference.norm());
 }
 
+// Over an edge of the body it runs steadily, from the coarsest mesh on, where the samples between
+// which the live force is interpolated come from; and the mesh there is as fine as it must be.
+TEST(ContactStiffness, RunsSteadilyOverAnEdge) {
+  const ContactBase base = block_base({0.1, 0.1, 0.06});
+  const auto K_at = [&](double from_edge, ContactLevel level, double rim_edge = kRimEdge) {
+    ContactBodies bodies(base, {0.1 - from_edge * kRadius, 0.047, 0.06}, kRadius, rim_edge);
+    return bodies.sample({0.45, {1.0}, nullptr}, level).K;
+  };
+  std::vector<Eigen::Matrix3d> K;
+  for (int i = 0; i <= 25; ++i) K.push_back(K_at(0.1 * i, ContactLevel::kSample));
+  double largest = 0;
+  for (std::size_t i = 1; i + 1 < K.size(); ++i)
+    largest = std::max(largest, (K[i] - 0.5 * (K[i - 1] + K[i + 1])).norm() / K[i].norm());
+  std::printf("off its neighbours' middle by at most %.2f %%\n", 100 * largest);
+  EXPECT_LT(largest, 0.01);
+  for (const double from_edge : {0.0, 0.9, 1.1, 1.5}) {
+    const Eigen::Matrix3d fine = K_at(from_edge, ContactLevel::kFine),
+                          finer = K_at(from_edge, ContactLevel::kFine, kRimEdge / 1.6);
+    EXPECT_LT((fine - finer).norm(), 0.008 * finer.norm()) << from_edge;
+  }
+}
+
 TEST(ContactStiffness, RegionDerivativesAreTheDifferences) {
   const ContactBase base = block_base({0.08, 0.08, 0.04});
   ContactBodies bodies(base, {0.042, 0.04, 0.04}, kRadius, 0.25);
