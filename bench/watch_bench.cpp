@@ -1,6 +1,6 @@
 // A model that watches itself: how soon it notices a change, what it calls it, and what error is
-// left; or, with `hours N [FIRST [LAST]]`, how many alarms N hours of an unchanged body give, for
-// these seeds of presses. Prints tables.
+// left; or, with `hours N [SEEDS [BODY...]]`, on each body how many alarms N hours of it unchanged
+// give with each of so many seeds of presses, and how soon a softer one is noticed. Prints tables.
 // Recorded in bench/results/watch*.txt (bench/record.sh).
 #include <fmt/format.h>
 
@@ -11,7 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "formats/tetmesh_io.h"
 #include "support/changing_world.h"
+#include "support/objects.h"
+#include "tetmesh/body_mesh.h"
 #include "watch/watch.h"
 
 namespace {
@@ -229,35 +232,114 @@ void changes(const PreparedBody& truth, const PreparedBody& known, int draws,
   }
 }
 
-void hours(const PreparedBody& truth, const PreparedBody& known, double hours, std::uint64_t seed) {
-  test::PressStream stream(truth, seed);
+// The world is the body on one mesh, the model knows it on another.
+struct MeshPair {
+  TetMesh truth, known;
+};
+
+// dome, block, ball, organ, or TRUTH.ply:KNOWN.ply
+MeshPair pair_named(const std::string& name) {
+  BodyOptions options;
+  options.preserve_surface = true;
+  if (name == "dome") return {test::dome_mesh(7), test::dome_mesh(5)};
+  if (name == "block")
+    return {test::block_mesh({0.12, 0.21, 0.06}, 12, 21, 6, 1),
+            test::block_mesh({0.12, 0.21, 0.06}, 8, 14, 4, 1)};
+  if (name == "ball")
+    return {make_body_mesh(test::half_ball(20), options),
+            make_body_mesh(test::half_ball(14), options)};
+  if (name == "organ")
+    return {make_body_mesh(test::lump(20), options), make_body_mesh(test::lump(14), options)};
+  const std::size_t colon = name.find(':');
+  Input truth(name.substr(0, colon)), known(name.substr(colon + 1));
+  return {read_body(truth), read_body(known)};
+}
+
+constexpr double kLearning = 30;                  // [s] in contact, of unchanged and softer bodies
+constexpr double kSofterFrom = 120, kGiven = 60;  // [s] of the stream
+constexpr int kSofterDraws = 20;
+
+WatchOptions usual_options() {
   WatchOptions options;
-  options.test.learning = 30;
-  ModelWatch watch(known, options);
+  options.test.learning = kLearning;
+  return options;
+}
+
+// Alarms in so many hours, in contact for a third of them.
+std::size_t alarms_unchanged(const PreparedBody& truth, const PreparedBody& known, double hours,
+                             std::uint64_t seed) {
+  test::PressStream stream(truth, seed);
+  ModelWatch watch(known, usual_options());
   std::size_t told = 0;
   const auto samples = static_cast<long>(hours * 3.6e6);
   for (long i = 0; i < samples; ++i) {
     const auto [line, f] = stream.next();
     watch.step(line, f);
     for (; told < watch.events().size(); ++told)
-      fmt::print("alarm at {:.1f} s: {}\n", watch.events()[told].alarm,
+      fmt::print("  seed {}: alarm at {:.1f} s: {}\n", seed, watch.events()[told].alarm,
                  change_name(watch.events()[told].change));
   }
-  fmt::print("{:g} h of unchanged contact, seed {}: {} alarms; stated {:g} an hour\n", hours, seed,
-             told, options.test.false_alarms);
+  return told;
+}
+
+// The body becomes 30 % softer: time in contact until that is noticed, in order [s].
+void softer(const PreparedBody& truth, const PreparedBody& known) {
+  std::vector<double> noticed;
+  int early = 0, within = 0;
+  double least = 0;
+  for (int draw = 0; draw < kSofterDraws; ++draw) {
+    const auto seed = static_cast<std::uint64_t>(101 + draw);
+    Random random(1000 + seed);
+    test::PressStream stream(truth, seed);
+    stream.when = kSofterFrom + kSpread * random.uniform();
+    stream.after.stiffness = 0.7;
+    ModelWatch watch(known, usual_options());
+    double in_contact = 0;
+    for (double t = 0; t < stream.when + kGiven && watch.events().empty();) {
+      const auto [line, f] = stream.next();
+      t = line.t;
+      watch.step(line, f);
+      if (t >= stream.when && stream.touches()) in_contact += 1e-3;
+    }
+    least = std::max(least, watch.least_change());
+    const bool told = !watch.events().empty();
+    early += told && watch.events().front().alarm < stream.when ? 1 : 0;
+    noticed.push_back(told ? in_contact : 1e9);
+    within += told && in_contact <= 1 ? 1 : 0;
+  }
+  std::sort(noticed.begin(), noticed.end());
+  fmt::print(
+      "  -30 %: noticed within 1 s of contact in {} of {}, {:.2f} s (median), {:.2f} s at most; {} "
+      "alarms before; least change that it says it notices {:.0f} %\n",
+      within, kSofterDraws, quantile(noticed, 0.5), noticed.back(), early, 100 * least);
+}
+
+void hours(double hours, int seeds, const std::vector<std::string>& bodies) {
+  std::size_t all = 0;
+  for (const std::string& name : bodies) {
+    const MeshPair pair = pair_named(name);
+    const auto truth = test::prepared_soft(pair.truth), known = test::prepared_soft(pair.known);
+    std::size_t alarms = 0;
+    for (int seed = 1; seed <= seeds; ++seed)
+      alarms += alarms_unchanged(*truth, *known, hours, static_cast<std::uint64_t>(seed));
+    fmt::print("{}: {} alarms in {:g} h unchanged\n", name, alarms, seeds * hours);
+    softer(*truth, *known);
+    all += alarms;
+  }
+  fmt::print("in all {} alarms in {:g} h; stated {:g} an hour\n", all,
+             static_cast<double>(bodies.size()) * seeds * hours, WatchOptions{}.test.false_alarms);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
-  const auto truth = test::prepared_dome(7), known = test::prepared_dome(5);
   if (argc > 2 && std::string(argv[1]) == "hours") {
-    const int first = argc > 3 ? std::atoi(argv[3]) : 1,
-              last = argc > 4 ? std::atoi(argv[4]) : first;
-    for (int seed = first; seed <= last; ++seed)
-      hours(*truth, *known, std::atof(argv[2]), static_cast<std::uint64_t>(seed));
+    std::vector<std::string> bodies(argv + std::min(argc, 4), argv + argc);
+    if (bodies.empty()) bodies = {"dome", "block", "ball", "organ"};
+    hours(std::atof(argv[2]), argc > 3 ? std::atoi(argv[3]) : 1, bodies);
   } else {
+    const auto truth = test::prepared_dome(7), known = test::prepared_dome(5);
     changes(*truth, *known, argc > 1 ? std::atoi(argv[1]) : 10, argc > 2 ? argv[2] : "");
   }
 }

@@ -90,6 +90,7 @@ class ContactLibrary {
   const PlanGrid& grid() const { return grid_; }
   double tool_radius() const { return radius_; }         // [m]
   const Surface& surface() const { return base_.fine; }  // the body's, as it was given
+  const ContactBase& base() const { return base_; }
   Memo& memo() const { return *options_.memo; }
   // Of all that solutions depend on beside positions and material.
   const ContentHash& content() const { return content_; }

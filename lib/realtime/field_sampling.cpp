@@ -14,7 +14,8 @@ namespace hapsim {
 namespace {
 
 constexpr std::size_t kFirst = 64;   // samples before there is a model,
-constexpr std::size_t kFewest = 24;  // and where much may be left unknown
+constexpr std::size_t kFewest = 24;  // and where much may be left unknown:
+constexpr double kMuch = 0.1;        // the tolerance from which on that is so
 constexpr std::size_t kPool = 1200;  // places among which the next are chosen
 // One place of so many is solved on the finer mesh too: of the first ones, and of later ones.
 constexpr std::size_t kFirstBoth = 5, kBoth = 12;
@@ -22,8 +23,8 @@ constexpr std::size_t kFirstBoth = 5, kBoth = 12;
 constexpr double kBesideSupport = 2.5;
 // Where the surface about turns so much, two radii from a right-angled edge, coarse meshes scatter.
 constexpr double kBesideEdge = 0.07;
-// The share of the pool's squares that may lie above (2.5 tolerances)^2.
-constexpr double kTail = 0.01;
+// The share of the pool that may be less sure than this, in tolerances: twice that is the worst.
+constexpr double kTail = 0.01, kLeastSure = 1.25;
 
 double clearance(const SurfaceTree& bonded, const Vec3& p) {
   return bonded.surface().faces.empty() ? std::numeric_limits<double>::infinity()
@@ -42,6 +43,17 @@ std::vector<Vec3> spread(const std::vector<Vec3>& places, std::size_t count) {
                                     distance.begin());
   }
   return chosen;
+}
+
+// None where the coarse surface cannot be meshed: the samples alone tell then.
+std::shared_ptr<const FarCompliance> far_compliance(const ContactBase& base, double tool_radius,
+                                                    const Material& material, int threads) {
+  try {
+    return std::make_shared<FarCompliance>(base, tool_radius, material, threads);
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    return nullptr;
+  }
 }
 
 Eigen::Vector2d along_and_across(const Eigen::Matrix3d& K, const Vec3& n) {
@@ -69,14 +81,17 @@ FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, doub
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
     if (library_->bonded()[f]) held.faces.push_back(surface.faces[f]);
   bonded_ = std::make_unique<SurfaceTree>(std::move(held));
-  views_ = std::make_unique<PlaceViews>(surface, library_->bonded(), tool_radius, material_.field);
+  views_ = std::make_unique<PlaceViews>(
+      surface, library_->bonded(), tool_radius, material_.field,
+      far_compliance(library_->base(), tool_radius, material_.solid, library_->threads()));
   std::vector<Vec3> first = known;
-  const std::size_t begin = std::min(options_.tolerance < 0.1 ? kFirst : kFewest, options_.most);
+  const std::size_t begin = std::min(options_.tolerance < kMuch ? kFirst : kFewest, options_.most);
   for (const Vec3& p : spread(draw(20 * kFirst, 1), begin)) first.push_back(p);
   add(first);
   if (samples_.size() < begin / 4)
     fail_input("", "the tool can be laid on hardly any place of this body",
                "check the unit of the tool's radius, or bond less of the body");
+  bool confirmed = options_.tolerance >= kMuch;
   for (std::uint64_t round = 2;; ++round) {
     fit();
     const std::vector<Vec3> pool = draw(kPool, round);
@@ -90,9 +105,11 @@ FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, doub
     const auto tail =
         squares.end() - 1 - static_cast<std::ptrdiff_t>(kTail * static_cast<double>(kPool));
     std::nth_element(squares.begin(), tail, squares.end());
-    if ((expected_ <= options_.tolerance && std::sqrt(*tail) <= 2.5 * options_.tolerance) ||
-        tried() >= options_.most)
-      break;
+    const bool reached =
+        expected_ <= options_.tolerance && std::sqrt(*tail) <= kLeastSure * options_.tolerance;
+    // Few samples may agree by chance, all far from a corner: those where least is known must, too.
+    if ((reached && confirmed) || tried() >= options_.most) break;
+    confirmed = confirmed || reached;
     const std::size_t count =
         std::min(options_.most - tried(), std::max<std::size_t>(32, samples_.size() / 3));
     std::vector<Vec3> next;

@@ -32,7 +32,8 @@ struct SampledMaterial {
 // into what the finer ones give by the mean ratio, along and across the normal, of those that were
 // solved on both; beside the support, where that ratio is another, on the finer meshes. The first
 // samples lie apart from each other, later ones where the model of the earlier ones knows least,
-// until the model's own uncertainty over the touchable surface is below the tolerance.
+// until the model's own uncertainty over the touchable surface is below the tolerance, and still is
+// after another round of them.
 class FieldSampling {
  public:
   // `known`: places to be sampled in any case. Error(kBadInput): the tool fits nowhere.

@@ -23,6 +23,8 @@ constexpr double kMostFreedom = 0.7;
 constexpr double kBeyondSamples = 1;
 constexpr double kPrior = 4;  // samples that stand for the global variance where few are near
 
+constexpr double kThin = 0.5;  // of a half-space's compliance may be missing, without more ado
+
 // Symmetric tensors as vectors of the same norm.
 Packed pack(const Matrix3d& m) {
   const double s = std::sqrt(2.0);
@@ -43,6 +45,12 @@ Matrix3d of_eigenvalues(const Matrix3d& m, const Function& f) {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(m);
   const Vec3 values = eigen.eigenvalues().unaryExpr(f);
   return eigen.eigenvectors() * values.asDiagonal() * eigen.eigenvectors().transpose();
+}
+
+// Compliance over the half-space's where the body has x of it beyond: 1 + x, but positive. On a
+// thin part x is about -1, and the coarse mesh errs.
+double positive_share(double x) {
+  return x > -kThin ? 1 + x : (1 - kThin) * std::exp((x + kThin) / (1 - kThin));
 }
 
 // The trend with the ridge of the least generalised cross-validation (Golub, Heath and Wahba,
@@ -112,8 +120,12 @@ Matrix3d disc_compliance(double modulus, double nu, double radius, const Vec3& n
 }
 
 PlaceViews::PlaceViews(const Surface& surface, const std::vector<std::uint8_t>& bonded,
-                       double tool_radius, FieldMaterial material)
-    : radius_(tool_radius), material_(std::move(material)) {
+                       double tool_radius, FieldMaterial material,
+                       std::shared_ptr<const FarCompliance> far)
+    : radius_(tool_radius),
+      material_(std::move(material)),
+      far_material_(material_),
+      far_(std::move(far)) {
   for (const double width : kWidths) windows_.emplace_back(surface, bonded, width * tool_radius);
 }
 
@@ -151,6 +163,19 @@ PlaceView PlaceViews::at(const Vec3& point) const {
   }
   view.features = Eigen::Map<VectorXd>(f.data(), static_cast<Index>(f.size()));
 
+  const Matrix3d disc = disc_compliance(modulus, material_.nu, radius_, n);
+  const auto root = [](double c) { return std::sqrt(c); };
+  Matrix3d expected = disc;
+  Packed beyond = Packed::Zero();
+  if (far_) {
+    const double scale = far_material_.modulus(point) / modulus;
+    const Matrix3d C = of_eigenvalues(disc, root), back = C.inverse();
+    const Matrix3d over = back * (scale * far_->at(point, n)) * back;
+    const Matrix3d share = of_eigenvalues(over, [](double x) { return positive_share(x); });
+    beyond = pack(of_eigenvalues(share, [](double x) { return std::log(x); }));
+    expected = C * share * C;
+  }
+  view.reference = of_eigenvalues(expected, [](double c) { return 1 / std::sqrt(c); });
   std::vector<Packed> basis;
   std::vector<double> first{1}, second{1};
   first.insert(first.end(), f.begin(), f.end());
@@ -177,10 +202,11 @@ PlaceView PlaceViews::at(const Vec3& point) const {
       basis.push_back(s * curved);
     }
   }
+  // Beside the support and where the coarse mesh errs, the expected is off by a share of this.
+  if (far_)
+    for (const double s : first) basis.push_back(s * beyond);
   view.basis.resize(6, static_cast<Index>(basis.size()));
   for (std::size_t b = 0; b < basis.size(); ++b) view.basis.col(static_cast<Index>(b)) = basis[b];
-  view.reference = of_eigenvalues(disc_compliance(modulus, material_.nu, radius_, n),
-                                  [](double c) { return 1 / std::sqrt(c); });
   return view;
 }
 

@@ -8,6 +8,7 @@
 
 #include "estimate/kriging.h"
 #include "mesh/surface_window.h"
+#include "realtime/far_compliance.h"
 
 namespace hapsim {
 
@@ -26,25 +27,27 @@ struct PlaceView {
   Vec3 point, normal;
   Eigen::VectorXd features;                        // scalars
   Eigen::Matrix<double, 6, Eigen::Dynamic> basis;  // tensors that turn with the body, packed
-  Eigen::Matrix3d reference;                       // root of the half-space's stiffness
+  Eigen::Matrix3d reference;                       // root of the stiffness to be expected
   double turned = 0;  // what the surface within some two tool radii lacks of facing one way
 };
 
-// Views through windows of 0.7 to 6 tool radii. Thread-safe.
+// Views through windows of 0.7 to 6 tool radii. The stiffness to be expected is the inverse of the
+// half-space's compliance and what the body yields beyond it. Thread-safe.
 class PlaceViews {
  public:
-  // `bonded`: one a face.
+  // `bonded`: one a face; `far`: of this material, may be null.
   PlaceViews(const Surface& surface, const std::vector<std::uint8_t>& bonded, double tool_radius,
-             FieldMaterial material);
+             FieldMaterial material, std::shared_ptr<const FarCompliance> far);
   PlaceView at(const Vec3& point) const;
-  // The same body of another material.
+  // The same body of another material: what it yields as a whole goes with the modulus.
   PlaceViews with(FieldMaterial material) const;
   Vec3 normal_at(const Vec3& point) const { return windows_.front().at(point).normal.normalized(); }
 
  private:
   std::vector<SurfaceWindow> windows_;
   double radius_;
-  FieldMaterial material_;
+  FieldMaterial material_, far_material_;
+  std::shared_ptr<const FarCompliance> far_;
 };
 
 struct StiffnessSample {
@@ -57,10 +60,10 @@ struct PlaceEstimate {
   double uncertainty = 0;  // relative standard uncertainty of the force
 };
 
-// L = log(R^-1 K R^-1), R the half-space's root: a trend, linear in the views' tensors, with the
-// ridge that generalised cross-validation takes, and what the trend leaves as a Gaussian process
-// over place, normal and features (universal kriging in two stages). Its variance is scaled by the
-// squared residuals of samples that are left out, those nearby most.
+// L = log(R^-1 K R^-1), R the root of what is expected: a trend, linear in the views' tensors, with
+// the ridge that generalised cross-validation takes, and what the trend leaves as a Gaussian
+// process over place, normal and features (universal kriging in two stages). Its variance is scaled
+// by the squared residuals of samples that are left out, those nearby most.
 class PlaceModel {
  public:
   // `noise`: standard deviation of what samples of the coarser mesh scatter about the finer ones'

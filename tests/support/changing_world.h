@@ -1,6 +1,7 @@
 // A stream of presses on a body that changes while it is watched.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -22,7 +23,7 @@ inline TetMesh dome_mesh(int cells) {
   return mesh;
 }
 
-inline std::unique_ptr<PreparedBody> prepared_dome(int cells, double modulus = 2e4,
+inline std::unique_ptr<PreparedBody> prepared_soft(const TetMesh& body, double modulus = 2e4,
                                                    double relaxing = 6e3, double time = 0.15) {
   Model model;
   model.parameters = effect_rows(*find_effect("elastic"), 1, {modulus, 0.45});
@@ -31,7 +32,12 @@ inline std::unique_ptr<PreparedBody> prepared_dome(int cells, double modulus = 2
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
   options.tolerance = 0.02;
-  return std::make_unique<PreparedBody>(dome_mesh(cells), model, options);
+  return std::make_unique<PreparedBody>(body, model, options);
+}
+
+inline std::unique_ptr<PreparedBody> prepared_dome(int cells, double modulus = 2e4,
+                                                   double relaxing = 6e3, double time = 0.15) {
+  return prepared_soft(dome_mesh(cells), modulus, relaxing, time);
 }
 
 struct World {
@@ -40,12 +46,14 @@ struct World {
   bool gone = false;
 };
 
-// Presses at random places, one a second, each some 0.4 s in contact; the world changes at `when`
-// [s].
+// Presses at random places over the middle of the body in plan, from above, one a second, each some
+// 0.4 s in contact; the world changes at `when` [s].
 class PressStream {
  public:
   PressStream(const PreparedBody& truth, std::uint64_t seed)
-      : loop_(truth), random_(seed), truth_(truth) {}
+      : loop_(truth), random_(seed), truth_(truth) {
+    for (const Vec3& p : truth.field().surface().vertices) box_.extend(p);
+  }
   World before, after;
   // The body is another after the change, of the same shape.
   void becomes(const PreparedBody& other) { other_.emplace(other); }
@@ -55,7 +63,10 @@ class PressStream {
   std::pair<MotionLine, Vec3> next() {
     const double in_press = 1e-3 * static_cast<double>(count_ % 1000);
     if (count_ % 1000 == 0) {
-      const Vec3 above(0.02 + 0.04 * random_.uniform(), 0.02 + 0.04 * random_.uniform(), 0.06);
+      const double along = random_.uniform(), across = random_.uniform();
+      const Vec3 size = box_.sizes();
+      const Vec3 above = box_.min() + Vec3((0.25 + 0.5 * along) * size.x(),
+                                           (0.25 + 0.5 * across) * size.y(), 1.5 * size.z());
       const SurfaceSide side = truth_.distance().at(above);
       place_ = side.point;
       normal_ = side.normal;
@@ -93,6 +104,7 @@ class PressStream {
   std::optional<ForceLoop> other_;
   Random random_;
   const PreparedBody& truth_;
+  Eigen::AlignedBox3d box_;
   long count_ = 0;
   int press_ = 0;
   Vec3 place_, normal_;
