@@ -45,9 +45,12 @@ std::vector<Vec3> spread(const std::vector<Vec3>& places, std::size_t count) {
   return chosen;
 }
 
-// None where the coarse surface cannot be meshed: the samples alone tell then.
+// None where the coarse surface cannot be meshed, or it costs more than the few samples that are
+// asked for: they alone tell then.
 std::shared_ptr<const FarCompliance> far_compliance(const ContactBase& base, double tool_radius,
-                                                    const Material& material, int threads) {
+                                                    const Material& material, int threads,
+                                                    const FieldSamplingOptions& options) {
+  if (options.tolerance >= kMuch || options.most < kFirst) return nullptr;
   try {
     return std::make_shared<FarCompliance>(base, tool_radius, material, threads);
   } catch (const Error& error) {
@@ -81,9 +84,10 @@ FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, doub
   for (std::size_t f = 0; f < surface.faces.size(); ++f)
     if (library_->bonded()[f]) held.faces.push_back(surface.faces[f]);
   bonded_ = std::make_unique<SurfaceTree>(std::move(held));
-  views_ = std::make_unique<PlaceViews>(
-      surface, library_->bonded(), tool_radius, material_.field,
-      far_compliance(library_->base(), tool_radius, material_.solid, library_->threads()));
+  views_ =
+      std::make_unique<PlaceViews>(surface, library_->bonded(), tool_radius, material_.field,
+                                   far_compliance(library_->base(), tool_radius, material_.solid,
+                                                  library_->threads(), options_));
   std::vector<Vec3> first = known;
   const std::size_t begin = std::min(options_.tolerance < kMuch ? kFirst : kFewest, options_.most);
   for (const Vec3& p : spread(draw(20 * kFirst, 1), begin)) first.push_back(p);
