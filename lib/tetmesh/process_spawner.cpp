@@ -8,8 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -76,6 +78,13 @@ int status_of(pid_t process) {
   return status;
 }
 
+bool write_whole(int file, const void* from, std::size_t count) {
+  ssize_t put;
+  do put = write(file, from, count);
+  while (put < 0 && errno == EINTR);
+  return put == static_cast<ssize_t>(count);  // a few bytes: all or nothing
+}
+
 // The keepers that have ended, so that their time counts as that of our parent's children.
 void take_ended() {
   while (waitpid(-1, nullptr, WNOHANG) > 0) {
@@ -94,9 +103,9 @@ void take_ended() {
     _exit(1);
   }
   close(ends.file[0]);
-  if (worker < 0 || write(ends.file[1], &worker, sizeof worker) != sizeof worker) _exit(1);
+  if (worker < 0 || !write_whole(ends.file[1], &worker, sizeof worker)) _exit(1);
   const int status = status_of(worker);
-  _exit(write(ends.file[1], &status, sizeof status) == sizeof status ? 0 : 1);
+  _exit(write_whole(ends.file[1], &status, sizeof status) ? 0 : 1);
 }
 
 [[noreturn]] void serve(int control, ProcessSpawner::Work work) {
@@ -128,6 +137,17 @@ bool read_whole(int file, void* to, std::size_t count) {
   do got = read(file, to, count);
   while (got < 0 && errno == EINTR);
   return got == static_cast<ssize_t>(count);
+}
+
+// Within so many seconds.
+bool is_readable(int file, double patience) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience);
+  for (;;) {
+    const std::chrono::duration<double, std::milli> left = end - std::chrono::steady_clock::now();
+    pollfd watched{file, POLLIN, 0};
+    const int found = poll(&watched, 1, static_cast<int>(std::max(left.count(), 0.0)));
+    if (found >= 0 || errno != EINTR) return found > 0;
+  }
 }
 
 [[noreturn]] void no_process(const char* what) {
@@ -190,10 +210,8 @@ std::optional<Worker> ProcessSpawner::spawn(double patience) {
   const bool sent = send_ends(control_, {{data[1], status[1]}});
   close(data[1]);
   close(status[1]);
-  pollfd watched{status[0], POLLIN, 0};
   pid_t worker;
-  if (sent && poll(&watched, 1, static_cast<int>(1e3 * patience)) > 0 &&
-      read_whole(status[0], &worker, sizeof worker))
+  if (sent && is_readable(status[0], patience) && read_whole(status[0], &worker, sizeof worker))
     return Worker(data[0], status[0], worker);
   close(data[0]);
   close(status[0]);
