@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error.h"
 #include "diagnose/departures.h"
 #include "diagnose/held_out.h"
 #include "diagnose/screens.h"
@@ -166,9 +167,16 @@ void try_at_some_first(const std::vector<const Effect*>& effects, const Departur
     Candidate candidate;
     candidate.effect = effect;
     candidate.one_more_term = base.fitted.model.has(effect->card().name);
-    candidate.fitted =
-        fit(tried.model, g.experiment, all_episodes(g.dataset), trial_fit_options(g, 0),
-            g.experiment.places.solve(material_of(tried.model)));
+    try {
+      candidate.fitted =
+          fit(tried.model, g.experiment, all_episodes(g.dataset), trial_fit_options(g, 0),
+              g.experiment.places.solve(material_of(tried.model)));
+    } catch (const Error& error) {  // at a place that the screen did not have
+      if (error.code() != ExitCode::kNoConvergence) throw;
+      round.untestable.push_back(
+          not_testable(*effect, std::string("it cannot be fitted at all places: ") + error.what()));
+      continue;
+    }
     least = std::min(least, candidate.fitted.error.pooled);
     round.candidates.push_back(std::move(candidate));
   }
