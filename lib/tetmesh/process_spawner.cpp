@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "base/byte_stream.h"
 #include "base/error.h"
 
 namespace hapsim {
@@ -23,66 +24,60 @@ namespace {
 
 constexpr int kControl = 3;  // where the spawner has its socket, beside the standard streams
 
-// Ends of the worker's stream and of the pipe for its status, with a byte.
+// Ends of the worker's stream and of the one for its status.
 struct Ends {
   std::array<int, 2> file{-1, -1};
 };
-union Control {  // aligned as the kernel wants it
-  char bytes[CMSG_SPACE(sizeof(Ends::file))];
-  cmsghdr align;
+
+// A byte that carries them from process to process.
+class Parcel {
+ public:
+  Parcel() {
+    message_.msg_iov = &part_;
+    message_.msg_iovlen = 1;
+    message_.msg_control = control_.bytes;
+    message_.msg_controllen = sizeof control_.bytes;
+  }
+  Parcel(const Parcel&) = delete;
+
+  bool send(int socket, const Ends& ends) {
+    cmsghdr* head = CMSG_FIRSTHDR(&message_);
+    head->cmsg_level = SOL_SOCKET;
+    head->cmsg_type = SCM_RIGHTS;
+    head->cmsg_len = CMSG_LEN(sizeof ends.file);
+    std::memcpy(CMSG_DATA(head), ends.file.data(), sizeof ends.file);
+    ssize_t sent;
+    do sent = sendmsg(socket, &message_, MSG_NOSIGNAL);
+    while (sent < 0 && errno == EINTR);
+    return sent == 1;
+  }
+
+  // False when the other side is gone.
+  bool receive(int socket, Ends& ends) {
+    ssize_t got;
+    do got = recvmsg(socket, &message_, 0);
+    while (got < 0 && errno == EINTR);
+    const cmsghdr* head = got == 1 ? CMSG_FIRSTHDR(&message_) : nullptr;
+    if (head == nullptr || head->cmsg_len != CMSG_LEN(sizeof ends.file)) return false;
+    std::memcpy(ends.file.data(), CMSG_DATA(head), sizeof ends.file);
+    return true;
+  }
+
+ private:
+  char byte_ = 0;
+  iovec part_{&byte_, 1};
+  msghdr message_{};
+  union Control {  // aligned as the kernel wants it
+    char bytes[CMSG_SPACE(sizeof(Ends::file))];
+    cmsghdr align;
+  } control_{};
 };
-
-bool send_ends(int socket, const Ends& ends) {
-  char byte = 0;
-  iovec part{&byte, 1};
-  Control control{};
-  msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control.bytes;
-  message.msg_controllen = sizeof control.bytes;
-  cmsghdr* head = CMSG_FIRSTHDR(&message);
-  head->cmsg_level = SOL_SOCKET;
-  head->cmsg_type = SCM_RIGHTS;
-  head->cmsg_len = CMSG_LEN(sizeof ends.file);
-  std::memcpy(CMSG_DATA(head), ends.file.data(), sizeof ends.file);
-  ssize_t sent;
-  do sent = sendmsg(socket, &message, MSG_NOSIGNAL);
-  while (sent < 0 && errno == EINTR);
-  return sent == 1;
-}
-
-// False when the other side is gone.
-bool receive_ends(int socket, Ends& ends) {
-  char byte;
-  iovec part{&byte, 1};
-  Control control{};
-  msghdr message{};
-  message.msg_iov = &part;
-  message.msg_iovlen = 1;
-  message.msg_control = control.bytes;
-  message.msg_controllen = sizeof control.bytes;
-  ssize_t got;
-  do got = recvmsg(socket, &message, 0);
-  while (got < 0 && errno == EINTR);
-  const cmsghdr* head = got == 1 ? CMSG_FIRSTHDR(&message) : nullptr;
-  if (head == nullptr || head->cmsg_len != CMSG_LEN(sizeof ends.file)) return false;
-  std::memcpy(ends.file.data(), CMSG_DATA(head), sizeof ends.file);
-  return true;
-}
 
 int status_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
   return status;
-}
-
-bool write_whole(int file, const void* from, std::size_t count) {
-  ssize_t put;
-  do put = write(file, from, count);
-  while (put < 0 && errno == EINTR);
-  return put == static_cast<ssize_t>(count);  // a few bytes: all or nothing
 }
 
 // The keepers that have ended, so that their time counts as that of our parent's children.
@@ -103,9 +98,10 @@ void take_ended() {
     _exit(1);
   }
   close(ends.file[0]);
-  if (worker < 0 || !write_whole(ends.file[1], &worker, sizeof worker)) _exit(1);
+  const ByteStream parent(ends.file[1]);
+  if (worker < 0 || !parent.put(&worker, sizeof worker)) _exit(1);
   const int status = status_of(worker);
-  _exit(write_whole(ends.file[1], &status, sizeof status) ? 0 : 1);
+  _exit(parent.put(&status, sizeof status) ? 0 : 1);
 }
 
 [[noreturn]] void serve(int control, ProcessSpawner::Work work) {
@@ -116,11 +112,11 @@ void take_ended() {
   signal(SIGCHLD, SIG_DFL);
   // None of its files, or who waits for their end would wait for ours.
   if (control != kControl) dup2(control, kControl);
-  close_range(kControl + 1, ~0U, 0);
+  closefrom(kControl + 1);
   const int nowhere = open("/dev/null", O_RDWR);
   for (int stream = 0; stream < kControl; ++stream) dup2(nowhere, stream);
   close(nowhere);
-  for (Ends ends; receive_ends(kControl, ends);) {
+  for (Ends ends; Parcel().receive(kControl, ends);) {
     if (fork() == 0) {
       close(kControl);
       keep_worker(ends, work);
@@ -130,13 +126,6 @@ void take_ended() {
   }
   take_ended();
   _exit(0);
-}
-
-bool read_whole(int file, void* to, std::size_t count) {
-  ssize_t got;
-  do got = read(file, to, count);
-  while (got < 0 && errno == EINTR);
-  return got == static_cast<ssize_t>(count);
 }
 
 // Within so many seconds.
@@ -159,7 +148,7 @@ bool is_readable(int file, double patience) {
 
 Worker::Worker(Worker&& other) noexcept
     : data_(std::exchange(other.data_, -1)),
-      status_pipe_(std::exchange(other.status_pipe_, -1)),
+      told_(std::exchange(other.told_, -1)),
       process_(other.process_) {}
 
 Worker::~Worker() {
@@ -172,8 +161,8 @@ int Worker::finish(bool ended) {
   // Its status has not been read, so it is there, or was until this moment.
   if (!ended) kill(process_, SIGKILL);
   int status = SIGKILL;  // of one whose keeper was killed too
-  read_whole(status_pipe_, &status, sizeof status);
-  close(status_pipe_);
+  ByteStream(told_).get(&status, sizeof status);
+  close(told_);
   return status;
 }
 
@@ -203,15 +192,15 @@ ProcessSpawner::~ProcessSpawner() {
 std::optional<Worker> ProcessSpawner::spawn(double patience) {
   int data[2], status[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, data) != 0) no_process("no socket: ");
-  if (pipe2(status, O_CLOEXEC) != 0) {
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, status) != 0) {
     for (const int file : data) close(file);
-    no_process("no pipe: ");
+    no_process("no socket: ");
   }
-  const bool sent = send_ends(control_, {{data[1], status[1]}});
+  const bool sent = Parcel().send(control_, {{data[1], status[1]}});
   close(data[1]);
   close(status[1]);
   pid_t worker;
-  if (sent && is_readable(status[0], patience) && read_whole(status[0], &worker, sizeof worker))
+  if (sent && is_readable(status[0], patience) && ByteStream(status[0]).get(&worker, sizeof worker))
     return Worker(data[0], status[0], worker);
   close(data[0]);
   close(status[0]);

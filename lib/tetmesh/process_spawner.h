@@ -10,8 +10,7 @@ namespace hapsim {
 // A worker, seen from the process that asked for it. When it goes away the worker is ended.
 class Worker {
  public:
-  Worker(int data, int status_pipe, pid_t process)
-      : data_(data), status_pipe_(status_pipe), process_(process) {}
+  Worker(int data, int told, pid_t process) : data_(data), told_(told), process_(process) {}
   Worker(Worker&& other) noexcept;
   Worker(const Worker&) = delete;
   ~Worker();
@@ -21,7 +20,7 @@ class Worker {
   int finish(bool ended);
 
  private:
-  int data_, status_pipe_;
+  int data_, told_;  // `told_` brings its status
   pid_t process_;
 };
 

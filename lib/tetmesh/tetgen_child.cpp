@@ -4,7 +4,6 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/resource.h>
-#include <sys/socket.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
@@ -18,7 +17,6 @@
 #include <mutex>
 #include <new>
 #include <optional>
-#include <type_traits>
 #include <utility>
 
 #ifndef TETLIBRARY
@@ -26,6 +24,7 @@
 #endif
 #include <tetgen.h>
 
+#include "base/byte_stream.h"
 #include "base/error.h"
 #include "tetmesh/process_spawner.h"
 
@@ -104,46 +103,6 @@ void fill_facets(tetgenio& io, const TetgenInput& input) {
   }
 }
 
-bool write_all(int file, const void* data, std::size_t count) {
-  const char* p = static_cast<const char*>(data);
-  while (count > 0) {
-    const ssize_t n = ::send(file, p, count, MSG_NOSIGNAL);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    p += n;
-    count -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-bool read_all(int file, void* to, std::size_t count) {
-  char* p = static_cast<char*>(to);
-  while (count > 0) {
-    const ssize_t n = ::read(file, p, count);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    p += n;
-    count -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-template <class T>
-bool write_list(int file, const std::vector<T>& list) {
-  static_assert(std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3>);
-  const std::uint64_t count = list.size();
-  return write_all(file, &count, sizeof count) &&
-         write_all(file, list.data(), list.size() * sizeof(T));
-}
-
-template <class T>
-bool read_list(int file, std::vector<T>& list) {
-  std::uint64_t count = 0;
-  if (!read_all(file, &count, sizeof count)) return false;
-  list.resize(count);
-  return read_all(file, list.data(), list.size() * sizeof(T));
-}
-
 // What the worker is asked for.
 struct Task {
   TetgenInput input;
@@ -152,57 +111,61 @@ struct Task {
   bool processor_time = false;
 };
 
-bool write_task(int file, const TetgenInput& input, const TetgenOptions& options) {
-  const std::string text = switches(input, options);
-  bool good = write_list(file, std::vector<char>(text.begin(), text.end())) &&
-              write_all(file, &options.time_limit, sizeof options.time_limit) &&
-              write_all(file, &options.processor_time, sizeof options.processor_time) &&
-              write_list(file, input.face_marker) && write_list(file, input.seeds) &&
-              write_list(file, input.node_size) && write_list(file, input.surface.vertices) &&
-              write_list(file, input.surface.faces);
+bool put_surface(const ByteStream& stream, const Surface& surface) {
+  return stream.put_all(surface.vertices) && stream.put_all(surface.faces);
+}
+
+bool get_surface(const ByteStream& stream, Surface& surface) {
+  return stream.get_all(surface.vertices) && stream.get_all(surface.faces);
+}
+
+bool put_task(const ByteStream& stream, const TetgenInput& input, const TetgenOptions& options) {
   const std::uint64_t inner = input.inner.size();
-  good = good && write_all(file, &inner, sizeof inner);
-  for (const Surface& surface : input.inner)
-    good = good && write_list(file, surface.vertices) && write_list(file, surface.faces);
+  bool good = stream.put_all(switches(input, options)) &&
+              stream.put(&options.time_limit, sizeof options.time_limit) &&
+              stream.put(&options.processor_time, sizeof options.processor_time) &&
+              stream.put_all(input.face_marker) && stream.put_all(input.seeds) &&
+              stream.put_all(input.node_size) && put_surface(stream, input.surface) &&
+              stream.put(&inner, sizeof inner);
+  for (const Surface& surface : input.inner) good = good && put_surface(stream, surface);
   return good;
 }
 
-bool read_task(int file, Task& task) {
-  std::vector<char> text;
+bool get_task(const ByteStream& stream, Task& task) {
   std::uint64_t inner = 0;
   TetgenInput& input = task.input;
-  bool good = read_list(file, text) && read_all(file, &task.time_limit, sizeof task.time_limit) &&
-              read_all(file, &task.processor_time, sizeof task.processor_time) &&
-              read_list(file, input.face_marker) && read_list(file, input.seeds) &&
-              read_list(file, input.node_size) && read_list(file, input.surface.vertices) &&
-              read_list(file, input.surface.faces) && read_all(file, &inner, sizeof inner);
-  task.switches.assign(text.begin(), text.end());
+  bool good = stream.get_all(task.switches) &&
+              stream.get(&task.time_limit, sizeof task.time_limit) &&
+              stream.get(&task.processor_time, sizeof task.processor_time) &&
+              stream.get_all(input.face_marker) && stream.get_all(input.seeds) &&
+              stream.get_all(input.node_size) && get_surface(stream, input.surface) &&
+              stream.get(&inner, sizeof inner);
   input.inner.resize(good ? inner : 0);
-  for (Surface& surface : input.inner)
-    good = good && read_list(file, surface.vertices) && read_list(file, surface.faces);
+  for (Surface& surface : input.inner) good = good && get_surface(stream, surface);
   return good;
 }
 
-bool send(int file, const tetgenio& out) {
+bool put_mesh(const ByteStream& stream, const tetgenio& out) {
   const Head head{out.numberofpoints, out.numberoftetrahedra, out.numberoftrifaces};
   const auto bytes = [](std::int64_t count, std::size_t size) {
     return static_cast<std::size_t>(count) * size;
   };
-  return out.numberofcorners == 4 && write_all(file, &head, sizeof head) &&
-         write_all(file, out.pointlist, bytes(head.nodes, 3 * sizeof(REAL))) &&
-         write_all(file, out.tetrahedronlist, bytes(head.tets, 4 * sizeof(int))) &&
-         write_all(file, out.trifacelist, bytes(head.faces, 3 * sizeof(int))) &&
-         write_all(file, out.trifacemarkerlist, bytes(head.faces, sizeof(int)));
+  return out.numberofcorners == 4 && stream.put(&head, sizeof head) &&
+         stream.put(out.pointlist, bytes(head.nodes, 3 * sizeof(REAL))) &&
+         stream.put(out.tetrahedronlist, bytes(head.tets, 4 * sizeof(int))) &&
+         stream.put(out.trifacelist, bytes(head.faces, 3 * sizeof(int))) &&
+         stream.put(out.trifacemarkerlist, bytes(head.faces, sizeof(int)));
 }
 
 // All that happens in the worker.
-[[noreturn]] void work(int stream) {
+[[noreturn]] void work(int socket) {
+  const ByteStream stream(socket);
   // A crash is expected and leaves no core.
   const rlimit none{0, 0};
   setrlimit(RLIMIT_CORE, &none);
   try {
     Task task;
-    if (!read_task(stream, task)) _exit(2);
+    if (!get_task(stream, task)) _exit(2);
     const auto seconds = static_cast<rlim_t>(std::ceil(task.time_limit));
     const rlimit cpu{seconds + (task.processor_time ? 0 : 1), seconds + 1};
     setrlimit(RLIMIT_CPU, &cpu);
@@ -213,7 +176,7 @@ bool send(int file, const tetgenio& out) {
       fill_facets(in, task.input);
       tetrahedralize(task.switches.data(), &in, &out);
     }
-    _exit(send(stream, out) ? 0 : 1);
+    _exit(put_mesh(stream, out) ? 0 : 1);
   } catch (int number) {
     _exit(kThrew + std::clamp(number, 0, 20));
   } catch (const std::bad_alloc&) {
@@ -359,7 +322,7 @@ std::optional<TetgenAnswer> try_tetgen_child(const TetgenInput& input,
   Worker worker = workers().spawn(options.stall);
   TetgenAnswer answer;
   Reader reader(worker.data(), worker.process(), options);
-  const bool whole = write_task(worker.data(), input, options) && receive(reader, answer);
+  const bool whole = put_task(ByteStream(worker.data()), input, options) && receive(reader, answer);
   const int status = worker.finish(!reader.timed_out() && !reader.stalled());
   if (reader.stalled()) return std::nullopt;
   const bool worked_out = WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU;

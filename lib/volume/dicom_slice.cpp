@@ -17,6 +17,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/byte_stream.h"
 #include "base/error.h"
 #include "io/stream.h"
 
@@ -122,70 +123,30 @@ std::optional<DicomSlice> read_slice(const std::string& file) {
 // What the child says of a file.
 enum class Answer : char { kNothing, kSlice, kError };
 
-// Bytes to and from the pipe; a value at a time.
-class Pipe {
- public:
-  explicit Pipe(int fd) : fd_(fd) {}
-  bool put(const void* from, std::size_t size) const {
-    for (const char* at = static_cast<const char*>(from); size > 0;) {
-      const ssize_t n = write(fd_, at, size);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      at += n;
-      size -= static_cast<std::size_t>(n);
-    }
-    return true;
-  }
-  bool get(void* to, std::size_t size) const {
-    for (char* at = static_cast<char*>(to); size > 0;) {
-      const ssize_t n = read(fd_, at, size);
-      if (n < 0 && errno == EINTR) continue;
-      if (n <= 0) return false;
-      at += n;
-      size -= static_cast<std::size_t>(n);
-    }
-    return true;
-  }
-  template <class T>
-  bool put_all(const T& list) const {
-    const std::uint64_t count = list.size();
-    return put(&count, sizeof count) && put(list.data(), count * sizeof list[0]);
-  }
-  template <class T>
-  bool get_all(T& list) const {
-    std::uint64_t count = 0;
-    if (!get(&count, sizeof count)) return false;
-    list.resize(count);
-    return get(list.data(), count * sizeof list[0]);
-  }
-
- private:
-  int fd_;
-};
-
-bool put_slice(const Pipe& pipe, const DicomSlice& s) {
+bool put_slice(const ByteStream& stream, const DicomSlice& s) {
   const int size[2] = {s.columns, s.rows};
-  return pipe.put(size, sizeof size) && pipe.put(s.spacing.data(), 2 * sizeof(double)) &&
-         pipe.put(s.origin.data(), 3 * sizeof(double)) &&
-         pipe.put(s.along_row.data(), 3 * sizeof(double)) &&
-         pipe.put(s.along_column.data(), 3 * sizeof(double)) && pipe.put_all(s.series) &&
-         pipe.put_all(s.values);
+  return stream.put(size, sizeof size) && stream.put(s.spacing.data(), 2 * sizeof(double)) &&
+         stream.put(s.origin.data(), 3 * sizeof(double)) &&
+         stream.put(s.along_row.data(), 3 * sizeof(double)) &&
+         stream.put(s.along_column.data(), 3 * sizeof(double)) && stream.put_all(s.series) &&
+         stream.put_all(s.values);
 }
 
-bool get_slice(const Pipe& pipe, DicomSlice& s) {
+bool get_slice(const ByteStream& stream, DicomSlice& s) {
   int size[2] = {};
-  const bool good = pipe.get(size, sizeof size) && pipe.get(s.spacing.data(), 2 * sizeof(double)) &&
-                    pipe.get(s.origin.data(), 3 * sizeof(double)) &&
-                    pipe.get(s.along_row.data(), 3 * sizeof(double)) &&
-                    pipe.get(s.along_column.data(), 3 * sizeof(double)) && pipe.get_all(s.series) &&
-                    pipe.get_all(s.values);
+  const bool good = stream.get(size, sizeof size) &&
+                    stream.get(s.spacing.data(), 2 * sizeof(double)) &&
+                    stream.get(s.origin.data(), 3 * sizeof(double)) &&
+                    stream.get(s.along_row.data(), 3 * sizeof(double)) &&
+                    stream.get(s.along_column.data(), 3 * sizeof(double)) &&
+                    stream.get_all(s.series) && stream.get_all(s.values);
   s.columns = size[0];
   s.rows = size[1];
   return good;
 }
 
 // One file in the child; false when the parent is gone.
-bool answer(const Pipe& pipe, const std::string& file) {
+bool answer(const ByteStream& stream, const std::string& file) {
   std::optional<DicomSlice> slice;
   std::string wrong;
   try {
@@ -196,9 +157,9 @@ bool answer(const Pipe& pipe, const std::string& file) {
     wrong = file + ": it is damaged; export the series again, or remove the file";
   }
   const Answer said = !wrong.empty() ? Answer::kError : (slice ? Answer::kSlice : Answer::kNothing);
-  if (!pipe.put(&said, sizeof said)) return false;
-  if (said == Answer::kError) return pipe.put_all(wrong);
-  return said == Answer::kNothing || put_slice(pipe, *slice);
+  if (!stream.put(&said, sizeof said)) return false;
+  if (said == Answer::kError) return stream.put_all(wrong);
+  return said == Answer::kNothing || put_slice(stream, *slice);
 }
 
 // Damaged lengths ask for gigabytes: beyond what the largest file can need, allocation fails.
@@ -232,15 +193,15 @@ void limit_memory(const std::vector<std::string>& files) {
   gdcm::Trace::DebugOff();
   gdcm::Trace::WarningOff();
   gdcm::Trace::ErrorOff();
-  const Pipe pipe(fd);
+  const ByteStream stream(fd);
   for (const std::string& file : files) {
     alarm(kSecondsAFile);
-    if (!answer(pipe, file)) break;
+    if (!answer(stream, file)) break;
   }
   _exit(0);
 }
 
-// Ends and collects the child, closes the pipe.
+// Ends and collects the child, closes the stream.
 struct Child {
   pid_t pid;
   int fd;
@@ -255,7 +216,8 @@ struct Child {
 
 std::vector<DicomSlice> read_dicom_slices(const std::vector<std::string>& files) {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) fail_io("", "no pipe can be made", "close other programs");
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+    fail_io("", "no socket can be made", "close other programs");
   const pid_t pid = fork();
   if (pid < 0) fail_io("", "no process can be started", "close other programs");
   if (pid == 0) {
@@ -264,22 +226,22 @@ std::vector<DicomSlice> read_dicom_slices(const std::vector<std::string>& files)
   }
   close(ends[1]);
   const Child worker{pid, ends[0]};
-  const Pipe pipe(ends[0]);
+  const ByteStream stream(ends[0]);
   std::vector<DicomSlice> slices;
   for (const std::string& file : files) {
     Answer said = Answer::kNothing;
-    if (!pipe.get(&said, sizeof said)) fail_slice(file, "it is damaged");
+    if (!stream.get(&said, sizeof said)) fail_slice(file, "it is damaged");
     if (said == Answer::kNothing) continue;
     if (said == Answer::kError) {
       std::string text;
-      pipe.get_all(text);
+      stream.get_all(text);
       // "file: what is wrong; mend", as it was thrown in the child.
       const std::string what = text.substr(std::min(text.size(), file.size() + 2));
       fail_slice(file, what.substr(0, what.rfind(';')));
     }
     DicomSlice slice;
     slice.file = file;
-    if (!get_slice(pipe, slice)) fail_slice(file, "it is damaged");
+    if (!get_slice(stream, slice)) fail_slice(file, "it is damaged");
     slices.push_back(std::move(slice));
   }
   return slices;
