@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "effects/catalogue.h"
 #include "estimate/identifiability.h"
 #include "estimate/profile.h"
+#include "model/body_parameters.h"
 
 namespace hapsim {
 namespace {
