@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <thread>
 
 #include "io/system_error.h"
 
@@ -17,7 +18,8 @@ constexpr std::array<int, 2> kSignals{SIGINT, SIGTERM};
 
 std::atomic<bool> asked_for{false};
 std::atomic<int> ended{-1},
-    empty{-1};  // descriptors: the input that is ended, what takes its place
+    empty{-1};               // descriptors: the input that is ended, what takes its place
+std::atomic<int> noting{0};  // threads in take_note(): any may get the signal, a library's too
 std::array<struct sigaction, kSignals.size()> before;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
@@ -27,9 +29,11 @@ void restore() {
 
 extern "C" void take_note(int) {
   const int saved = errno;
+  noting.fetch_add(1);
   asked_for.store(true);
   if (ended.load() >= 0) dup2(empty.load(), ended.load());
   restore();
+  noting.fetch_sub(1);
   errno = saved;
 }
 
@@ -62,6 +66,8 @@ Interrupt::Interrupt(int input, const std::string& name) {
 Interrupt::~Interrupt() {
   restore();
   ended.store(-1);
+  // Who comes from here on ends nothing; who is at it needs the descriptors.
+  while (noting.load() > 0) std::this_thread::yield();
   if (const int null = empty.exchange(-1); null >= 0) close(null);
 }
 

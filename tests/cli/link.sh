@@ -36,7 +36,7 @@ awk -F, '/^1,/ { for (k = 0; k < 3; ++k) if (n) e -= f[k] * ($(6 + k) - u[k]); +
 # teleoperator ARGUMENTS...: in the background, its process in `far` and its port in `port`
 teleoperator() {
   : >far.err
-  "$bin/hs-link" --listen 0 --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --idle 60 "$@" 2>far.err &
+  "$bin/hs-link" --listen 0 --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --idle 600 "$@" 2>far.err &
   far=$!
   until_true 60 grep -qs listening far.err
   port=$(sed -n 's/.*listening at .*:\([0-9]*\)$/\1/p' far.err)
@@ -74,7 +74,7 @@ wait $far 2>/dev/null
 if [[ -e /proc/net/if_inet6 ]] && grep -q '^0*1 ' /proc/net/if_inet6; then
   mkfifo live
   : >far.err
-  "$bin/hs-link" --listen '[::1]:0' --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --key lab.key --idle 60 2>far.err &
+  "$bin/hs-link" --listen '[::1]:0' --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --key lab.key --idle 600 2>far.err &
   far=$!
   until_true 60 grep -qs listening far.err
   port=$(sed -n 's/.*listening at .*:\([0-9]*\)$/\1/p' far.err)
