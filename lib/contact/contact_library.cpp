@@ -1,7 +1,6 @@
 #include "contact/contact_library.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "base/error.h"
@@ -60,32 +59,25 @@ void UnitStiffness::evaluate(double nu, Eigen::Matrix3d& K, Eigen::Matrix3d& dK_
 
 ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
                                const ContactLibraryOptions& options)
-    : base_(make_contact_base(body)),
-      grid_(plan_grid(base_.surface)),
+    : boundary_(body_boundary(body)),
       radius_(tool_radius),
       options_(options),
       cache_(options.cache) {
   // Meshing forks; OpenBLAS must have its one thread before that.
   prepare_blas_for_many_threads();
-  for (const Vec3& p : base_.surface.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
-  for (const Triangle& f : base_.surface.faces) base_hash_.add(f.data(), sizeof f);
-  base_hash_.add(base_.fixed_face.data(), base_.fixed_face.size());
-  for (const Vec3& p : base_.fine.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
-  for (const Triangle& f : base_.fine.faces) base_hash_.add(f.data(), sizeof f);
+  for (const Vec3& p : boundary_.surface.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
+  for (const Triangle& f : boundary_.surface.faces) base_hash_.add(f.data(), sizeof f);
+  base_hash_.add(boundary_.fixed_face.data(), boundary_.fixed_face.size());
   base_hash_.add(radius_);
   base_hash_.add(options.rim_edge);
   base_hash_.add(kGrowth);
   base_hash_.add(kCoarser);
   content_ = base_hash_;
   content_.add(options.draft ? 1.0 : 0.0);
-  free_surface_ = free_surface(base_);
-  std::vector<int> node;
-  const Surface own = boundary_surface(body, &node);
-  assert(own.faces.size() == base_.fine.faces.size());
-  for (const Triangle& face : own.faces)
-    bonded_.push_back(std::all_of(face.begin(), face.end(), [&](int v) {
-      return body.fixed[static_cast<std::size_t>(node[static_cast<std::size_t>(v)])] != 0;
-    }));
+}
+
+const ContactBase& ContactLibrary::base() const {
+  return base_.get([&] { return make_contact_base(boundary_); });
 }
 
 std::string ContactLibrary::bodies_key(const Vec3& position) const {
@@ -95,7 +87,8 @@ std::string ContactLibrary::bodies_key(const Vec3& position) const {
 }
 
 std::shared_ptr<ContactBodies> ContactLibrary::fresh_bodies(const Vec3& p) const {
-  return std::make_shared<ContactBodies>(base_, p, radius_, options_.rim_edge, free_surface_);
+  const auto& surface = free_surface_.get([&] { return free_surface(base()); });
+  return std::make_shared<ContactBodies>(base(), p, radius_, options_.rim_edge, surface);
 }
 
 std::shared_ptr<ContactBodies> ContactLibrary::take_bodies(const Vec3& position) const {
@@ -213,7 +206,7 @@ std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& po
     const Material material{nu, {1.0}, nullptr};
     tasks.push_back(
         {key_of(material, "homogeneous"), [this, material](ContactBodies& bodies, std::size_t) {
-           return bodies.solve(material, grid_);
+           return bodies.solve(material, grid());
          }});
   }
   const auto solutions = solve_all(positions, tasks, false);

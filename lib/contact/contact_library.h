@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/made_once.h"
 #include "base/memo.h"
 #include "contact/contact_cache.h"
 #include "contact/contact_stiffness.h"
@@ -80,17 +81,19 @@ class ContactLibrary {
                                                     const Material& material,
                                                     const std::string& description,
                                                     ContactLevel level, bool keep) const;
-  const std::vector<std::uint8_t>& bonded() const { return bonded_; }  // one a face of surface()
+  // One a face of surface().
+  const std::vector<std::uint8_t>& bonded() const { return boundary_.fixed_face; }
 
   // What features do at each position, to first order.
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
       const std::vector<Vec3>& positions) const;
 
   int threads() const { return options_.threads; }  // 0: as many as the machine has
-  const PlanGrid& grid() const { return grid_; }
-  double tool_radius() const { return radius_; }         // [m]
-  const Surface& surface() const { return base_.fine; }  // the body's, as it was given
-  const ContactBase& base() const { return base_; }
+  PlanGrid grid() const { return plan_grid(base().surface); }
+  double tool_radius() const { return radius_; }                // [m]
+  const Surface& surface() const { return boundary_.surface; }  // the body's, as it was given
+  // Made when first asked for: where all contacts are found in the cache nobody does.
+  const ContactBase& base() const;
   Memo& memo() const { return *options_.memo; }
   // Of all that solutions depend on beside positions and material.
   const ContentHash& content() const { return content_; }
@@ -112,14 +115,13 @@ class ContactLibrary {
   void put_bodies(const Vec3& position, std::shared_ptr<ContactBodies> bodies) const;
   std::string bodies_key(const Vec3& position) const;
 
-  ContactBase base_;
-  PlanGrid grid_;
+  BodyBoundary boundary_;
   double radius_;
   ContactLibraryOptions options_;
   ContactCache cache_;
   ContentHash base_hash_, content_;
-  std::vector<std::uint8_t> bonded_;  // one a face of surface()
-  std::shared_ptr<const SurfaceTree> free_surface_;
+  MadeOnce<ContactBase> base_;
+  MadeOnce<std::shared_ptr<const SurfaceTree>> free_surface_;
 };
 
 }  // namespace hapsim

@@ -79,7 +79,7 @@ std::vector<double> Places::beyond_windows(const std::vector<std::vector<Vec3>>&
     return doubt;
   std::vector<std::vector<char>> beyond;  // by setup and cell of its grid
   for (std::size_t s = 0; s < setups_.size(); ++s) {
-    const PlanGrid& grid = setups_[s]->grid();
+    const PlanGrid grid = setups_[s]->grid();
     beyond.emplace_back(static_cast<std::size_t>(grid.columns) * grid.rows);
     for (std::size_t c = 0; c < beyond[s].size() && !windows[s].empty(); ++c)
       beyond[s][c] = !inside_window(windows[s], grid.centre(static_cast<int>(c)));

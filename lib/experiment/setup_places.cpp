@@ -180,7 +180,7 @@ std::shared_ptr<const SolvedPlaces> SetupPlaces::solve(const MaterialSpec& mater
 
 std::shared_ptr<const RegionShares> SetupPlaces::shares(const MaterialSpec& material) const {
   return kept<RegionShares>(layout(material).hex(), [&] {
-    const PlanGrid& grid = library_->grid();
+    const PlanGrid grid = library_->grid();
     std::vector<int> region(static_cast<std::size_t>(grid.columns) * grid.rows);
     for (std::size_t c = 0; c < region.size(); ++c)
       region[c] = region_at(material, grid.centre(static_cast<int>(c)));

@@ -59,7 +59,7 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
   const std::vector<Vec3>& positions() const { return prepared_->positions; }
   ToolStand stand(std::size_t place) const;
   const Surface& surface() const { return library_->surface(); }
-  const PlanGrid& grid() const { return library_->grid(); }  // of the contacts' plan_share
+  PlanGrid grid() const { return library_->grid(); }  // of the contacts' plan_share
   // The move that the contact points' distances from the surface show.
   RigidMove move() const { return register_points(positions(), library_->surface()); }
 

@@ -78,7 +78,7 @@ Model with_regions(const Fit& base, const Experiment& experiment, const Selectio
     std::vector<std::vector<float>> share;
     for (const LocationSample& s : samples)
       share.push_back(experiment.places.contact(static_cast<std::size_t>(s.position)).plan_share);
-    const PlanGrid& grid = experiment.places.setup(0)->grid();
+    const PlanGrid grid = experiment.places.setup(0)->grid();
     const auto boundary = find_boundary(samples, share, grid);
     if (boundary && boundary->criterion < labels.criterion)
       if (auto model = with_boundary(base.model, *boundary, grid)) return *model;

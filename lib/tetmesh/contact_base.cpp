@@ -26,20 +26,28 @@ constexpr double kShortest = 1e-9;  // [m]; the contact itself may be a vertex
 
 }  // namespace
 
-ContactBase make_contact_base(const TetMesh& body, double edge) {
+BodyBoundary body_boundary(const TetMesh& body) {
   std::vector<int> node;
-  ClassedSurface fine;
-  fine.surface = boundary_surface(body, &node);
-  check_surface(fine.surface, "the body's boundary");
+  BodyBoundary boundary{boundary_surface(body, &node), {}};
+  check_surface(boundary.surface, "the body's boundary");
+  for (const Triangle& f : boundary.surface.faces)
+    boundary.fixed_face.push_back(body.fixed[node[f[0]]] && body.fixed[node[f[1]]] &&
+                                  body.fixed[node[f[2]]]);
+  return boundary;
+}
+
+ContactBase make_contact_base(const BodyBoundary& boundary, double edge) {
+  ClassedSurface fine{boundary.surface, boundary.fixed_face};
   if (!(edge > 0)) edge = std::cbrt(3 * signed_volume(fine.surface)) / 9;
-  for (const Triangle& f : fine.surface.faces)
-    fine.face_class.push_back(body.fixed[node[f[0]]] && body.fixed[node[f[1]]] &&
-                              body.fixed[node[f[2]]]);
   ClassedSurface coarse = coarsen_surface(
       fine, [edge](const Vec3&) { return edge; }, kBase);
   coarse = split_long_edges(coarse, [edge](const Vec3&) { return kLongest * edge; });
   return {std::move(coarse.surface), std::move(coarse.face_class), std::move(fine.surface),
           std::move(fine.face_class)};
+}
+
+ContactBase make_contact_base(const TetMesh& body, double edge) {
+  return make_contact_base(body_boundary(body), edge);
 }
 
 ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
