@@ -86,12 +86,18 @@ void take_ended() {
   }
 }
 
-// Between spawner and worker: says the worker's number, then how it ended.
-[[noreturn]] void keep_worker(const Ends& ends, ProcessSpawner::Work work) {
+// Killed when the parent ends, also by an end that came before this was asked for.
+void end_with(pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const pid_t worker = fork();
+  if (getppid() != parent) _exit(1);
+}
+
+// Between spawner and worker: says the worker's number, then how it ended.
+[[noreturn]] void keep_worker(const Ends& ends, ProcessSpawner::Work work, pid_t spawner) {
+  end_with(spawner);
+  const pid_t keeper = getpid(), worker = fork();
   if (worker == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    end_with(keeper);
     close(ends.file[1]);
     for (const int number : {SIGPIPE, SIGTERM, SIGINT, SIGHUP}) signal(number, SIG_DFL);
     work(ends.file[0]);
@@ -116,10 +122,11 @@ void take_ended() {
   const int nowhere = open("/dev/null", O_RDWR);
   for (int stream = 0; stream < kControl; ++stream) dup2(nowhere, stream);
   close(nowhere);
+  const pid_t spawner = getpid();
   for (Ends ends; Parcel().receive(kControl, ends);) {
     if (fork() == 0) {
       close(kControl);
-      keep_worker(ends, work);
+      keep_worker(ends, work, spawner);
     }
     for (const int file : ends.file) close(file);
     take_ended();
