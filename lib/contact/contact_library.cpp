@@ -67,7 +67,7 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
   prepare_blas_for_many_threads();
   for (const Vec3& p : boundary_.surface.vertices) base_hash_.add(p.data(), sizeof(double) * 3);
   for (const Triangle& f : boundary_.surface.faces) base_hash_.add(f.data(), sizeof f);
-  base_hash_.add(boundary_.fixed_face.data(), boundary_.fixed_face.size());
+  base_hash_.add(boundary_.face_class.data(), boundary_.face_class.size());
   base_hash_.add(radius_);
   base_hash_.add(options.rim_edge);
   base_hash_.add(kGrowth);

@@ -82,7 +82,7 @@ class ContactLibrary {
                                                     const std::string& description,
                                                     ContactLevel level, bool keep) const;
   // One a face of surface().
-  const std::vector<std::uint8_t>& bonded() const { return boundary_.fixed_face; }
+  const std::vector<std::uint8_t>& bonded() const { return boundary_.face_class; }
 
   // What features do at each position, to first order.
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(
@@ -115,7 +115,7 @@ class ContactLibrary {
   void put_bodies(const Vec3& position, std::shared_ptr<ContactBodies> bodies) const;
   std::string bodies_key(const Vec3& position) const;
 
-  BodyBoundary boundary_;
+  ClassedSurface boundary_;
   double radius_;
   ContactLibraryOptions options_;
   ContactCache cache_;

@@ -26,24 +26,22 @@ constexpr double kShortest = 1e-9;  // [m]; the contact itself may be a vertex
 
 }  // namespace
 
-BodyBoundary body_boundary(const TetMesh& body) {
+ClassedSurface body_boundary(const TetMesh& body) {
   std::vector<int> node;
-  BodyBoundary boundary{boundary_surface(body, &node), {}};
+  ClassedSurface boundary{boundary_surface(body, &node), {}};
   check_surface(boundary.surface, "the body's boundary");
   for (const Triangle& f : boundary.surface.faces)
-    boundary.fixed_face.push_back(body.fixed[node[f[0]]] && body.fixed[node[f[1]]] &&
+    boundary.face_class.push_back(body.fixed[node[f[0]]] && body.fixed[node[f[1]]] &&
                                   body.fixed[node[f[2]]]);
   return boundary;
 }
 
-ContactBase make_contact_base(const BodyBoundary& boundary, double edge) {
-  ClassedSurface fine{boundary.surface, boundary.fixed_face};
+ContactBase make_contact_base(const ClassedSurface& fine, double edge) {
   if (!(edge > 0)) edge = std::cbrt(3 * signed_volume(fine.surface)) / 9;
   ClassedSurface coarse = coarsen_surface(
       fine, [edge](const Vec3&) { return edge; }, kBase);
   coarse = split_long_edges(coarse, [edge](const Vec3&) { return kLongest * edge; });
-  return {std::move(coarse.surface), std::move(coarse.face_class), std::move(fine.surface),
-          std::move(fine.face_class)};
+  return {std::move(coarse.surface), std::move(coarse.face_class), fine.surface, fine.face_class};
 }
 
 ContactBase make_contact_base(const TetMesh& body, double edge) {

@@ -2,16 +2,13 @@
 #pragma once
 
 #include "mesh/tetmesh.h"
+#include "repair/coarsen.h"
 
 namespace hapsim {
 
-// The boundary of a body, which passes check_surface(), and which of its faces are bonded to the
-// support: all corners of these are held.
-struct BodyBoundary {
-  Surface surface;                       // closed, outward
-  std::vector<std::uint8_t> fixed_face;  // one a face
-};
-BodyBoundary body_boundary(const TetMesh& body);
+// The boundary of a body, closed and outward; class 1: bonded to the support, all corners of the
+// face are held. Error(kBadInput) when it does not pass check_surface().
+ClassedSurface body_boundary(const TetMesh& body);
 
 // What stays the same for all contact positions of a body: its closed outer surface, coarsened
 // where that does not change its shape, with the faces that are bonded to the support marked.
@@ -26,7 +23,7 @@ struct ContactBase {
 // the cube root of three times the volume), finer where the surface bends, never moving the outline
 // of the bonded part except where it runs straight; longer edges are split. The volume stays within
 // 0.25 %.
-ContactBase make_contact_base(const BodyBoundary& boundary, double edge = 0);
+ContactBase make_contact_base(const ClassedSurface& boundary, double edge = 0);
 ContactBase make_contact_base(const TetMesh& body, double edge = 0);
 
 struct ContactMesh {
