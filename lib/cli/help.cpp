@@ -32,9 +32,11 @@ std::string term_of(const Option& option) {
   return option.name() + (option.value.empty() ? "" : " " + option.value);
 }
 
+// Up to a mark that ends a sentence or a part of it: a dot in a name, as of .inp, does not.
 std::string first_sentence(const std::string& text) {
-  const std::size_t end = text.find_first_of(".;:");
-  return end == text.npos ? text : text.substr(0, end) + ".";
+  for (std::size_t end = 0; (end = text.find_first_of(".;:", end)) != text.npos; ++end)
+    if (end + 1 == text.size() || text[end + 1] == ' ') return text.substr(0, end) + ".";
+  return text;
 }
 
 // Of those that are not required; each stays on one line.

@@ -71,7 +71,8 @@ std::string page_reading(const Report&) {
 std::string page_provenance(const Report& report) {
   std::string out = "<section><h2>Where this comes from</h2><table class='provenance'><tbody>";
   for (const auto& [key, value] : report.provenance)
-    out += fmt::format("<tr><td>{}</td><td>{}</td></tr>", escape_html(key), escape_html(value));
+    out += fmt::format("<tr><th scope='row'>{}</th><td>{}</td></tr>", escape_html(key),
+                       escape_html(value));
   return out + "</tbody></table></section>\n";
 }
 

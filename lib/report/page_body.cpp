@@ -233,18 +233,21 @@ std::string page_body(const Report& report) {
                          k == 0 ? " class='on'" : "", escape_html(body.layers[k].name));
     out += "</div>";
   }
-  out += "<p class='note'><span id='layernote'>" + escape_html(body.layers.front().note) +
-         "</span> Circles are the pressed positions, 1 to 3 the worst; a click shows its presses "
-         "below. <span id='tip'>Drag to turn, ctrl + wheel to zoom, double click to "
-         "reset; or arrow keys, + and -.</span></p><div class='body3d'><div class='stage' "
-         "id='stage' tabindex='0' "
-         "role='application' aria-label='The body, coloured by error: arrow keys turn it, plus and "
-         "minus zoom, Home resets, N goes to the next pressed position'><canvas class='surface' "
-         "aria-hidden='true'></canvas><canvas class='marks' aria-hidden='true'></canvas></div><div "
-         "id='bars'>";
+  out +=
+      "<div class='body3d'><div class='stage' id='stage' tabindex='0' "
+      "role='application' aria-label='The body, coloured by error: arrow keys turn it, plus and "
+      "minus zoom, Home resets, N goes to the next pressed position'><canvas class='surface' "
+      "aria-hidden='true'></canvas><canvas class='marks' aria-hidden='true'></canvas></div><div "
+      "id='bars'>";
   for (std::size_t k = 0; k < body.layers.size(); ++k)
     out += colour_bar(body.layers[k], k, kBarHeight);
-  return out + "</div></div>" + viewer_data(body) + "</section>\n";
+  // Below the picture, which belongs on the first screen.
+  out += "</div></div><p class='note'><span id='layernote'>" +
+         escape_html(body.layers.front().note) +
+         "</span> Circles are the pressed positions, 1 to 3 the worst; a click shows its presses "
+         "below. <span id='tip'>Drag to turn, ctrl + wheel to zoom, double click to "
+         "reset; or arrow keys, + and -.</span></p>";
+  return out + viewer_data(body) + "</section>\n";
 }
 
 }  // namespace hapsim
