@@ -1,4 +1,6 @@
 // hs-diagnose: which physical effect the model lacks.
+#include <span>
+
 #include "base/error.h"
 #include "common_options.h"
 #include "diagnose/diagnosis_summary.h"
@@ -160,7 +162,7 @@ int run(const Arguments& arguments) {
   set_poisson_range(model, options);
   Dataset dataset = make_dataset(load_pressed(arguments, arguments.input(), true, model));
   require_presses(dataset);
-  const Experiment w = make_experiment({body}, std::move(dataset), options);
+  const Experiment w = make_experiment(std::span(&body, 1), std::move(dataset), options);
   progress.reset();
   for (const std::string& words : left_out_words(w)) say(arguments, "hs-diagnose", words);
   for (const std::string& known : known_words(model, w.dataset))

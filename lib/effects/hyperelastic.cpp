@@ -195,11 +195,8 @@ class Hyperelastic : public Effect {
                   press.radius, press.normal};
     const Eigen::Matrix3d& K = press.contact.K;
     const Eigen::Index columns = signal.df.cols();
-    Eigen::RowVectorXd dk_n, dk_t;
-    if (columns > 0) {
-      dk_n = contact.normal_by_columns(columns);
-      dk_t = contact.tangential_by_columns(columns);
-    }
+    const LocalContact::DiscByColumns disc = contact.disc_by_columns(columns);
+    Eigen::MatrixXd dF(3, columns), du(3, press.du.cols());
     Vec3 way = Vec3::Zero();  // of the last sample, from which the next is not far
     for (std::size_t i = 0; i < press.size(); ++i) {
       if (press.in_air[i]) continue;
@@ -211,14 +208,14 @@ class Hyperelastic : public Effect {
       signal.f.segment<3>(row) += K * u - force.F;
       if (columns == 0) continue;
       const Law::Measures m = law.measures(x);
-      Eigen::MatrixXd dF = law.by_normal(m) * dk_n + law.by_tangential(m) * dk_t;
+      dF.noalias() = law.by_normal(m) * disc.normal;
+      dF.noalias() += law.by_tangential(m) * disc.tangential;
       if (s.column >= 0) dF.col(s.column) += law.by_s(m);
       if (finite.column >= 0) dF.col(finite.column) += law.by_g(m);
-      Eigen::MatrixXd du(3, 0);
-      if (press.du.cols() > 0) du = press.du.middleRows(row, 3);
+      if (du.cols() > 0) du = press.du.middleRows(row, 3);
       auto df = signal.df.middleRows(row, 3);
-      df -= contact.derivatives(force, u, x, du, dF).dF;
-      if (du.cols() > 0) df += K * du;
+      df -= contact.derivatives(force, u, x, du, dF, disc).dF;
+      if (du.cols() > 0) df.noalias() += K * du;
       for (const auto& [column, dK] : press.contact.by_column) df.col(column) += dK * u;
     }
   }

@@ -58,17 +58,20 @@ void LocalContact::no_equilibrium() {
 
 LocalContact::Derivatives LocalContact::derivatives(const LocalForce& force, const Vec3& u,
                                                     const Vec3& x, const Eigen::MatrixXd& du,
-                                                    const Eigen::MatrixXd& explicit_dF) const {
+                                                    const Eigen::MatrixXd& explicit_dF,
+                                                    const DiscByColumns& disc) const {
   const Eigen::Matrix3d& K = contact_.K;
   const Vec3 way = C_ * force.F;
-  Eigen::MatrixXd right =
-      -rest_ * explicit_dF +
-      K * disc_way_derivative(force.F, Eigen::MatrixXd::Zero(3, explicit_dF.cols()));
-  if (du.cols() > 0) right += K * du;
+  const Eigen::Matrix<double, 3, 2> by = way_by_disc(force.F);
+  Eigen::MatrixXd right = -rest_ * explicit_dF;
+  right.noalias() -= (K * by.col(0)) * disc.normal;
+  right.noalias() -= (K * by.col(1)) * disc.tangential;
+  if (du.cols() > 0) right.noalias() += K * du;
   for (const auto& [column, dK] : contact_.by_column) right.col(column) -= dK * (x - u - way);
   Derivatives d;
-  d.dx = (K + rest_ * force.tangent).partialPivLu().solve(right);
-  d.dF = force.tangent * d.dx + explicit_dF;
+  d.dx.noalias() = (K + rest_ * force.tangent).inverse() * right;
+  d.dF = explicit_dF;
+  d.dF.noalias() += force.tangent * d.dx;
   return d;
 }
 
@@ -91,18 +94,25 @@ Eigen::RowVectorXd LocalContact::by_columns(double of_half_space, double by_nu,
   return d;
 }
 
-Eigen::RowVectorXd LocalContact::normal_by_columns(Eigen::Index columns) const {
-  return by_columns(disc_.normal / gain_, disc_.normal_by_nu, columns);
+LocalContact::DiscByColumns LocalContact::disc_by_columns(Eigen::Index columns) const {
+  return {by_columns(disc_.normal / gain_, disc_.normal_by_nu, columns),
+          by_columns(disc_.tangential / gain_, disc_.tangential_by_nu, columns)};
 }
 
-Eigen::RowVectorXd LocalContact::tangential_by_columns(Eigen::Index columns) const {
-  return by_columns(disc_.tangential / gain_, disc_.tangential_by_nu, columns);
+Eigen::Matrix<double, 3, 2> LocalContact::way_by_disc(const Vec3& F) const {
+  Eigen::Matrix<double, 3, 2> by;
+  by << along_ * F / (disc_.normal * disc_.normal),
+      across_ * F / (disc_.tangential * disc_.tangential);
+  return by;
 }
 
-Eigen::MatrixXd LocalContact::disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF) const {
-  const double k_n = disc_.normal, k_t = disc_.tangential;
-  return C_ * dF - along_ * F / (k_n * k_n) * normal_by_columns(dF.cols()) -
-         across_ * F / (k_t * k_t) * tangential_by_columns(dF.cols());
+Eigen::MatrixXd LocalContact::disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF,
+                                                  const DiscByColumns& disc) const {
+  const Eigen::Matrix<double, 3, 2> by = way_by_disc(F);
+  Eigen::MatrixXd d = C_ * dF;
+  d.noalias() -= by.col(0) * disc.normal;
+  d.noalias() -= by.col(1) * disc.tangential;
+  return d;
 }
 
 }  // namespace hapsim

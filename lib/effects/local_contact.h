@@ -49,24 +49,31 @@ class LocalContact {
     return force;
   }
 
+  // Derivatives of the disc's stiffnesses by the columns: made once, used for every sample.
+  struct DiscByColumns {
+    Eigen::RowVectorXd normal, tangential;
+  };
+  DiscByColumns disc_by_columns(Eigen::Index columns) const;
+
   // Derivatives by the columns, given those of the motion (no columns: none) and those of F at
   // fixed x by all but the motion.
   struct Derivatives {
     Eigen::MatrixXd dx, dF;  // 3 x columns
   };
   Derivatives derivatives(const LocalForce& force, const Vec3& u, const Vec3& x,
-                          const Eigen::MatrixXd& du, const Eigen::MatrixXd& explicit_dF) const;
+                          const Eigen::MatrixXd& du, const Eigen::MatrixXd& explicit_dF,
+                          const DiscByColumns& disc) const;
 
   const DiscStiffness& disc() const { return disc_; }
-  // Derivatives of the disc's stiffnesses.
-  Eigen::RowVectorXd normal_by_columns(Eigen::Index columns) const;
-  Eigen::RowVectorXd tangential_by_columns(Eigen::Index columns) const;
   // C F and, as 3 x columns, its derivative for a given one of F.
   Vec3 disc_way(const Vec3& F) const { return C_ * F; }
-  Eigen::MatrixXd disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF) const;
+  Eigen::MatrixXd disc_way_derivative(const Vec3& F, const Eigen::MatrixXd& dF,
+                                      const DiscByColumns& disc) const;
 
  private:
   [[noreturn]] static void no_equilibrium();
+  // What C F loses for each N/m that the disc gains along the normal and across it.
+  Eigen::Matrix<double, 3, 2> way_by_disc(const Vec3& F) const;
   Eigen::RowVectorXd by_columns(double of_half_space, double by_nu, Eigen::Index columns) const;
 
   const ContactStiffness& contact_;

@@ -70,13 +70,13 @@ class Tip : public Effect {
     const bool derivatives = motion.columns > 0;
     motion.make_du();
     const LocalContact contact(press.contact, press.normal, press.radius);
+    const LocalContact::DiscByColumns disc = contact.disc_by_columns(motion.columns);
     std::vector<Level> path;  // empty: no contact
     Vec3 before = Vec3::Zero();
-    Eigen::MatrixXd dbefore = Eigen::MatrixXd::Zero(3, motion.columns);
+    Eigen::MatrixXd dbefore = Eigen::MatrixXd::Zero(3, motion.columns), du(3, motion.columns);
     for (std::size_t i = 0; i < press.size(); ++i) {
       const Eigen::Index row = 3 * static_cast<Eigen::Index>(i);
       const Vec3 u = motion.u[i];
-      Eigen::MatrixXd du(3, 0);
       if (derivatives) du = motion.du.middleRows(row, 3);
       if (press.in_air[i] || u.dot(press.normal) >= 0) {
         path.clear();
@@ -84,7 +84,8 @@ class Tip : public Effect {
         if (derivatives) motion.du.middleRows(row, 3).setZero();
       } else {
         if (path.empty()) path.push_back(touch_level(press.normal, before, u, dbefore, du));
-        step(press, kappa, contact, du, path, motion.u[i], derivatives ? &motion.du : nullptr, row);
+        step(press, kappa, contact, disc, du, path, motion.u[i], derivatives ? &motion.du : nullptr,
+             row);
       }
       before = u;
       dbefore = du;
@@ -132,8 +133,9 @@ class Tip : public Effect {
 
   // Finds the local way at u, goes on with `path`, and replaces u by the flat tool's way.
   static void step(const PressView& press, const ParameterValue& kappa, const LocalContact& contact,
-                   const Eigen::MatrixXd& du, std::vector<Level>& path, Vec3& u,
-                   Eigen::MatrixXd* motion_du, Eigen::Index row) {
+                   const LocalContact::DiscByColumns& disc, const Eigen::MatrixXd& du,
+                   std::vector<Level>& path, Vec3& u, Eigen::MatrixXd* motion_du,
+                   Eigen::Index row) {
     const Vec3& n = press.normal;
     const double a = press.radius, k_n = contact.disc().normal, k_t = contact.disc().tangential;
     const TipLaw<std::vector<Level>> law{path, contact, n, kappa.value, a};
@@ -146,7 +148,6 @@ class Tip : public Effect {
     const double z = std::max(0.0, -x.dot(n));
     const bool derivatives = motion_du != nullptr;
     const Tangential t = tangential(path, z, across * x, kappa.value, a);
-    const Eigen::Index columns = du.cols();
     Level here{{z, across * x, t.value}, {}, {}, {}}, border{t.touched, {}, {}, {}};
     if (derivatives) {
       if (t.leaving) border = border_level(path, t);
@@ -161,11 +162,12 @@ class Tip : public Effect {
              (here.side - last.side) * (mean.by_low * last.dz);
       }
       if (kappa.column >= 0) dt.col(kappa.column) += by_kappa(path, t, here, kappa.value, a);
-      Eigen::MatrixXd dF = k_t * dt + t.value * contact.tangential_by_columns(columns) -
-                           g.integral * n * contact.normal_by_columns(columns);
+      Eigen::MatrixXd dF = k_t * dt;
+      dF.noalias() += t.value * disc.tangential;
+      dF.noalias() -= g.integral * n * disc.normal;
       if (kappa.column >= 0) dF.col(kappa.column) -= k_n * g.integral_by_kappa * n;
-      const LocalContact::Derivatives d = contact.derivatives(force, tool, x, du, dF);
-      motion_du->middleRows(row, 3) = du - d.dx + contact.disc_way_derivative(force.F, d.dF);
+      const LocalContact::Derivatives d = contact.derivatives(force, tool, x, du, dF, disc);
+      motion_du->middleRows(row, 3) = du - d.dx + contact.disc_way_derivative(force.F, d.dF, disc);
       here.dz = -n.transpose() * d.dx;
       here.dside = across * d.dx;
       here.dforce = dt + t.by_z * here.dz + t.by_side * here.dside;

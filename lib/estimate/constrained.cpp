@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "estimate/coordinates.h"
+#include "estimate/normal_inverse.h"
 
 namespace hapsim {
 namespace {
@@ -220,13 +221,11 @@ ConstrainedResult minimise_constrained(const std::vector<Unknown>& start,
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(A);
     free = lu.dimensionOfKernel() == 0 ? Eigen::MatrixXd::Zero(m, 1) : Eigen::MatrixXd(lu.kernel());
   }
-  const Eigen::MatrixXd inverse =
-      (problem->J() * free).completeOrthogonalDecomposition().pseudoInverse();
   Eigen::VectorXd slope(m);
   for (Eigen::Index i = 0; i < m; ++i)
     slope[i] = coordinates.slope(static_cast<std::size_t>(i), fit.x[i]);
-  const Eigen::MatrixXd root = slope.asDiagonal() * free * inverse;
-  fit.covariance = root * root.transpose();
+  const Eigen::MatrixXd way = slope.asDiagonal() * free;
+  fit.covariance = way * normal_inverse(problem->J() * free) * way.transpose();
   return result;
 }
 

@@ -1,11 +1,11 @@
 #include "estimate/robust.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/median.h"
+#include "estimate/normal_inverse.h"
 
 namespace hapsim {
 namespace {
@@ -100,10 +100,8 @@ RobustResult minimise_robustly(const std::vector<Unknown>& start, const Residual
     if (!result.fit.at_bound[i]) open.push_back(static_cast<int>(i));
   result.fit.covariance.setZero();
   if (open.empty()) return result;
-  const Eigen::MatrixXd inverse =
-      Eigen::MatrixXd(J(Eigen::all, open)).completeOrthogonalDecomposition().pseudoInverse();
   result.fit.covariance(open, open) =
-      factor * result.scale * result.scale * inverse * inverse.transpose();
+      factor * result.scale * result.scale * normal_inverse(J(Eigen::all, open));
   return result;
 }
 

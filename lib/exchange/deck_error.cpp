@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <span>
 
 #include "experiment/experiment.h"
 #include "solid/mesh_press.h"
@@ -22,7 +23,7 @@ double deck_error(const TetMesh& body, const Scene& scene, const Recording& reco
   options.noise = 1;
   options.nu_low = options.nu_high = scene.nu;
   options.borrow = true;
-  const Experiment graded = make_experiment({body}, make_dataset(one), options);
+  const Experiment graded = make_experiment(std::span(&body, 1), make_dataset(one), options);
   const PreparedContact& contact = graded.places.contact(0);
   Eigen::Matrix3d K, dK_dnu;
   contact.stiffness.evaluate(scene.nu, K, dK_dnu);

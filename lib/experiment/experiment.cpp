@@ -18,7 +18,7 @@ namespace {
 
 // Nothing is pressed in by more than the body's size: a wrong digit or unit, of which contact laws
 // find no equilibrium.
-void require_small_displacements(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+void require_small_displacements(std::span<const TetMesh> bodies, const Dataset& dataset) {
   std::vector<double> size;
   for (const TetMesh& body : bodies) {
     Eigen::AlignedBox3d box;
@@ -114,10 +114,10 @@ std::size_t leave_strained(Dataset& dataset, bool keep) {
 
 Experiment make_experiment(const TetMesh& body, Recording recording,
                            const ExperimentOptions& options) {
-  return make_experiment(std::vector<TetMesh>{body}, make_dataset(std::move(recording)), options);
+  return make_experiment(std::span(&body, 1), make_dataset(std::move(recording)), options);
 }
 
-Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
+Experiment make_experiment(std::span<const TetMesh> bodies, Dataset dataset,
                            const ExperimentOptions& options) {
   require_small_displacements(bodies, dataset);
   // Forces are asked of every press that is simulated; a fit does without some.

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,7 +76,7 @@ constexpr double kLeastFloor = 0.01;
 Experiment make_experiment(const TetMesh& body, Recording recording,
                            const ExperimentOptions& options);
 // Of several bodies or tools: Setup::body of the dataset numbers `bodies`.
-Experiment make_experiment(const std::vector<TetMesh>& bodies, Dataset dataset,
+Experiment make_experiment(std::span<const TetMesh> bodies, Dataset dataset,
                            const ExperimentOptions& options);
 
 // How many places and samples were left out (or taken for others, or are beyond what was verified),

@@ -54,7 +54,7 @@ struct PositionDepth {
   PressDepth deepest;
   Through through;
 };
-std::vector<PositionDepth> by_position(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+std::vector<PositionDepth> by_position(std::span<const TetMesh> bodies, const Dataset& dataset) {
   std::vector<PositionDepth> of(dataset.positions.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const SignedDistance surface = surface_of(bodies[b]);
@@ -87,7 +87,7 @@ PressDepth press_depth(const TetMesh& body, const Recording& recording) {
   return deepest;
 }
 
-PressDepth press_depth(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+PressDepth press_depth(std::span<const TetMesh> bodies, const Dataset& dataset) {
   PressDepth deepest;
   for (const PositionDepth& position : by_position(bodies, dataset)) {
     if (!position.through.what.empty()) fail(position.through);
@@ -96,7 +96,7 @@ PressDepth press_depth(const std::vector<TetMesh>& bodies, const Dataset& datase
   return deepest;
 }
 
-PositionsThrough positions_through(const std::vector<TetMesh>& bodies, const Dataset& dataset) {
+PositionsThrough positions_through(std::span<const TetMesh> bodies, const Dataset& dataset) {
   PositionsThrough out;
   const std::vector<PositionDepth> of = by_position(bodies, dataset);
   std::size_t through = 0;

@@ -1,6 +1,7 @@
 // How deep the presses of a recording go into their bodies.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct PressDepth {
 // Error(kBadInput) with the line: a tool that comes out on the far side.
 PressDepth press_depth(const TetMesh& body, const Recording& recording);
 // The same of every body; Setup::body of the dataset numbers them.
-PressDepth press_depth(const std::vector<TetMesh>& bodies, const Dataset& dataset);
+PressDepth press_depth(std::span<const TetMesh> bodies, const Dataset& dataset);
 
 // Where the tool comes out on the far side: a scan is often thinner at its edge than the body was.
 struct PositionsThrough {
@@ -28,7 +29,7 @@ struct PositionsThrough {
   PressDepth others;             // of the positions that stay
 };
 // Error(kBadInput) where they are more than half of the positions: then it is the unit or the body.
-PositionsThrough positions_through(const std::vector<TetMesh>& bodies, const Dataset& dataset);
+PositionsThrough positions_through(std::span<const TetMesh> bodies, const Dataset& dataset);
 
 // The deepest displacement that the model was fitted to, which hs-identify writes down [m];
 // infinite where it does not say.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "base/error.h"
 #include "base/shell_words.h"
@@ -41,7 +42,7 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
                                  double force_rms, SearchWatch& watch) {
   options.draft = true;
   options.progress = nullptr;
-  const Experiment draft = make_experiment({body}, w.dataset, options);
+  const Experiment draft = make_experiment(std::span(&body, 1), w.dataset, options);
   ImproveOptions improve_options;
   improve_options.fit = fit_options;
   improve_options.diagnose.folds = static_cast<int>(arguments[flag::folds]);

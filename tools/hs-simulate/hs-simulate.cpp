@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 
 #include "acfm/acfm_fit.h"
 #include "base/error.h"
@@ -49,14 +50,14 @@ void write_simulated(const Arguments& arguments, const std::string& label, Recor
   output.commit();
 }
 
-void write_forces(const Arguments& arguments, const Model& model, const Dataset& dataset,
+void write_forces(const Arguments& arguments, const Model& model, Dataset dataset,
                   const Selection& all, const Eigen::VectorXd& f, double mesh_uncertainty = 0) {
-  Recording out = dataset.recording;
+  const std::vector<int> rows = stacked_rows(dataset, all);
+  Recording out = std::move(dataset.recording);
   out.metadata.remove("mesh_uncertainty");
   if (mesh_uncertainty > 0)
     out.metadata.set("mesh_uncertainty", fmt::format("{:.2g}", mesh_uncertainty));
   out.f.assign(out.rows(), Vec3::Zero());
-  const std::vector<int> rows = stacked_rows(dataset, all);
   for (std::size_t i = 0; i < rows.size(); ++i)
     out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
   write_simulated(arguments, effects_label(model), out);
@@ -99,7 +100,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
   dataset = on_body(std::move(dataset), body.stands());
-  say_beyond(arguments, press_depth({mesh}, dataset), model);
+  say_beyond(arguments, press_depth(std::span(&mesh, 1), dataset), model);
   say_together(arguments, "hs-simulate", dataset.recording);
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
@@ -197,19 +198,20 @@ int run(const Arguments& arguments) {
   ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
   options.borrow = true;              // every row has its force
-  const Experiment w =
+  Experiment w =
       make_experiment(body, load_pressed(arguments, arguments.input(), false, model), options);
   progress.reset();
   for (const std::string& words : left_out_words(w, true)) say(arguments, "hs-simulate", words);
   const Selection all = all_episodes(w.dataset);
   say_beyond(arguments, w.depth, model);
   say_together(arguments, "hs-simulate", w.dataset.recording);
-  write_forces(arguments, model, w.dataset, all, contact_mesh_forces(arguments, model, w, all),
-               w.places.mesh_uncertainty());
-  say(arguments, "hs-simulate",
+  const double uncertainty = w.places.mesh_uncertainty();
+  const std::string words =
       fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", w.dataset.rows(),
-                  w.dataset.positions.size(), effects_label(model),
-                  100 * w.places.mesh_uncertainty()));
+                  w.dataset.positions.size(), effects_label(model), 100 * uncertainty);
+  const Eigen::VectorXd f = contact_mesh_forces(arguments, model, w, all);
+  write_forces(arguments, model, std::move(w.dataset), all, f, uncertainty);
+  say(arguments, "hs-simulate", words);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include "estimate/constrained.h"
 #include "estimate/identifiability.h"
 #include "estimate/multi_start.h"
+#include "estimate/normal_inverse.h"
 #include "estimate/profile.h"
 #include "estimate/robust.h"
 
@@ -112,6 +113,30 @@ TEST(Robust, ErrorsCoverTheTruthOnCleanAndWildData) {
       // Wild readings on one side leave Huber a bias, which no standard error knows.
       EXPECT_GT(covered, loss == RobustLoss::kHuber && wild > 0 ? 140 : 180) << wild;
     }
+}
+
+// Moore and Penrose's conditions for X = (J'J)^+, also where columns of J are alike.
+TEST(NormalInverse, IsThatOfTheNormalEquations) {
+  Random random(3);
+  Eigen::MatrixXd J(40, 4);
+  for (Eigen::Index i = 0; i < J.rows(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k) J(i, k) = random.normal();
+  J.col(3) = J.col(0) - 2 * J.col(1);
+  for (const Eigen::Index columns : {3, 4}) {
+    const Eigen::MatrixXd N = J.leftCols(columns).transpose() * J.leftCols(columns);
+    const Eigen::MatrixXd X = normal_inverse(J.leftCols(columns));
+    EXPECT_LT((N * X * N - N).norm(), 1e-10 * N.norm());
+    EXPECT_LT((X * N * X - X).norm(), 1e-10 * X.norm());
+    EXPECT_LT((N * X - X * N).norm(), 1e-10);
+  }
+}
+
+// The matrix of n x n that the pseudo-inverse of the tall Jacobian works with would be 80 GB.
+TEST(Robust, TakesNoMoreMemoryThanItsJacobian) {
+  const auto fit = minimise_robustly(kLine, Line(100000, 1, 0), RobustLoss::kHuber).fit;
+  ASSERT_TRUE(fit.converged);
+  const double variance = 12 / std::pow(100000.0, 3);            // of the slope, at a noise of 1
+  EXPECT_NEAR(fit.covariance(1, 1) / variance, 1 / 0.95, 0.02);  // Holland and Welsch's efficiency
 }
 
 TEST(BlindDirections, AreNamedInWords) {
