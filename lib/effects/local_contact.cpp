@@ -95,6 +95,7 @@ Eigen::RowVectorXd LocalContact::by_columns(double of_half_space, double by_nu,
 }
 
 LocalContact::DiscByColumns LocalContact::disc_by_columns(Eigen::Index columns) const {
+  if (columns == 0) return {};
   return {by_columns(disc_.normal / gain_, disc_.normal_by_nu, columns),
           by_columns(disc_.tangential / gain_, disc_.tangential_by_nu, columns)};
 }
