@@ -92,7 +92,7 @@ row 'said at the end' "$(sed -n 's/^hs-batch: \(.* recordings done.*\)/\1/p' two
 row 'a line for each failure' "$(grep -c '^hs-batch: failed: ' two.log) of $broken"
 row 'E within 5 % of the truth' "$(awk -F, 'NR > 1 && $3 == "done" { ++n; e = $5 / $NF - 1; good += e < 0.05 && e > -0.05 }
   END { printf "%d of %d done", good, n }' two/summary.csv)"
-grep -m 1 'median error' two.log | sed 's/^hs-batch: //' | while read -r line; do row 'errors' "$line"; done
+grep -m 1 'median error' two.log | sed 's/^  MODELS *//' | while read -r line; do row 'errors' "$line"; done
 for part in 1 2 3; do
   setsid env XDG_CACHE_HOME="$work/cache-killed" make -s -j2 -f "$root/Makefile.pipeline" batch BIN="$bin" \
     MANIFEST=manifest.csv OUT=killed BATCH_FLAGS="--stages $stage" >/dev/null 2>&1 &

@@ -128,6 +128,7 @@ function(hapsim_tool name)
     list(APPEND made ${file})
   endforeach()
   add_custom_target(man_${name} ALL DEPENDS ${made})
+  set_property(GLOBAL APPEND PROPERTY hapsim_tools ${name})
 endfunction()
 
 # hapsim_test(<name> SOURCES x_test.cpp ... USES layer ... [how it runs]): one GoogleTest program, one ctest entry.

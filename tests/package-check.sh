@@ -5,7 +5,7 @@ set -euo pipefail
 fail() { echo "package-check: $*" >&2; exit 1; }
 version=$(dpkg-query -W -f '${Version}' hapsim)
 count=0
-for tool in /usr/bin/hs-*; do
+for tool in /usr/bin/hs /usr/bin/hs-*; do
   name=$(basename "$tool")
   count=$((count + 1))
   [[ $("$name" --help) == *"$name"* ]] || fail "$name --help"

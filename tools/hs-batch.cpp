@@ -8,10 +8,11 @@
 #include <optional>
 #include <set>
 
+#include "answer.h"
 #include "base/error.h"
 #include "batch/batch_report.h"
+#include "batch/batch_summary.h"
 #include "batch/rules.h"
-#include "cli/tool.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -28,6 +29,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-batch";
+  spec.task = Task::kMany;
   spec.summary = "identify and diagnose many recordings by one manifest";
   spec.input = "manifest CSV, a row a recording";
   spec.description = {
@@ -98,6 +100,7 @@ ToolSpec specification() {
        .value = "FILE",
        .help = "Also writes JUnit's XML, a test a recording, for CI servers.",
        .writes = {"xml"}}};
+  spec.options.push_back(answer_option());
   spec.tables = {
       {"Manifest (input)",
        {{"name", "name of the recording, any text, no two alike"},
@@ -209,14 +212,16 @@ int summarise(const Arguments& arguments, const Batch& batch) {
     if (outcomes[r].state == RecordingState::kFailed)
       say(arguments, "hs-batch",
           fmt::format("failed: {}: {}", batch.manifest.rows[r].name, outcomes[r].message));
-  say(arguments, "hs-batch", overview.verdict);
-  for (const std::string& line : overview_lines(overview)) say(arguments, "hs-batch", line);
+  Summary told = batch_summary(outcomes, overview);
+  if (arguments.given(flag::html)) told.details = "The overview: " + arguments.text(flag::html);
+  tell_answer(arguments, told);
   return static_cast<int>(all_done(outcomes) ? ExitCode::kDone : ExitCode::kCheckFailed);
 }
 
 int run(const Arguments& arguments) {
   if (arguments[flag::prepare])
-    for (const AnyFlag& flag : AnyFlags{flag::wait, flag::html, flag::junit, flag::output})
+    for (const AnyFlag& flag :
+         AnyFlags{flag::wait, flag::html, flag::junit, flag::json, flag::output})
       if (arguments.given(flag))
         fail_usage("--prepare and " + flag + " exclude each other", "prepare first");
   if (arguments[flag::wait] && arguments.input() == "-")

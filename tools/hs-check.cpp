@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "answer.h"
 #include "base/error.h"
 #include "common_options.h"
 #include "model/golden_report.h"
+#include "model/golden_summary.h"
 
 namespace hapsim {
 namespace flag {
@@ -19,6 +21,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-check";
+  spec.task = Task::kMany;
   spec.summary = "compare a model with a golden one, by tolerance and standard errors";
   spec.input = "model CSV, freshly identified";
   spec.description = {
@@ -56,6 +59,7 @@ ToolSpec specification() {
        .value = "FILE",
        .help = "Also writes JUnit's XML, a test a parameter, for CI servers.",
        .writes = {"xml"}}};
+  spec.options.push_back(answer_option());
   spec.tables = {{"Comparison (output)",
                   {{"effect, region, parameter",
                     "as in the models; rmse, heldout and converged without effect"},
@@ -89,7 +93,7 @@ int run(const Arguments& arguments) {
   const std::vector<GoldenRow> rows = compare_with_golden(model, golden, options);
   require_named(options.tolerances, rows, flag::tolerance.name);
 
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   write_golden(output.stream(), rows);
   if (arguments.given(flag::junit)) {
     Output junit(arguments[flag::junit]);
@@ -99,15 +103,11 @@ int run(const Arguments& arguments) {
   output.commit();
   for (const GoldenRow& row : rows)
     if (!row.why.empty()) tell("hs-check", row.why);
-  const auto differ = std::count_if(rows.begin(), rows.end(), [](const GoldenRow& row) {
-    return row.verdict != GoldenVerdict::kSame;
+  const bool same = std::all_of(rows.begin(), rows.end(), [](const GoldenRow& row) {
+    return row.verdict == GoldenVerdict::kSame;
   });
-  say(arguments, "hs-check",
-      differ == 0 ? fmt::format("{} parameters and errors are those of {}", rows.size(),
-                                arguments[flag::golden])
-                  : fmt::format("{} of {} parameters and errors differ from {}", differ,
-                                rows.size(), arguments[flag::golden]));
-  return static_cast<int>(differ == 0 ? ExitCode::kDone : ExitCode::kCheckFailed);
+  tell_answer(arguments, golden_summary(rows, input.name(), arguments[flag::golden]));
+  return static_cast<int>(same ? ExitCode::kDone : ExitCode::kCheckFailed);
 }
 
 }  // namespace

@@ -3,13 +3,15 @@
 
 #include <memory>
 
+#include "answer.h"
 #include "base/error.h"
-#include "cli/tool.h"
+#include "base/shell_words.h"
 #include "formats/format_table.h"
 #include "formats/tetmesh_io.h"
 #include "io/number.h"
 #include "regions/region_map.h"
 #include "regions/region_report.h"
+#include "regions/region_summary.h"
 #include "shared_flags.h"
 
 namespace hapsim {
@@ -18,8 +20,8 @@ inline constexpr IntegerFlag regions{"--regions"}, components{"--components"},
     key_points{"--key-points"}, scan_points{"--scan-points"}, seed{"--seed"};
 inline constexpr ChoiceFlag linkage{"--linkage"}, features{"--features"}, rule{"--rule"};
 inline constexpr NumberFlag significance{"--significance"};
-inline constexpr FileFlag boundary{"--boundary"}, labels{"--labels"}, dendrogram{"--dendrogram"},
-    svg{"--svg"};
+inline constexpr FileFlag write_model{"--write-model"}, boundary{"--boundary"}, labels{"--labels"},
+    dendrogram{"--dendrogram"}, svg{"--svg"};
 }  // namespace flag
 
 namespace {
@@ -27,6 +29,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-cluster";
+  spec.task = Task::kModel;
   spec.summary = "regions of a body from what each contact position asks for by itself";
   spec.input = "location samples CSV (x,y,z,E,nu,E_std,nu_std[,n]), as hs-identify --locations";
   spec.description = {
@@ -96,7 +99,7 @@ ToolSpec specification() {
        .default_text = "20000",
        .minimum = 100,
        .maximum = 4000000},
-      {.flag = flag::model,
+      {.flag = flag::write_model,
        .value = "FILE",
        .help = "Writes a model with these regions, a start for hs-identify --model.",
        .group = "Output",
@@ -127,6 +130,7 @@ ToolSpec specification() {
        .group = "Clusters",
        .default_text = "1",
        .minimum = 0}};
+  spec.options.push_back(answer_option("Output"));
   spec.tables = {{"Samples (output)",
                   {{"x,y,z", "contact position [m]"},
                    {"E, E_std", "Young's modulus and its standard error [Pa]"},
@@ -152,7 +156,8 @@ ToolSpec specification() {
       {"hs-identify data.csv --body body.ply --locations l.csv -o m0.csv", "Location samples."},
       {"hs-cluster l.csv --boundary boundary.csv --svg tree.svg -o classified.csv",
        "Regions, boundary and tree."},
-      {"hs-cluster l.csv --body body.ply --labels regions.ply --model start.csv -o classified.csv",
+      {"hs-cluster l.csv --body body.ply --labels regions.ply --write-model start.csv -o "
+       "classified.csv",
        "A body with regions, and a model that hs-identify --model can improve."},
       {"hs-identify data.csv --body body.ply --model start.csv --refine-boundary 8 -o m.csv",
        "Improves it: the boundary moves with the moduli, as all forces ask."}};
@@ -208,23 +213,28 @@ int run(const Arguments& arguments) {
   write_asked(flag::boundary, [&](std::ostream& out) { write_boundary(out, lines, keys); });
   write_asked(flag::dendrogram, [&](std::ostream& out) { write_dendrogram(out, regions.tree); });
   write_asked(flag::svg, [&](std::ostream& out) { out << dendrogram_svg(regions) << "\n"; });
-  write_asked(flag::model, [&](std::ostream& out) {
+  write_asked(flag::write_model, [&](std::ostream& out) {
     write_model(out, region_model(table, regions, classify, lines, keys));
   });
   write_asked(flag::labels, [&](std::ostream& out) {
     label_body(*body, classify);
     format_to_write(arguments[flag::labels], Content::kTetrahedra).write_mesh(out, *body, {});
   });
-  write(arguments.output(), [&](std::ostream& out) { write_locations(out, table); });
+  write(result_file(arguments), [&](std::ostream& out) { write_locations(out, table); });
   for (const auto& output : outputs) output->commit();
 
-  for (const std::string& line : region_lines(regions, table.size()))
-    say(arguments, "hs-cluster", line);
+  Summary summary = region_summary(regions, table.size(), input.name());
   if (const int wrong = contradicted(classify, table, regions.label); wrong > 0)
-    say(arguments, "hs-cluster",
+    summary.notes.push_back(
         fmt::format("{} of {} samples lie on the other side of the estimated boundary: press more "
                     "places along it, or use --rule nearest",
                     wrong, table.size()));
+  if (arguments.given(flag::write_model))
+    summary.next =
+        fmt::format("hs-identify data.csv --body {} --model {} -o m.csv",
+                    arguments.given(flag::body) ? shell_quoted(arguments[flag::body]) : "body.ply",
+                    shell_quoted(arguments[flag::write_model]));
+  tell_answer(arguments, summary);
   return 0;
 }
 

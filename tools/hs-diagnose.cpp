@@ -2,6 +2,7 @@
 #include <span>
 
 #include "base/error.h"
+#include "cli/tell.h"
 #include "common_options.h"
 #include "diagnose/diagnosis_summary.h"
 #include "diagnose/diagnosis_table.h"
@@ -13,7 +14,7 @@
 namespace hapsim {
 namespace flag {
 inline constexpr SwitchFlag check{"--check"};
-inline constexpr FileFlag json{"--json"}, junit{"--junit"}, plan{"--plan"};
+inline constexpr FileFlag junit{"--junit"}, plan{"--plan"};
 inline constexpr IntegerFlag plan_presses{"--plan-presses"}, folds{"--folds"}, flips{"--flips"},
     seed{"--seed"};
 }  // namespace flag
@@ -23,6 +24,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-diagnose";
+  spec.task = Task::kModel;
   spec.summary = "name the physical effect that a model lacks";
   spec.input = "recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
   spec.description = {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "answer.h"
 #include "base/error.h"
 #include "common_options.h"
 #include "exchange/deck_error.h"
@@ -30,6 +31,7 @@ const std::map<std::string, std::string> kExtension{
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-export";
+  spec.task = Task::kForces;
   spec.summary = "a model, its body and a press as input of CalculiX, FEBio or SOFA";
   spec.input = "model CSV from hs-identify";
   spec.description = {
@@ -80,6 +82,7 @@ ToolSpec specification() {
        .maximum = 100000},
       {.flag = flag::bare,
        .help = "Leaves out effects on the motion and of the sensor instead of refusing them."}};
+  spec.options.push_back(answer_option());
   spec.writes.clear();
   for (const auto& [format, extension] : kExtension) spec.writes.push_back(extension);
   spec.examples = {
@@ -124,6 +127,7 @@ int run(const Arguments& arguments) {
       fail_usage(flag + " is of a press, and there is none", "add --data FILE");
   Input model_input(arguments.input());
   const Model model = load_model(arguments, "hs-export", model_input);
+  const std::string input_name = model_input.name();
   const TetMesh body = load_body(arguments);
   Recording recording;
   std::vector<int> press;
@@ -134,27 +138,39 @@ int run(const Arguments& arguments) {
   const Scene scene = make_scene(
       body, model, recording, press,
       {.steps = static_cast<std::size_t>(arguments[flag::steps]), .bare = arguments[flag::bare]});
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   if (format == "calculix") write_calculix(output.stream(), scene);
   if (format == "febio") write_febio(output.stream(), scene);
   if (format == "sofa") write_sofa(output.stream(), scene);
   if (format == "vtu") write_vtu(output.stream(), scene);
   if (format == "gmsh") write_mesh_gmsh(output.stream(), scene.mesh);
   output.commit();
+  Summary summary;
   const bool solved = format == "calculix" || format == "febio" || format == "sofa";
   if (solved && (scene.mesh.order == 2 || scene.finite))
-    say(arguments, "hs-export",
+    summary.notes.emplace_back(
         "hapsim averages the change of volume here and is less stiff; see hs-export(1)");
   const bool pressed = solved && !scene.tool.empty();
-  say(arguments,
+  summary.verdict = fmt::format("{} as input of {}", input_name, format);
+  summary.size =
       fmt::format("{} tetrahedra of order {}{}", scene.mesh.tets.size(), scene.mesh.order,
-                  pressed ? fmt::format(", {} steps", scene.t.size()) : ""));
-  if (!pressed || arguments.quiet()) return 0;
-  try {
-    say(arguments, deck_words(scene, deck_error(body, scene, recording, press.front())));
-  } catch (const Error& error) {  // the deck is right all the same
-    say(arguments, std::string("what its mesh does to the force is not known: ") + error.what());
+                  pressed ? fmt::format(", {} steps", scene.t.size()) : "");
+  summary.values = {{"tetrahedra", static_cast<double>(scene.mesh.tets.size()), "1"},
+                    {"order", static_cast<double>(scene.mesh.order), "1"},
+                    {"steps", static_cast<double>(scene.t.size()), "1"}};
+  if (pressed && !(arguments.quiet() && !arguments.given(flag::json))) {
+    try {
+      const double error = deck_error(body, scene, recording, press.front());
+      summary.notes.push_back(deck_words(scene, error));
+      if (summary.notes.back().starts_with("warning")) summary.mark = Summary::Mark::kOpen;
+      summary.values.push_back({"stiffness_error", error, "1"});
+    } catch (const Error& error) {  // the deck is right all the same
+      summary.mark = Summary::Mark::kOpen;
+      summary.notes.push_back(std::string("what its mesh does to the force is not known: ") +
+                              error.what());
+    }
   }
+  tell_answer(arguments, summary);
   return 0;
 }
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "answer.h"
 #include "base/error.h"
 #include "common_options.h"
 #include "fusion/fused_loop.h"
+#include "fusion/fusion_summary.h"
 #include "fusion/fusion_words.h"
 #include "hand.h"
 #include "io/csv.h"
@@ -31,6 +33,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-fuse";
+  spec.task = Task::kForces;
   spec.summary = "forces of a fast source put right by those of a slow one";
   spec.input = "recording with the fast forces (of an analytical model, hs-simulate)";
   spec.description = {
@@ -132,6 +135,7 @@ ToolSpec specification() {
                    {"force_scale", "force at which the stiffening is one of the force [N]"},
                    {"blend", "time over which a correction is let in [s]"}}}};
   for (const Option& option : hand_flags()) spec.options.push_back(option);
+  spec.options.push_back(answer_option("Output"));
   spec.examples = {
       {"hs-fuse fast.csv --slow fe.csv --delay 0.05 --learn filter.csv -o fused.csv",
        "Learns the filter and fuses."},
@@ -257,12 +261,12 @@ int run(const Arguments& arguments) {
     say(arguments, "hs-fuse", fmt::format("parameters learned in {} runs", learned.runs));
   }
   const FusedForces fused = fuse(fast, source, parameters);
-  say(arguments, "hs-fuse", fusion_words(fused.report));
+  std::optional<Recording> exact;
   if (arguments.given(flag::exact)) {
-    Input exact(arguments[flag::exact]);
-    for (const std::string& line : quality_lines(fast, fused, read_recording(exact)))
-      say(arguments, "hs-fuse", line);
+    Input exact_input(arguments[flag::exact]);
+    exact = read_recording(exact_input);
   }
+  const Summary summary = fusion_summary(fast, fused, exact ? &*exact : nullptr);
   fast.f = fused.force;
   for (int k = 0; k < 3; ++k) {
     fast.extra_header.push_back(fmt::format("sd{}", "xyz"[k]));
@@ -271,9 +275,10 @@ int run(const Arguments& arguments) {
   }
   fast.metadata.set("simulated",
                     fast.metadata.find("simulated").value_or("fast") + ", fused with " + slow.name);
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   write_recording(output.stream(), fast);
   output.commit();
+  tell_answer(arguments, summary);
   return 0;
 }
 

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
+#include "answer.h"
 #include "base/error.h"
-#include "cli/tool.h"
+#include "base/shell_words.h"
 #include "formats/format_table.h"
 #include "import/block.h"
 #include "import/implausible.h"
@@ -155,12 +156,14 @@ std::vector<Option> options() {
        .minimum = 1e-3,
        .maximum = 1e6},
       {.flag = flag::drop_air, .help = "Leaves out the samples in the air.", .group = "Output"},
+      answer_option("Output"),
   };
 }
 
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-import";
+  spec.task = Task::kRecording;
   spec.summary = "convert recordings of other machines and robots";
   spec.input = "table as text, in any encoding; LabVIEW .lvm, MATLAB (5, 7.3), HDF5";
   spec.description = {
@@ -318,6 +321,17 @@ TableOptions table_options(const Arguments& arguments) {
   return options;
 }
 
+// The body first, where the command has written what it is made of.
+std::string next_command(const Arguments& arguments) {
+  if (arguments.output() == "-") return "";
+  if (arguments.given(flag::surface))
+    return "hs-tetmesh " + shell_quoted(arguments[flag::surface]) + " -o body.ply";
+  if (arguments.given(flag::scan))
+    return "hs-scan2ply " + shell_quoted(arguments[flag::scan]) +
+           " | hs-reconstruct | hs-tetmesh -o body.ply";
+  return "hs-identify " + shell_quoted(arguments.output()) + " --body body.ply -o m0.csv";
+}
+
 int run(const Arguments& arguments) {
   std::optional<Block> block;
   if (arguments.given(flag::block)) block = parse_block(arguments[flag::block]);
@@ -327,12 +341,13 @@ int run(const Arguments& arguments) {
 
   Input input(arguments.input());
   const RawTable table = read_raw_table(input, table_options(arguments));
-  Output output(arguments.output());
-  if (arguments[flag::list]) {
+  if (arguments[flag::list]) {  // for people
+    Output output(arguments.output());
     output.write(describe_columns(table, options));
     output.commit();
     return 0;
   }
+  Output output(result_file(arguments));
   const ImportResult result = import_recording(table, options);
   write_recording(output.stream(), result.recording);
   if (arguments.given(flag::scan)) {
@@ -348,7 +363,9 @@ int run(const Arguments& arguments) {
     surface.commit();
   }
   output.commit();
-  for (const std::string& line : import_lines(result)) say(arguments, "hs-import", line);
+  Summary summary = import_summary(result);
+  summary.next = next_command(arguments);
+  tell_answer(arguments, summary);
   return 0;
 }
 

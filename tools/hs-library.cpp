@@ -1,11 +1,12 @@
 // hs-library: what a library of identified models holds.
 #include <fmt/format.h>
 
+#include "answer.h"
 #include "base/counted.h"
 #include "base/error.h"
-#include "cli/tool.h"
 #include "io/csv.h"
 #include "model/body_parameters.h"
+#include "model/library_summary.h"
 #include "model/model_edit.h"
 #include "model/model_library.h"
 
@@ -20,6 +21,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-library";
+  spec.task = Task::kModel;
   spec.summary = "list, show or remove the models of a library";
   spec.input = "model library, as hs-identify --library FILE writes it";
   spec.description = {
@@ -40,7 +42,8 @@ ToolSpec specification() {
       {.flag = flag::material,
        .value = "NAME",
        .help = "Lists the entries of this material alone."},
-      {.flag = flag::object, .value = "NAME", .help = "Lists the entries of this object alone."}};
+      {.flag = flag::object, .value = "NAME", .help = "Lists the entries of this object alone."},
+      answer_option()};
   spec.tables = {{"List (output)",
                   {{"entry", "its number, which is never given again"},
                    {"stored", "when, UTC"},
@@ -114,9 +117,12 @@ int run(const Arguments& arguments) {
     return 0;
   }
   ModelLibrary library(arguments.input(), Database::Mode::kRead);
-  Output output(arguments.output());
+  Summary summary;
+  Output output(result_file(arguments));
   if (arguments.given(flag::show)) {
     show(library.entry(static_cast<int>(arguments[flag::show])), output.stream());
+    summary.values = {{"entry", static_cast<double>(arguments[flag::show]), "1"}};
+    summary.verdict = fmt::format("model {} of {}", arguments.text(flag::show), arguments.input());
   } else {
     std::vector<LibraryEntry> entries = library.entries();
     const auto lacks = [&](const AnyFlag& flag, const std::string& name) {
@@ -126,8 +132,10 @@ int run(const Arguments& arguments) {
       return lacks(flag::material, e.described.material) || lacks(flag::object, e.described.object);
     });
     list(entries, output.stream());
+    summary = library_summary(entries, arguments.input());
   }
   output.commit();
+  tell_answer(arguments, summary);
   return 0;
 }
 

@@ -2,12 +2,14 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "base/units.h"
-#include "cli/tool.h"
+#include "cli/tell.h"
 #include "formats/format_table.h"
 #include "formats/surface_io.h"
 #include "io/number.h"
 #include "reconstruct/surface_record.h"
+#include "shared_flags.h"
 
 namespace hapsim {
 namespace flag {
@@ -19,7 +21,6 @@ inline constexpr SwitchFlag window{"--window"};
 inline constexpr LengthFlag beyond{"--beyond"};
 inline constexpr TextFlag up{"--up"};
 inline constexpr IntegerFlag seed{"--seed"};
-inline constexpr FileFlag json{"--json"};
 }  // namespace flag
 
 namespace {
@@ -27,6 +28,7 @@ namespace {
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-reconstruct";
+  spec.task = Task::kBody;
   spec.summary = "closed surface of a body from scanned points, or from damaged triangles";
   spec.input = "points from hs-scan2ply (PLY), or CSV with x,y,z[,nx,ny,nz]; or triangles: " +
                names_to_read(Content::kTriangles);
@@ -288,7 +290,7 @@ int run(const Arguments& arguments) {
   Result result = mend ? from_triangles(arguments, shape.surface, input.name())
                        : from_points(arguments, shape.cloud, input.name());
 
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   format_to_write(arguments.output(), Content::kTriangles)
       .write_surface(output.stream(), result.surface,
                      {.ascii = arguments[flag::ascii], .comments = result.record.comments});
@@ -298,7 +300,9 @@ int run(const Arguments& arguments) {
     json.stream() << result.record.json;
     json.commit();
   }
-  say(arguments, "hs-reconstruct", result.record.summary);
+  if (arguments.output() != "-")
+    result.record.summary.next = "hs-tetmesh " + shell_quoted(arguments.output()) + " -o body.ply";
+  say_summary(arguments, result.record.summary);
   return 0;
 }
 

@@ -6,7 +6,7 @@
 namespace hapsim {
 
 namespace flag {
-inline constexpr FileFlag body{"--body"}, model{"--model"};
+inline constexpr FileFlag body{"--body"}, model{"--model"}, json{"--json"};
 inline constexpr LengthFlag tool_radius{"--tool-radius"};
 inline constexpr ForceFlag noise{"--noise"};
 inline constexpr NumberFlag floor{"--floor"}, rim_edge{"--rim-edge"}, nu{"--nu"},

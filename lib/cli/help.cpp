@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "cli/spec_text.h"
+#include "cli/tool_list.h"
 #include "cli/wrap.h"
 
 namespace hapsim {
@@ -113,6 +114,13 @@ std::string help_text(const ToolSpec& spec) {
     text += "\nSee also:\n" + paragraph(pages, 2);
   }
   return text;
+}
+
+std::string about_text(const ToolSpec& spec) {
+  std::string summary;
+  for (const char c : spec.summary)
+    summary += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
+  return "{" + task_name(spec.task) + ", \"" + spec.name + "\", \"" + summary + "\"},\n";
 }
 
 }  // namespace hapsim

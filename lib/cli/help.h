@@ -11,5 +11,7 @@ namespace hapsim {
 std::string short_help_text(const ToolSpec& spec);
 std::string help_text(const ToolSpec& spec);  // 80 columns
 std::string man_page(const ToolSpec& spec);   // roff, man(7)
+// A row of the table that hs is built with: `{Task::kModel, "hs-identify", "the material ..."},`.
+std::string about_text(const ToolSpec& spec);
 
 }  // namespace hapsim

@@ -122,6 +122,7 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
     if (word == "-h") line.request = Request::kShortHelp;
     if (word == "--help") line.request = Request::kHelp;
     if (word == "--man") line.request = Request::kMan;
+    if (word == "--about") line.request = Request::kAbout;
     if (word == "-V" || word == "--version") line.request = Request::kVersion;
     for (const char* shell : {"bash", "zsh", "fish"})
       if (word == std::string("--completion-") + shell) {

@@ -1,8 +1,9 @@
 #include "cli/summary.h"
 
-#include <cstdio>
-#include <cstring>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "cli/tool.h"
 #include "cli/wrap.h"
 
 namespace hapsim {
@@ -11,19 +12,11 @@ namespace {
 constexpr const char* kNext = "Next:  ";
 constexpr std::size_t kIndent = 2, kLabel = 9;  // columns before and of an item's label
 
-struct MarkLook {
-  const char* sign;
-  const char* colour;  // of a terminal
-};
-MarkLook look_of(Summary::Mark mark) {
-  switch (mark) {
-    case Summary::Mark::kGood:
-      return {"✓", "\033[1;32m"};
-    case Summary::Mark::kBad:
-      return {"✗", "\033[1;31m"};
-    default:
-      return {"?", "\033[1;33m"};
-  }
+const char* sign_of(Summary::Mark mark) {
+  return mark == Summary::Mark::kGood ? "✓" : mark == Summary::Mark::kBad ? "✗" : "?";
+}
+const char* name_of(Summary::Mark mark) {
+  return mark == Summary::Mark::kGood ? "good" : mark == Summary::Mark::kBad ? "bad" : "open";
 }
 
 // Text with `right` at the end of the line, or of the next one where there is no room.
@@ -41,24 +34,35 @@ void add_line(std::vector<std::string>& lines, std::string text, const std::stri
   lines.push_back(std::move(text));
 }
 
-void add_paragraph(std::vector<std::string>& lines, const std::string& text, std::size_t indent) {
-  std::string rest = std::string(indent, ' ') + wrapped(text, indent, indent);
+// A paragraph, its first line behind `lead` of as many columns as the indent, or of none.
+void add_paragraph(std::vector<std::string>& lines, const std::string& text, std::size_t indent,
+                   const std::string& lead = "") {
+  std::string rest =
+      (lead.empty() ? std::string(indent, ' ') : lead) + wrapped(text, indent, indent);
   for (std::size_t end; (end = rest.find('\n')) != rest.npos; rest.erase(0, end + 1))
     lines.push_back(rest.substr(0, end));
+}
+
+void add_item(std::vector<std::string>& lines, const SummaryItem& item) {
+  const std::size_t pad = item.label.size() < kLabel ? kLabel - item.label.size() : 1;
+  const std::string lead = std::string(kIndent, ' ') + item.label + std::string(pad, ' ');
+  const bool named = !item.name.empty() || item.facts.empty();
+  if (named) add_line(lines, lead + item.name, item.chance);
+  for (std::size_t k = 0; k < item.facts.size(); ++k)
+    add_paragraph(lines, item.facts[k], kIndent + kLabel, named || k > 0 ? "" : lead);
+}
+
+nlohmann::ordered_json number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json();
 }
 
 }  // namespace
 
 std::vector<std::string> summary_lines(const Summary& s) {
   std::vector<std::string> lines;
-  add_line(lines, look_of(s.mark).sign + (" " + s.verdict), s.size);
+  add_line(lines, sign_of(s.mark) + (" " + s.verdict), s.size);
   if (!s.items.empty()) lines.emplace_back();
-  for (const SummaryItem& item : s.items) {
-    const std::size_t pad = item.label.size() < kLabel ? kLabel - item.label.size() : 1;
-    add_line(lines, std::string(kIndent, ' ') + item.label + std::string(pad, ' ') + item.name,
-             item.chance);
-    for (const std::string& fact : item.facts) add_paragraph(lines, fact, kIndent + kLabel);
-  }
+  for (const SummaryItem& item : s.items) add_item(lines, item);
   if (!s.notes.empty()) lines.emplace_back();
   for (const std::string& note : s.notes) add_paragraph(lines, note, kIndent);
   if (!s.next.empty()) {
@@ -69,23 +73,23 @@ std::vector<std::string> summary_lines(const Summary& s) {
   return lines;
 }
 
-void say_next(const Arguments& arguments, const std::string& command) {
-  if (arguments.quiet() || command.empty()) return;
-  clear_progress_line();
-  std::fprintf(stderr, "%s%s\n", kNext, command.c_str());
-}
-
-void say_summary(const Arguments& arguments, const Summary& summary) {
-  if (arguments.quiet()) return;
-  clear_progress_line();
-  std::vector<std::string> lines = summary_lines(summary);
-  if (colourful()) {
-    const MarkLook look = look_of(summary.mark);
-    const std::size_t end = std::strlen(look.sign) + 1 + summary.verdict.size();
-    lines.front() =
-        look.colour + lines.front().substr(0, end) + "\033[0m" + lines.front().substr(end);
+std::string summary_json(const Summary& s, const std::string& tool) {
+  using Json = nlohmann::ordered_json;
+  Json json{
+      {"tool", tool}, {"version", version()}, {"mark", name_of(s.mark)}, {"verdict", s.verdict}};
+  json["values"] = Json::object();
+  for (const SummaryValue& v : s.values) {
+    Json& one = json["values"][v.name];
+    one = {{"value", number(v.value)}, {"unit", v.unit}};
+    if (std::isfinite(v.std_error)) one["std_error"] = v.std_error;
   }
-  for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
+  json["items"] = Json::array();
+  for (const SummaryItem& item : s.items)
+    json["items"].push_back({{"label", item.label}, {"name", item.name}, {"facts", item.facts}});
+  json["notes"] = s.notes;
+  json["next"] = s.next.empty() ? Json() : Json(s.next);
+  // A name of a file need not be UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace hapsim

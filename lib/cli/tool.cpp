@@ -87,6 +87,8 @@ int parse_and_run(const ToolSpec& spec, int argc, char** argv,
       return print(spec.name + " (hapsim) " + version() + "\n");
     case Request::kCompletion:
       return print(completion(spec, line.shell));
+    case Request::kAbout:
+      return print(about_text(spec));
     case Request::kParsed:
       return print(parsed_text(line.arguments));
     case Request::kRun:
@@ -144,6 +146,10 @@ void say(const Arguments& arguments, const std::string& text) {
 
 bool result_is_wanted(const Arguments& arguments) {
   return arguments.given(flag::output) || isatty(STDOUT_FILENO) != 1;
+}
+
+std::string result_file(const Arguments& arguments) {
+  return result_is_wanted(arguments) ? arguments.output() : "/dev/null";
 }
 
 void tell(const std::string& tool, const std::string& text) {

@@ -41,8 +41,12 @@ struct Example {
   std::string explanation = {};
 };
 
+// What a tool is for: the headings under which hs lists them.
+enum class Task { kBody, kRecording, kModel, kForces, kMany };
+
 struct ToolSpec {
-  std::string name = {};     // "hs-identify"
+  std::string name = {};  // "hs-identify"
+  Task task = Task::kBody;
   std::string summary = {};  // one line
   std::string input = {};    // what the positional argument is; "" when there is none
   std::vector<std::string> description = {};  // paragraphs; plain text
@@ -109,6 +113,8 @@ void say(const Arguments& arguments, const std::string& text);
 void tell(const std::string& tool, const std::string& text);
 // Whether the result goes out: a terminal gets a table only where -o - asks for it.
 bool result_is_wanted(const Arguments& arguments);
+// The output, or nowhere where the result is not wanted.
+std::string result_file(const Arguments& arguments);
 // Whether standard error is a terminal that shows colours, and NO_COLOR is not set.
 bool colourful();
 

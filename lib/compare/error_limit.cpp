@@ -42,18 +42,18 @@ std::string excess_over(const ErrorLimit& limit, const Comparison& c,
                "add a line '# force_noise: 0.02' (newtons), or give the limit in N");
   const double most = limit.newtons_of(c);
   if (!(c.size.rmse > most)) return "";
-  return fmt::format("typical error {} exceeds {} ({})", newtons(c.size.rmse), newtons(most),
-                     limit.text);
+  std::string text = fmt::format("typical error {} exceeds {} ({})", newtons(c.size.rmse),
+                                 newtons(most), limit.text);
+  if (const std::vector<int> worst = c.worst_positions(); !worst.empty())
+    text += "; worst position " +
+            c.by_position().grouping.bins[static_cast<std::size_t>(worst[0])].label;
+  return text;
 }
 
 JunitCase error_case(const ErrorLimit& limit, const Comparison& c, const std::string& recording) {
   const std::string excess = excess_over(limit, c, recording);
   std::string details = excess;
   for (const Observation& o : c.observations) details += "\n" + o.sentence;
-  const std::vector<int> worst = c.worst_positions();
-  if (!worst.empty())
-    details += "\nworst position " +
-               c.by_position().grouping.bins[static_cast<std::size_t>(worst[0])].label;
   return {recording + " below " + limit.text, excess, details};
 }
 

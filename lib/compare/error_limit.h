@@ -19,12 +19,13 @@ struct ErrorLimit {
 // "0.05N" or "50 mN", "5%", "1.5noise" (or xnoise). Error(kUsage) beginning with `option`.
 ErrorLimit parse_error_limit(const std::string& text, const std::string& option);
 
-// Why the typical error is more than the limit allows; empty where it is not. Error(kBadInput)
-// about the recording of that name: the limit is in noise, and that is not known.
+// Why the typical error is more than the limit allows, and where it is largest; empty where it is
+// not. Error(kBadInput) about the recording of that name: the limit is in noise, and that is not
+// known.
 std::string excess_over(const ErrorLimit& limit, const Comparison& comparison,
                         const std::string& recording);
 
-// The same as a case for CI servers: where the error is largest stands with a failure.
+// The same as a case for CI servers, with what the error depends on.
 JunitCase error_case(const ErrorLimit& limit, const Comparison& comparison,
                      const std::string& recording);
 

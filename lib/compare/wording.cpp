@@ -35,36 +35,50 @@ std::string verdict_line(const Comparison& c) {
   return text + ".";
 }
 
-std::vector<std::string> summary_lines(const Comparison& c, const Recording& measured,
-                                       const std::vector<SimulatedVersion>& versions) {
-  std::vector<std::string> lines{verdict_line(c)};
-  const auto line = [&](const std::string& text) { lines.push_back(text); };
-  line(fmt::format(
-      "rmse {} over {} rows, measured components pooled (x {:.3g}, y {:.3g}, z {:.3g}); {} of the "
-      "force's rms, {} of its peak {}",
-      newtons(c.size.rmse), measured.rows(), c.size.rmse_axis[0], c.size.rmse_axis[1],
-      c.size.rmse_axis[2], percent_of(c.size.rmse, c.size.force_rms),
-      percent_of(c.size.rmse, c.size.force_peak), newtons(c.size.force_peak)));
-  line(fmt::format("sensor noise {} ({}): the error is {} times that", newtons(c.noise.value),
-                   c.noise.estimated ? "estimated from differences in time: there is no "
-                                       "force_noise in the recording"
-                                     : "force_noise of the recording",
-                   times_noise(c)));
+Summary comparison_summary(const Comparison& c, const Recording& measured,
+                           const std::vector<SimulatedVersion>& versions) {
+  Summary s;
+  const bool noise = only_noise_left(c);
+  s.mark = noise                    ? Summary::Mark::kGood
+           : c.observations.empty() ? Summary::Mark::kOpen
+                                    : Summary::Mark::kBad;
+  s.verdict = measured.name + (noise                    ? ": nothing is left but sensor noise"
+                               : c.observations.empty() ? ": more is left than sensor noise"
+                                                        : ": the model misses the measurement");
+  s.size = fmt::format("error {} = {} x noise", newtons(c.size.rmse), times_noise(c));
+  s.items.push_back(
+      {"ERROR",
+       "",
+       "",
+       {fmt::format(
+            "{} of the force's rms, {} of its peak {}; x {:.3g}, y {:.3g}, z {:.3g} N over {} rows",
+            percent_of(c.size.rmse, c.size.force_rms), percent_of(c.size.rmse, c.size.force_peak),
+            newtons(c.size.force_peak), c.size.rmse_axis[0], c.size.rmse_axis[1],
+            c.size.rmse_axis[2], measured.rows()),
+        fmt::format(
+            "sensor noise {} ({})", newtons(c.noise.value),
+            c.noise.estimated
+                ? "estimated from differences in time: there is no force_noise in the recording"
+                : "force_noise of the recording")}});
   if (versions.size() > 1)
     for (const SimulatedVersion& v : versions)
-      line(fmt::format("  {}: rmse {}", v.name,
-                       newtons(error_size(measured.f, v.recording.f).rmse)));
-  for (const Observation& o : c.observations) line("  " + o.sentence);
-  if (c.observations.empty())
-    line("  no structure beyond noise: the error depends on nothing that was looked at");
+      s.items[0].facts.push_back(
+          fmt::format("{}: {}", v.name, newtons(error_size(measured.f, v.recording.f).rmse)));
+  SummaryItem depends{"DEPENDS", "", "", {}};
+  for (const Observation& o : c.observations) depends.facts.push_back(o.sentence);
+  if (depends.facts.empty())
+    depends.facts.push_back("on nothing that was looked at: no structure beyond noise");
+  s.items.push_back(std::move(depends));
   const std::vector<int> worst = c.worst_positions();
+  SummaryItem places{"WORST", "", "", {}};
   for (std::size_t i = 0; i < std::min<std::size_t>(3, worst.size()) && worst.size() > 1; ++i) {
     const BinError& e = c.by_position().errors[static_cast<std::size_t>(worst[i])];
-    line(fmt::format("  {} {}: rmse {}, {}", i == 0 ? "worst position" : "          then",
-                     c.by_position().grouping.bins[static_cast<std::size_t>(worst[i])].label,
-                     newtons(e.rmse), stiffness_words(e)));
+    places.facts.push_back(fmt::format(
+        "{}: {}, {}", c.by_position().grouping.bins[static_cast<std::size_t>(worst[i])].label,
+        newtons(e.rmse), stiffness_words(e)));
   }
-  return lines;
+  if (!places.facts.empty() && !noise) s.items.push_back(std::move(places));
+  return s;
 }
 
 }  // namespace hapsim

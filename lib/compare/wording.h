@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/summary.h"
 #include "compare/comparison.h"
 #include "compare/report_curves.h"
 
@@ -19,9 +20,9 @@ bool only_noise_left(const Comparison& comparison);
 // The typical error beside the force and the noise, in one sentence.
 std::string verdict_line(const Comparison& comparison);
 
-// That sentence and what supports it: sizes, noise, the error of each of several versions, what the
-// error depends on, and the three worst positions.
-std::vector<std::string> summary_lines(const Comparison& comparison, const Recording& measured,
-                                       const std::vector<SimulatedVersion>& versions);
+// The comparison on a screen: sizes, noise, the error of each of several versions, what the error
+// depends on, and the three worst positions.
+Summary comparison_summary(const Comparison& comparison, const Recording& measured,
+                           const std::vector<SimulatedVersion>& versions);
 
 }  // namespace hapsim

@@ -212,7 +212,7 @@ BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, co
   BoundaryFit result{start, boundaries_of(start.model, mesh, tool_radius), {}, {}, false};
   if (result.lines.empty())
     fail_input(start.model.name, "the model has no boundary between regions on this body",
-               "give a model of hs-cluster --model, or --add regions");
+               "give a model of hs-cluster --write-model, or --add regions");
   const std::vector<BoundaryLine> before = result.lines;
   for (int round = 0; round < options.rounds && !result.fitted.stopped; ++round) {
     const MaterialSpec material = material_of(result.fitted.model);

@@ -12,6 +12,7 @@
 #include "estimate/identifiability.h"
 #include "experiment/plausible.h"
 #include "model/body_parameters.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -89,60 +90,108 @@ std::vector<std::string> known_words(const Model& model, const Dataset& dataset)
   return lines;
 }
 
-std::vector<std::string> fit_lines(const Experiment& w, const Fit& result, double held_out,
-                                   const std::string& by, double force_rms) {
-  std::vector<std::string> lines;
-  const auto line = [&](const std::string& text) { lines.push_back(text); };
-  line(fmt::format("{} at {}{}, {}; noise {:.3g} N ({}), force rms {:.3g} N",
-                   counted(w.dataset.recording.presses().size(), "press", "presses"),
-                   counted(w.dataset.positions.size(), "position", "positions"),
-                   setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
-                   w.noise.value, w.noise.measured ? "measured from the data" : "declared",
-                   force_rms));
-  if (const std::string shape = w.shape.words(); !shape.empty()) line(shape);
+namespace {
+
+std::string value_words(const Parameter& p) {
+  const std::string unit = p.unit == "1" ? "" : " " + p.unit;
+  return fmt::format(
+      "{}{} = {:.4g}{} ± {}", p.name, p.region > 0 ? fmt::format(" (region {})", p.region) : "",
+      p.value, unit,
+      std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error));
+}
+
+// A paragraph an effect, of the free parameters; `values` has all of them.
+SummaryItem values_item(const Model& model, std::vector<SummaryValue>& values) {
+  constexpr int kMost = 12;
+  SummaryItem item{"VALUES", "", "", {}};
+  std::string effect;
   int shown = 0;
-  for (const Parameter& p : result.model.parameters) {
-    if (p.state != ParameterState::kFree || ++shown > 12) continue;
-    line(fmt::format(
-        "{} {}{} = {:.4g} {} ± {}", p.effect, p.name,
-        p.region > 0 ? fmt::format(" (region {})", p.region) : "", p.value,
-        p.unit == "1" ? "" : p.unit,
-        std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error)));
+  for (const Parameter& p : model.parameters) {
+    if (p.state != ParameterState::kFree) continue;
+    values.push_back({p.effect + "." + p.name + (p.region > 0 ? fmt::format("[{}]", p.region) : ""),
+                      p.value, p.unit, p.std_error});
+    if (++shown > kMost) continue;
+    if (p.effect == effect)
+      item.facts.back() += ", " + value_words(p);
+    else
+      item.facts.push_back(p.effect + " " + value_words(p));
+    effect = p.effect;
   }
-  if (shown > 12) line(fmt::format("... and {} more free parameters", shown - 12));
-  for (const std::string& known : known_words(result.model, w.dataset)) line(known);
-  if (const std::string plates = plates_words(result.model, w); !plates.empty()) line(plates);
+  if (shown > kMost) item.facts.push_back(fmt::format("... and {} more", shown - kMost));
+  if (item.facts.empty()) item.facts.push_back("none was free");
+  return item;
+}
+
+// What the data do not tell, or make doubtful.
+std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& text) {
+    if (!text.empty()) lines.push_back(text);
+  };
   const auto warn = [&](const std::vector<std::string>& names, const char* what) {
     constexpr std::size_t kMost = 4;
-    for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) line(names[i] + what);
-    if (names.size() > kMost) line(fmt::format("... and {} more", names.size() - kMost));
+    for (std::size_t i = 0; i < std::min(kMost, names.size()); ++i) add(names[i] + what);
+    if (names.size() > kMost) add(fmt::format("... and {} more", names.size() - kMost));
   };
+  add(w.shape.words());
+  for (const std::string& known : known_words(result.model, w.dataset)) add(known);
+  add(plates_words(result.model, w));
   warn(result.at_bound,
        " is at its bound: the data ask for more than the model can give, or cannot tell");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
   warn(hardly_known(result.model),
        " is hardly known (standard error of half its value or range): fix it, or press at more "
-       "places and "
-       "sideways");
+       "places and sideways");
   if (w.dataset.positions.size() == 1)
-    line("all presses are at one place: how the body differs from place to place is not seen");
-  if (const std::string strange = strange_modulus(result.model); !strange.empty()) line(strange);
-  for (const std::string& sentence : result.blind) line(sentence);
-  for (const std::string& sentence : untold_times(result.model, w.dataset)) line(sentence);
-  for (const std::string& interval : result.intervals) line(interval);
+    add("all presses are at one place: how the body differs from place to place is not seen");
+  add(strange_modulus(result.model));
+  for (const std::string& sentence : result.blind) add(sentence);
+  for (const std::string& sentence : untold_times(result.model, w.dataset)) add(sentence);
+  for (const std::string& interval : result.intervals) add(interval);
   if (result.discounted > 0)
-    line(fmt::format("{} of {} force components discounted as far off", result.discounted,
-                     result.residuals));
+    add(fmt::format("{} of {} force components discounted as far off", result.discounted,
+                    result.residuals));
   if (!enough_data(result.residuals,
                    static_cast<Eigen::Index>(result.model.free_parameters().size())))
-    line("fewer than ten force components a free parameter: noise may decide their values");
-  const double error = result.error.told();
-  line(fmt::format("error {:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", error,
-                   100 * error / force_rms, error / w.noise.value));
-  if (!by.empty() && !std::isnan(held_out))
-    line(fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
-                     100 * held_out / force_rms, held_out / w.noise.value));
+    add("fewer than ten force components a free parameter: noise may decide their values");
   return lines;
+}
+
+}  // namespace
+
+Summary fit_summary(const Experiment& w, const Fit& result, double held_out, const std::string& by,
+                    double force_rms) {
+  constexpr double kNoiseAlone = 1.15;
+  Summary s;
+  const double error = result.error.told(), noise = w.noise.value;
+  const bool unseen = !by.empty() && !std::isnan(held_out);
+  const bool only_noise = error <= kNoiseAlone * noise;
+  s.mark = only_noise ? Summary::Mark::kGood : Summary::Mark::kOpen;
+  s.verdict = fmt::format("{}: {} fits{}", w.dataset.recording.name, effects_label(result.model),
+                          only_noise ? " to the noise" : "; more than noise is left");
+  s.size = fmt::format("error {:.4g} N = {:.3g} x noise", error, error / noise);
+  s.items = {
+      {"ERROR", "", "", {fmt::format("{:.3g} % of the force's rms", 100 * error / force_rms)}}};
+  if (unseen)
+    s.items[0].facts.push_back(
+        fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
+                    100 * held_out / force_rms, held_out / noise));
+  s.values = {{"error", error, "N"},
+              {"heldout", unseen ? held_out : std::nan(""), "N"},
+              {"force_noise", noise, "N"},
+              {"force_rms", force_rms, "N"}};
+  s.items.push_back(values_item(result.model, s.values));
+  s.items.push_back(
+      {"DATA",
+       "",
+       "",
+       {fmt::format("{} at {}{}, {}; noise {:.3g} N ({}), force rms {:.3g} N",
+                    counted(w.dataset.recording.presses().size(), "press", "presses"),
+                    counted(w.dataset.positions.size(), "position", "positions"),
+                    setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
+                    noise, w.noise.measured ? "measured from the data" : "declared", force_rms)}});
+  s.notes = doubts(w, result);
+  return s;
 }
 
 std::string choice_words(const TermChoice& choice, const std::string& effect) {

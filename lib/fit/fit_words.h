@@ -4,17 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "cli/summary.h"
 #include "fit/boundary_fit.h"
 #include "fit/maxwell_terms.h"
 #include "fit/rest_of_press.h"
 
 namespace hapsim {
 
-// What was fitted to what, the first twelve values with their standard errors, what the data do not
-// tell or make doubtful, and the errors. `held_out` [N] on data left out by `by` ("positions"; "":
-// none); `force_rms`: of the measured forces [N].
-std::vector<std::string> fit_lines(const Experiment& experiment, const Fit& fitted, double held_out,
-                                   const std::string& by, double force_rms);
+// The fit on a screen: whether more than noise is left, the errors, the first twelve values with
+// their standard errors, what was fitted to what, and what the data do not tell or make doubtful.
+// `held_out` [N] on data left out by `by` ("positions"; "": none); `force_rms`: of the measured
+// forces [N].
+Summary fit_summary(const Experiment& experiment, const Fit& fitted, double held_out,
+                    const std::string& by, double force_rms);
 
 // What a body between plates is taken for: bonded to both, which is in its stiffness; and whether
 // it is as high as those for which the law of finite strain was verified. "" where there are no

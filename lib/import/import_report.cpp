@@ -11,11 +11,8 @@
 
 namespace hapsim {
 
-std::vector<std::string> import_lines(const ImportResult& result) {
+Summary import_summary(const ImportResult& result) {
   const Recording& out = result.recording;
-  std::vector<std::string> lines = result.notes.facts;
-  const auto line = [&](const std::string& text) { lines.push_back(text); };
-  for (const std::string& warning : result.notes.warnings) line("WARNING: " + warning);
   double force = 0, depth = 0;
   std::size_t air = 0;
   for (std::size_t i = 0; i < out.rows(); ++i) {
@@ -28,14 +25,30 @@ std::vector<std::string> import_lines(const ImportResult& result) {
     if (std::none_of(places.begin(), places.end(),
                      [&](const Vec3& p) { return (p - touched.point).norm() < 1e-6; }))
       places.push_back(touched.point);
+  Summary s;
+  for (const std::string& warning : result.notes.warnings) s.notes.push_back("WARNING: " + warning);
   if (!out.metadata.find("tool_radius"))
-    line("WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius");
-  line(fmt::format("{} at {}, {} ({} in the air), {}; depth up to {:.3g} mm, force up to {:.3g} N",
-                   counted(out.presses().size(), "press", "presses"),
-                   counted(places.size(), "position", "positions"),
-                   counted(out.rows(), "sample", "samples"), air,
-                   out.t.empty() ? "quasi-static" : "with time", 1e3 * depth, force));
-  return lines;
+    s.notes.emplace_back(
+        "WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius");
+  s.mark = s.notes.empty() ? Summary::Mark::kGood : Summary::Mark::kOpen;
+  s.verdict =
+      fmt::format("{}: {} at {}", out.name, counted(out.presses().size(), "press", "presses"),
+                  counted(places.size(), "position", "positions"));
+  s.size = fmt::format("{}", counted(out.rows(), "sample", "samples"));
+  s.items.push_back({"SIZE",
+                     "",
+                     "",
+                     {fmt::format("depth up to {:.3g} mm, force up to {:.3g} N; {} in the air, {}",
+                                  1e3 * depth, force, counted(air, "sample", "samples"),
+                                  out.t.empty() ? "quasi-static" : "with time")}});
+  if (!result.notes.facts.empty()) s.items.push_back({"READ", "", "", result.notes.facts});
+  s.values = {{"presses", static_cast<double>(out.presses().size()), "1"},
+              {"positions", static_cast<double>(places.size()), "1"},
+              {"samples", static_cast<double>(out.rows()), "1"},
+              {"samples_in_air", static_cast<double>(air), "1"},
+              {"depth", depth, "m"},
+              {"force", force, "N"}};
+  return s;
 }
 
 void write_scan(std::ostream& out, const ImportResult& result) {

@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "cli/summary.h"
 #include "import/import.h"
 
 namespace hapsim {
 
-// What was understood and changed, warnings, and the sizes of the recording.
-std::vector<std::string> import_lines(const ImportResult& result);
+// On a screen: the sizes of the recording, what was understood and changed, and warnings.
+Summary import_summary(const ImportResult& result);
 
 // The touched points as a table x,y,z [m], with normals nx,ny,nz where they are known.
 void write_scan(std::ostream& out, const ImportResult& result);

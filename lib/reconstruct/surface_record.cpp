@@ -42,13 +42,24 @@ SurfaceRecord record_reconstruction(const Surface& surface, const ReconstructRep
         "; the body goes on for {:.3g} mm beyond the points, where its shape is a guess",
         1e3 * report.beyond);
   }
-  record.summary = fmt::format(
-      "method {}: {}; {} points ({} after evening out) to {} vertices, {} faces of edge {:.2g} mm, "
-      "{}; volume {:.4g} cm^3; {}; points lie {:.2g} mm rms off the surface, {:.1f} % farther than "
-      "3 times that",
-      method, report.why, points, report.points, surface.vertices.size(), surface.faces.size(),
-      1e3 * report.edge, report.sharp ? "with sharp edges" : "without sharp edges",
-      1e6 * signed_volume(surface), base, 1e3 * report.rms, 100 * report.far_share);
+  Summary& told = record.summary;
+  told.verdict =
+      fmt::format("a closed surface of {} faces, method {}", surface.faces.size(), method);
+  told.size = fmt::format("{:.4g} cm^3", 1e6 * signed_volume(surface));
+  told.items = {
+      {"METHOD", "", "", {fmt::format("{}: {}", method, report.why)}},
+      {"POINTS",
+       "",
+       "",
+       {fmt::format("{} points ({} after evening out), which lie {:.2g} mm rms off the surface, "
+                    "{:.1f} % farther than 3 times that",
+                    points, report.points, 1e3 * report.rms, 100 * report.far_share)}},
+      {"SURFACE",
+       "",
+       "",
+       {fmt::format("{} vertices, {} faces of edge {:.2g} mm, {}; {}", surface.vertices.size(),
+                    surface.faces.size(), 1e3 * report.edge,
+                    report.sharp ? "with sharp edges" : "without sharp edges", base)}}};
   nlohmann::json json = {{"method", method},    {"why", report.why},
                          {"points", points},    {"points_used", report.points},
                          {"edge", report.edge}, {"sharp_edges", report.sharp},
@@ -66,10 +77,17 @@ SurfaceRecord record_repair(const Surface& surface, const RepairReport* report,
   const std::string why = wrapped ? "asked for" : "the input has triangles";
   record.comments = {fmt::format("hs-reconstruct: method {}", method),
                      fmt::format("method {}: {}", method, why)};
-  record.summary = fmt::format(
-      "method {}: {}; {} triangles to {} vertices, {} faces; volume {:.6g} cm^3; {}", method, why,
-      triangles, surface.vertices.size(), surface.faces.size(), 1e6 * signed_volume(surface),
-      wrapped ? "wrapped, nothing mended" : report->text());
+  Summary& told = record.summary;
+  told.verdict =
+      fmt::format("a closed surface of {} faces, method {}", surface.faces.size(), method);
+  told.size = fmt::format("{:.4g} cm^3", 1e6 * signed_volume(surface));
+  told.items = {
+      {"METHOD", "", "", {fmt::format("{}: {}", method, why)}},
+      {"SURFACE",
+       "",
+       "",
+       {fmt::format("{} triangles to {} vertices, {} faces; {}", triangles, surface.vertices.size(),
+                    surface.faces.size(), wrapped ? "wrapped, nothing mended" : report->text())}}};
   nlohmann::json json = {{"method", method}, {"why", why}, {"triangles", triangles}};
   if (!wrapped) json["repairs"] = nlohmann::json::parse(report->json());
   return finish(std::move(record), std::move(json), surface);

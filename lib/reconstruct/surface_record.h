@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "cli/summary.h"
 #include "reconstruct/reconstruct.h"
 #include "repair/repair.h"
 
 namespace hapsim {
 
 struct SurfaceRecord {
-  std::string summary;
+  Summary summary;
   std::vector<std::string> comments;  // method, seed, base plane
   std::string json;                   // text, two spaces of indent, a newline at the end
 };

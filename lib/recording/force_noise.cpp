@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/counted.h"
 #include "base/median.h"
 
 namespace hapsim {
@@ -185,11 +186,12 @@ NoiseEstimate measure_force_noise(const Recording& recording) {
   }
   const auto mean = [axes](double sum) { return std::sqrt(sum / static_cast<double>(axes)); };
   estimate.along = mean(by_differences);
-  estimate.how = fmt::format("{} differences of {} presses{}", third ? "third" : "second", used,
+  estimate.how = fmt::format("{} differences of {}{}", third ? "third" : "second",
+                             counted(used, "press", "presses"),
                              rounded ? " and the step to which it is rounded" : "");
   if (mean(by_air) > estimate.along * (1 + kChance / std::sqrt(samples_in_air))) {
     estimate.along = mean(by_air);
-    estimate.how = fmt::format("the samples in the air of {} presses", with_air);
+    estimate.how = "the samples in the air of " + counted(with_air, "press", "presses");
   }
   estimate.sigma = estimate.along / (one_line ? std::sqrt(measured_axes(recording.f)) : 1);
   if (estimate.sigma < kNothing * peak) {

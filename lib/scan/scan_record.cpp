@@ -60,13 +60,21 @@ std::string touch_words(const TouchReport& report) {
                      1e3 * report.mean, 1e3 * report.least, 1e3 * report.largest);
 }
 
-std::string points_words(const ScanRecord& record, const std::string& frame) {
+Summary points_summary(const ScanRecord& record, const std::string& frame) {
   const CleanReport& cleaned = record.cleaned;
-  return fmt::format(
-      "{} points read in {}; removed {} given twice, {} nearly so, {} isolated, {} off "
-      "the surface, {} by thinning; kept {}, {:.3g} mm apart; normals {}",
-      cleaned.read, frame, cleaned.duplicates, cleaned.near_duplicates, cleaned.isolated,
-      cleaned.off_surface, cleaned.thinned, cleaned.kept, 1e3 * record.spacing, record.normals);
+  Summary s;
+  s.verdict = fmt::format("{} of {} points kept", cleaned.kept, cleaned.read);
+  s.size = fmt::format("{:.3g} mm apart", 1e3 * record.spacing);
+  s.items = {{"POINTS",
+              "",
+              "",
+              {fmt::format(
+                  "{} points read in {}; removed {} given twice, {} nearly so, {} isolated, {} off "
+                  "the surface, {} by thinning; kept {}",
+                  cleaned.read, frame, cleaned.duplicates, cleaned.near_duplicates,
+                  cleaned.isolated, cleaned.off_surface, cleaned.thinned, cleaned.kept)}},
+             {"NORMALS", "", "", {record.normals}}};
+  return s;
 }
 
 std::string scan_json(const ScanRecord& record) {

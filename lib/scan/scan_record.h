@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/summary.h"
 #include "reconstruct/clean_points.h"
 #include "scan/register.h"
 #include "scan/scan.h"
@@ -38,8 +39,8 @@ std::string complete_normals(PointCloud& clean, const Scan& scan, const std::vec
 
 std::vector<std::string> zone_lines(const RegisterReport& report);
 std::string touch_words(const TouchReport& report);
-// What was removed and what was kept; `frame`: that the points were read in, "mm".
-std::string points_words(const ScanRecord& record, const std::string& frame);
+// On a screen: what was read, removed and kept; `frame`: that the points were read in, "mm".
+Summary points_summary(const ScanRecord& record, const std::string& frame);
 
 // All of it as JSON text (two spaces of indent, a newline at the end), in SI.
 std::string scan_json(const ScanRecord& record);

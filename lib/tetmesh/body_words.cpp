@@ -79,18 +79,21 @@ std::string body_json(const TetMesh& mesh, const TetQuality& q, const BodyReport
   return json.dump(2) + "\n";
 }
 
-std::vector<std::string> body_lines(const TetMesh& mesh, const TetQuality& q,
-                                    const BodyReport& report, const std::string& unit,
-                                    bool verbose) {
-  std::vector<std::string> lines;
-  const auto tell = [&](const std::string& text) { lines.push_back(text); };
+Summary body_summary(const TetMesh& mesh, const TetQuality& q, const BodyReport& report,
+                     const std::string& unit, bool verbose) {
+  Summary s;
   const auto fixed = std::count(mesh.fixed.begin(), mesh.fixed.end(), 1);
-  for (const std::string& note : report.notes) tell(note);
-  tell(fmt::format("{} tetrahedra, {} nodes, {} boundary triangles, {:.6g} m^3, unit {}",
-                   mesh.tets.size(), mesh.nodes.size(), mesh.faces.size(), q.volume, unit));
-  tell(fixed > 0 ? fmt::format("{} nodes fixed", fixed)
-                 : "no node fixed: fix some before this body is pressed");
-  tell(fmt::format(
+  s.mark = fixed > 0 ? Summary::Mark::kGood : Summary::Mark::kOpen;
+  s.verdict =
+      fixed > 0
+          ? fmt::format("a body of {} tetrahedra, {} nodes fixed", mesh.tets.size(), fixed)
+          : fmt::format("a body of {} tetrahedra, no node fixed: fix some before it is pressed",
+                        mesh.tets.size());
+  s.size = fmt::format("{:.4g} cm^3", 1e6 * q.volume);
+  SummaryItem sizes{"SIZE", "", "", {}}, quality{"QUALITY", "", "", {}};
+  sizes.facts.push_back(fmt::format("{} nodes, {} boundary triangles, {:.6g} m^3, unit {}",
+                                    mesh.nodes.size(), mesh.faces.size(), q.volume, unit));
+  quality.facts.push_back(fmt::format(
       "radius-edge {:.2f} / {:.2f} / {:.2f}, smallest dihedral {:.1f} / {:.1f} / {:.1f} "
       "deg, largest {:.1f} deg, aspect {:.2f} / {:.2f} / {:.2f} (min / median / max)",
       q.radius_edge.minimum, q.radius_edge.median, q.radius_edge.maximum,
@@ -99,20 +102,23 @@ std::vector<std::string> body_lines(const TetMesh& mesh, const TetQuality& q,
       q.aspect.maximum));
   if (!verbose && !q.worst_tets.empty()) {
     const Vec3& at = q.worst_place;
-    tell(fmt::format("worst tetrahedron {} at ({:.6g}, {:.6g}, {:.6g})", q.worst, at.x(), at.y(),
-                     at.z()));
+    quality.facts.push_back(fmt::format("worst tetrahedron {} at ({:.6g}, {:.6g}, {:.6g})", q.worst,
+                                        at.x(), at.y(), at.z()));
   }
-  if (!verbose) return lines;
-  tell(counts("radius-edge", q.radius_edge_counts));
-  tell(counts("smallest dihedral [deg]", q.dihedral_counts));
-  tell(counts("aspect", q.aspect_counts));
-  for (const BadTet& t : q.worst_tets)
-    tell(
-        fmt::format("tetrahedron {} at ({:.6g}, {:.6g}, {:.6g}): smallest dihedral {:.2f} deg, "
-                    "radius-edge {:.2f}, aspect {:.2f}",
-                    t.tet, t.place.x(), t.place.y(), t.place.z(), t.smallest_dihedral_deg,
-                    t.radius_edge, t.aspect));
-  return lines;
+  if (verbose) {
+    quality.facts.push_back(counts("radius-edge", q.radius_edge_counts));
+    quality.facts.push_back(counts("smallest dihedral [deg]", q.dihedral_counts));
+    quality.facts.push_back(counts("aspect", q.aspect_counts));
+    for (const BadTet& t : q.worst_tets)
+      quality.facts.push_back(
+          fmt::format("tetrahedron {} at ({:.6g}, {:.6g}, {:.6g}): smallest dihedral {:.2f} deg, "
+                      "radius-edge {:.2f}, aspect {:.2f}",
+                      t.tet, t.place.x(), t.place.y(), t.place.z(), t.smallest_dihedral_deg,
+                      t.radius_edge, t.aspect));
+  }
+  s.items = {std::move(sizes), std::move(quality)};
+  s.notes = report.notes;
+  return s;
 }
 
 }  // namespace hapsim

@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
+#include "cli/summary.h"
 #include "mesh/quality.h"
 #include "tetmesh/body_mesh.h"
 
 namespace hapsim {
 
-// Notes, sizes and quality; `unit`: that the input was read in. `verbose`: histograms and the worst
-// tetrahedra instead of the worst alone.
-std::vector<std::string> body_lines(const TetMesh& mesh, const TetQuality& quality,
-                                    const BodyReport& report, const std::string& unit,
-                                    bool verbose);
+// On a screen: sizes, what holds the body, quality, notes; `unit`: that the input was read in.
+// `verbose`: histograms and the worst tetrahedra instead of the worst alone.
+Summary body_summary(const TetMesh& mesh, const TetQuality& quality, const BodyReport& report,
+                     const std::string& unit, bool verbose);
 
 // The same as JSON text (two spaces of indent, a newline at the end): sizes in SI, spreads and
 // histograms of the quality, tetrahedra by region, the nodes of the contacts, the worst tetrahedra,

@@ -51,7 +51,8 @@ Model identified_model(const OnlineEstimate& found, const std::vector<double>& t
 
 std::string moduli_words(const OnlineEstimate& found, const std::vector<double>& times,
                          int digits) {
-  std::string words = fmt::format("E = {:.4g} Pa ± {:.2g}", found.moduli[0], found.error[0]);
+  std::string words = fmt::format("E = {:.4g} Pa", found.moduli[0]);
+  if (std::isfinite(found.error[0])) words += fmt::format(" ± {:.2g}", found.error[0]);
   for (std::size_t i = 0; i < times.size(); ++i)
     words += fmt::format(", {:.{}g} Pa at {:g} s", found.moduli[static_cast<Eigen::Index>(i + 1)],
                          digits, times[i]);

@@ -51,7 +51,7 @@ field() { # SUMMARY NAME COLUMN
 batch out all.csv
 ((code != 0)) || complain 'a batch with failures must not end with 0'
 summary=out/summary.csv
-grep -q 'hs-batch: 4 of 14 recordings done, 10 failed$' err || complain 'the count of failures is told'
+grep -q '✗ 4 of 14 recordings done, 10 failed$' err || complain 'the count of failures is told'
 for line in 'failed: soft: all.csv:6: the name .soft. stands in line 2 already;' \
   "failed: missing: all.csv:7: data 'nowhere.csv': No such file or directory;" \
   'failed: no body: all.csv:8: there is neither body nor scan;' \

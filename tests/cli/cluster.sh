@@ -23,7 +23,7 @@ samples 2.5 >two.csv
 samples 1 >one.csv
 
 expect 0 '2 regions' two.csv --boundary boundary.csv --dendrogram tree.csv --svg tree.svg \
-  --model model.csv -o classified.csv
+  --write-model model.csv -o classified.csv
 [[ $(sed -n '/^[^#]/{p;q}' classified.csv) == x,y,z,E,nu,E_std,nu_std,n,region,site ]] ||
   complain 'columns of the samples'
 awk -F, '!/^[#x]/ { if ($9 != ($2 > 0.1 + 0.7 * ($1 - 0.06))) wrong = 1 } END { exit wrong }' \

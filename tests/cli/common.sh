@@ -1,4 +1,5 @@
 # Sourced by scratch.sh and tool.sh.
+flat() { tr -s "\n " " " <"$1"; } # FILE: what is wrapped at 80 columns, in one line
 need() { # PROGRAM...: what run-tests.sh installs; without it the test fails
   local program
   for program in "$@"; do

@@ -20,7 +20,7 @@ recording 1 >data.csv
 recording 1.2 | sed 's/,note$//; s/,a$//' >stiff.csv
 
 expect 0 'too stiff by 20 %' data.csv --simulated stiff.csv
-expect 0 'rmse' data.csv --simulated stiff.csv -o residuals.csv
+expect 0 ' x noise' data.csv --simulated stiff.csv -o residuals.csv
 [[ $(sed -n 2p residuals.csv) == press,t,x,y,z,ux,uy,uz,fx,fy,fz,note,sx,sy,sz,rx,ry,rz ]] ||
   complain 'columns of the residuals'
 "$tool" -q data.csv --simulated - <stiff.csv | cmp -s - residuals.csv ||
@@ -37,7 +37,7 @@ expect 2 '--simulated' data.csv
 expect 2 'add --body' data.csv --simulated stiff.csv --ply surface.ply
 
 rm -f ./*.html ./*.json residuals.csv
-expect 0 'plain: rmse' data.csv --simulated plain=data.csv --simulated stiff=stiff.csv --html r.html \
+expect 0 'plain: ' data.csv --simulated plain=data.csv --simulated stiff=stiff.csv --html r.html \
   --json r.json -o residuals.csv --title '<b>title</b>'
 grep -q '&lt;b&gt;title' r.html || complain 'the title is escaped'
 grep -q '"rmse"' r.json || complain 'JSON has the rmse'

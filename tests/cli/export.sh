@@ -23,16 +23,16 @@ export_to() { # CODE TEXT FORMAT MODEL ARGUMENTS...
   shift 4
   "$bin/hs-export" $model --format $format --body "${body:-body.ply}" --data motion.csv "$@" >out 2>err
   local got=$?
-  ((got == wanted)) && grep -qF -- "$text" err || complain "$got: hs-export $model --format $format $*"
+  ((got == wanted)) && flat err | grep -qF -- "$text" || complain "$got: hs-export $model --format $format $*"
   ((wanted == 0)) || [[ ! -s out && $(wc -l <err) == 1 ]] || complain 'a refusal is one line and no file'
 }
 well_formed() { xmllint --noout out 2>err || complain "$1 is XML"; } # the file out
 need xmllint
 export_to 0 'order 1, 20 steps' calculix elastic.csv
-grep -q 'nodes under the tool: this mesh is' err || complain 'what the mesh does under the tool is said'
+flat err | grep -q 'nodes under the tool: this mesh is' || complain 'what the mesh does under the tool is said'
 sed 's/^# tool_radius: 0.006/# tool_radius: 0.001/' motion.csv >small.csv
 "$bin/hs-export" elastic.csv --format calculix --body body.ply --data small.csv -o small.inp 2>err
-grep -q 'warning: [0-9]* nodes* under the tool: this mesh is too coarse there, [0-9]* % s' err || complain 'a coarse deck is a warning'
+flat err | grep -q 'warning: [0-9]* nodes* under the tool: this mesh is too coarse there, [0-9]* % s' || complain 'a coarse deck is a warning'
 [[ $(grep -c '^\*STEP' out) == 20 ]] && grep -q '^TOOL, 3, 3, -1.2' out || complain 'the deepest row is a step'
 awk -F, '/^\*NODE,/ { n = 1; next } /^\*/ { n = 0 } n && (length($2) > 20 || length($4) > 21) { exit 1 }' out ||
   complain 'a field of CalculiX has 20 characters at most'

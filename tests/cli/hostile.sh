@@ -55,7 +55,7 @@ device,box.ply,/dev/zero,--folds 0,--rim-edge 0.3,
 CSV
 batch && complain 'hostile rows, and all is well'
 [[ $(cat victim.txt) == whole && ! -e /tmp/hapsim-victim && ! -e new.db ]] || complain 'a file was overwritten or made'
-grep -q 'hs-batch: 2 of 9 recordings done, 7 failed$' err || complain 'the two that are good are done'
+grep -q '✗ 2 of 9 recordings done, 7 failed$' err || complain 'the two that are good are done'
 [[ -s out/recordings/good/files/h.csv ]] || complain 'what options write stands in the own folder'
 for line in "failed: history: all.csv:4: the options write outside the recording's own folder: --history ../../../victim.txt" \
   "failed: absolute: all.csv:5: the options write outside" \

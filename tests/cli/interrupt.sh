@@ -54,7 +54,7 @@ done_then=$(sed -n 's/^# search: \([0-9]*\) .*/\1/p' m2.csv)
 ((done_then > done_first)) || complain "the search goes on: $done_first, then $done_then"
 # To its end: the mark is gone.
 sed "s/^# search: .*/# search: 99990 of 100000 starts, seed 3/" m2.csv >nearly.csv
-expect 0 'viscoelastic tau2' data.csv "${common[@]}" --model nearly.csv --resume -o m3.csv
+expect 0 ', tau2 = ' data.csv "${common[@]}" --model nearly.csv --resume -o m3.csv
 ! grep -q 'converged\|search' m3.csv || complain 'a finished search has no mark'
 expect 2 'm3.csv is no model of an interrupted search' data.csv "${common[@]}" --model m3.csv --resume
 expect 2 '--resume needs the model' data.csv "${common[@]}" --resume
@@ -79,7 +79,7 @@ ended
 saved=$(sed -n 's/^# search: \([0-9]*\) of 100000 starts, seed 3/\1/p' m.csv.search)
 ((saved > 0)) || complain 'what was saved says how far it is'
 sed "s/^# search: .*/# search: 99990 of 100000 starts, seed 3/" m.csv.search >m.csv && mv m.csv m.csv.search
-expect 0 'viscoelastic tau2' data.csv "${common[@]}" --model m.csv.search --resume -o m.csv
+expect 0 ', tau2 = ' data.csv "${common[@]}" --model m.csv.search --resume -o m.csv
 [[ -e m.csv && ! -e m.csv.search ]] || complain 'what was saved is of no use any more'
 
 # While the model is improved: a signal that comes once the diagnosis has begun. Rows enough that it

@@ -34,7 +34,7 @@ common=(--body body.ply --rim-edge 0.3 --noise 0.002)
 hs-identify -q data.csv "${common[@]}" --fix nu=0.4 --folds 0 --locations samples.csv -o m0.csv ||
   complain 'location samples'
 expect 0 '2 regions' samples.csv --body body.ply --labels regions.ply --boundary boundary.csv \
-  --key-points 5 --model start.csv -o classified.csv
+  --key-points 5 --write-model start.csv -o classified.csv
 awk -F, '!/^[#x]/ { y = 0.04 + 0.15 * ($1 - 0.03)
   if ($9 != ($2 > y)) wrong = 1; ++n } END { exit wrong || n != 8 }' \
   classified.csv || complain 'each position has its region'

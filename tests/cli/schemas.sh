@@ -1,6 +1,5 @@
 #!/usr/bin/env bash
-# schemas.sh BIN: what each tool writes with --json is what its schema in share/schemas says, and nothing else. Every
-# tool that has --json has a schema.
+# schemas.sh BIN: what each tool writes with --json is what its schema in share/schemas says, and nothing else.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/scratch.sh" "$1"
 /usr/bin/python3 -c 'import jsonschema' || { echo 'schemas: python3-jsonschema is missing (share/install-deps.sh --tests)' >&2; exit 1; }
@@ -50,7 +49,8 @@ sed 's/"rows": [0-9]*/"rows": "many"/' compared-null.json >other.json && refused
 
 for tool in "$bin"/hs-*; do
   name=$(basename "$tool")
-  "$tool" --help | grep -q -- '^ *--json ' && [[ " $validated " != *" $name "* ]] && complain "$name: its --json has no schema that is tested"
+  # screens.sh tries those without a schema of their own.
+  [[ -e $root/share/schemas/$name.schema.json && " $validated " != *" $name "* ]] && complain "$name: its --json is not tested"
 done
 ((failures == 0)) && echo 'schemas: passed'
 exit $((failures > 0))

@@ -34,7 +34,7 @@ for order in 1 2; do
   common=(motion.csv --body body$order.ply --model model.csv --own-mesh)
   for solver in direct iterative; do
     "$bin/hs-simulate" "${common[@]}" --solver $solver -o $solver.csv 2>err || complain "$solver failed"
-    grep -q 'right-hand sides' err || complain 'the solver is not told'
+    flat err | grep -q 'right-hand sides' || complain 'the solver is not told'
   done
   same direct.csv iterative.csv 1e-7 || complain "the solvers differ, order $order"
 done
@@ -58,7 +58,7 @@ refuse() { # CODE TEXT ARGUMENTS...
   shift 2
   "$bin/hs-simulate" "$@" >/dev/null 2>err
   got=$?
-  ((got == code)) && grep -qF -- "$text" err || complain "exit $got, not $code with '$text': $*"
+  ((got == code)) && flat err | grep -qF -- "$text" || complain "exit $got, not $code with '$text': $*"
 }
 refuse 2 "no row '43'" "${common[@]}" --vtu x --rows 43
 refuse 2 'add --own-mesh' motion.csv --body body1.ply --model model.csv --vtu x

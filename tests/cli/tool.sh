@@ -21,6 +21,6 @@ expect() {
   "$tool" "$@" >.out 2>.err </dev/null
   local got=$?
   ((got == code)) || complain "exit code $got, not $code: $name $*"
-  grep -qF -- "$text" .err || complain "'$text' is not told by: $name $*"
+  flat .err | grep -qF -- "$text" || complain "'$text' is not told by: $name $*"
   [[ $code != [235] ]] || [[ $(wc -l <.err) == 1 ]] || complain "not one line: $name $*"
 }

@@ -15,8 +15,8 @@ done
 
 quietly cmake --install "$build" --prefix "$prefix"
 rm -f "$prefix/log"
-tools=("$build"/bin/hs-*)
-[[ -e ${tools[0]} ]] || fail "no tool was built"
+tools=("$build"/bin/hs "$build"/bin/hs-*)
+[[ -e ${tools[0]} && -e ${tools[1]} ]] || fail "no tool was built"
 version=$(sed -n 's/^project(hapsim VERSION \([0-9.]*\).*/\1/p' "$root/CMakeLists.txt")
 for tool in "${tools[@]}"; do
   name=$(basename "$tool")
@@ -38,7 +38,7 @@ done
 [[ $(bash -c "source '$prefix/share/bash-completion/completions/hs-identify'
   COMP_WORDS=(hs-identify --robust t) COMP_CWORD=2; _hs_identify; echo \"\${COMPREPLY[*]}\"") == tukey ]] ||
   fail "bash does not complete a choice"
-[[ -z $(find "$prefix" -type f ! -path '*/bin/hs-*' ! -path '*/share/*' ! -path '*/include/hapsim/*' \
+[[ -z $(find "$prefix" -type f ! -path '*/bin/hs' ! -path '*/bin/hs-*' ! -path '*/share/*' ! -path '*/include/hapsim/*' \
   ! -path '*/lib*/*') ]] || fail "something was installed outside bin, share, include and lib"
 # Taken whole first: a grep that stops at its first match would end make by a closed pipe.
 steps=$(make -n -f "$prefix/share/hapsim/Makefile.pipeline" OUT=out report)

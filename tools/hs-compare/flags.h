@@ -7,7 +7,7 @@ namespace hapsim {
 
 namespace flag {
 inline constexpr FileFlag simulated{"--simulated"}, html{"--html"}, figures{"--figures"},
-    json{"--json"}, ply{"--ply"}, history{"--history"}, diagnosis{"--diagnosis"}, junit{"--junit"},
+    ply{"--ply"}, history{"--history"}, diagnosis{"--diagnosis"}, junit{"--junit"},
     events{"--events"};
 inline constexpr LengthFlag reach{"--reach"};
 inline constexpr TextFlag title{"--title"}, fail_above{"--fail-above"};

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/shell_words.h"
+#include "cli/tell.h"
 #include "compare/comparison_report.h"
 #include "compare/error_limit.h"
 #include "compare/error_surface.h"
@@ -61,6 +63,18 @@ ReportExtras read_extras(const Arguments& arguments) {
   return extras;
 }
 
+// A diagnosis of the model; what was not given stands in capitals. "" where there is no file of the
+// data.
+std::string next_command(const Arguments& arguments) {
+  if (arguments.input() == "-") return "";
+  const auto given = [&](const FileFlag& flag, const char* otherwise) {
+    return arguments.given(flag) ? shell_quoted(arguments[flag]) : otherwise;
+  };
+  return "hs-diagnose " + shell_quoted(arguments.input()) + " --body " +
+         given(flag::body, "BODY.ply") + " --model " + given(flag::model, "MODEL.csv") +
+         " -o effects.csv";
+}
+
 int run(const Arguments& arguments) {
   if (arguments[flag::follow]) return run_follow(arguments);
   for (const Option& option : follow_flags())
@@ -112,8 +126,10 @@ int run(const Arguments& arguments) {
   for (const auto& output : outputs) output->stream().flush();
   std::for_each(outputs.rbegin(), outputs.rend(), [](auto& output) { output->commit(); });
 
-  for (const std::string& line : summary_lines(c, measured, versions))
-    say(arguments, "hs-compare", line);
+  Summary summary = comparison_summary(c, measured, versions);
+  summary.next = next_command(arguments);
+  if (arguments.given(flag::html)) summary.details = "The report: " + arguments.text(flag::html);
+  say_summary(arguments, summary);
   if (!arguments.given(flag::fail_above)) return 0;
   const std::string excess = excess_over(limit, c, measured.name);
   if (arguments.given(flag::junit)) {

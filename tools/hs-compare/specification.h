@@ -11,6 +11,7 @@ namespace hapsim {
 inline ToolSpec compare_specification() {
   ToolSpec spec;
   spec.name = "hs-compare";
+  spec.task = Task::kModel;
   spec.summary = "measured against simulated forces, and what the difference depends on";
   spec.input = "measured recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
   spec.description = {

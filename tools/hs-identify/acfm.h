@@ -5,7 +5,10 @@
 
 #include "acfm/acfm_fit.h"
 #include "acfm/acfm_record.h"
+#include "acfm/acfm_summary.h"
+#include "answer.h"
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "common_options.h"
 #include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
@@ -44,11 +47,14 @@ inline int run_acfm(const Arguments& arguments) {
   options.noise = noise.value;
   AcfmFit fit = fit_acfm(dataset, normals, options);
   record_fit(fit, dataset, noise);
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   write_acfm(output.stream(), fit.model);
   output.commit();
-  for (const std::string& line : fit_lines(fit, dataset, noise))
-    say(arguments, "hs-identify", line);
+  Summary summary = acfm_summary(fit, dataset, noise);
+  if (arguments.output() != "-" && arguments.input() != "-")
+    summary.next = fmt::format("hs-simulate {} --model {} -o forces.csv",
+                               shell_quoted(arguments.input()), shell_quoted(arguments.output()));
+  tell_answer(arguments, summary);
   return 0;
 }
 

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <span>
 
+#include "answer.h"
 #include "base/error.h"
 #include "base/shell_words.h"
-#include "cli/summary.h"
 #include "common_options.h"
 #include "diagnose/improve.h"
 #include "diagnose/wording.h"
@@ -80,7 +80,7 @@ int write_unfinished(const Arguments& arguments, const FitRequest& plan, const E
   state.done = result.starts_done;
   record_fit(result, plan.start.metadata, w);
   mark_unfinished(result.model, state);
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   write_model(output.stream(), result.model);
   output.commit();
   saved.finish();
@@ -211,11 +211,11 @@ int run(const Arguments& arguments) {
     model.metadata.set("heldout_by", folds.by);
   }
   if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
-  for (const std::string& line : fit_lines(w, result, held_out, folds.by, force_rms))
-    say(arguments, "hs-identify", line);
+  Summary summary = fit_summary(w, result, held_out, folds.by, force_rms);
   if (arguments.verbose()) say(arguments, "hs-identify", "BLAS: " + blas_name());
-  rest.tell(result, w);
-  Output output(arguments.output());
+  if (const std::string later = rest.tell(result, w); !later.empty())
+    summary.notes.push_back(later);
+  Output output(result_file(arguments));
   write_model(output.stream(), model);
   if (arguments.given(flag::locations) && cut_short.empty()) {
     Output locations(arguments[flag::locations]);
@@ -237,10 +237,11 @@ int run(const Arguments& arguments) {
   if (arguments.given(flag::history))
     add_history(arguments[flag::history],
                 history_row(arguments.output(), result, held_out, w.noise.value, force_rms));
+  if (cut_short.empty()) summary.next = next_command(arguments, plan);
+  tell_answer(arguments, summary);
   if (!cut_short.empty())
     fail_numerics(w.dataset.recording.name, "interrupted while " + cut_short,
                   "the model that was fitted is written: go on from it with --model");
-  say_next(arguments, next_command(arguments, plan));
   return 0;
 }
 

@@ -1,6 +1,7 @@
 // The command line of hs-identify.
 #pragma once
 
+#include "answer.h"
 #include "common_options.h"
 #include "effects/catalogue.h"
 #include "hs-identify/boundary.h"
@@ -31,6 +32,7 @@ inline std::string unshared(bool EffectCard::*of_one) {
 inline ToolSpec identify_specification() {
   ToolSpec spec;
   spec.name = "hs-identify";
+  spec.task = Task::kModel;
   spec.summary = "identify a model from a recording of presses";
   spec.input = "recording CSV (press,t,x,y,z,ux,uy,uz,fx,fy,fz)";
   spec.description = {
@@ -179,6 +181,7 @@ inline ToolSpec identify_specification() {
        .group = "Output"}};
   for (const auto& more : {recording_flags(), own, search_flags(), library_flags(), follow_flags()})
     spec.options.insert(spec.options.end(), more.begin(), more.end());
+  spec.options.push_back(answer_option("Output"));
   spec.tables = {
       {"Model (output)",
        {{"effect", "name in the catalogue, see hs-effects(7)"},

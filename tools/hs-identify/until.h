@@ -29,7 +29,7 @@ inline Option until_flag() {
 // Cuts the recordings; keeps them whole for the error on what comes later.
 class RestOfPress {
  public:
-  RestOfPress(const Arguments& arguments, GivenRecordings& given) : arguments_(arguments) {
+  RestOfPress(const Arguments& arguments, GivenRecordings& given) {
     if (!arguments.given(flag::until)) return;
     seconds_ = arguments[flag::until];
     Recording beginning =
@@ -38,9 +38,9 @@ class RestOfPress {
     given.dataset = make_dataset(std::move(beginning), given.setup_of_row);
   }
 
-  // Writes it into the fitted model too.
-  void tell(Fit& fitted, const Experiment& experiment) {
-    if (!whole_) return;
+  // In words, and into the fitted model; "" without --until.
+  std::string tell(Fit& fitted, const Experiment& experiment) {
+    if (!whole_) return "";
     Model& model = fitted.model;
     std::vector<std::size_t> kept;  // places at which the tool fits
     for (std::size_t p = 0; p < whole_->positions.size(); ++p)
@@ -52,11 +52,10 @@ class RestOfPress {
     whole_.reset();
     model.metadata.set("until", format_number(seconds_));
     model.metadata.set("heldout_later", format_number(error.rmse));
-    say(arguments_, "hs-identify", later_words(error, seconds_));
+    return later_words(error, seconds_);
   }
 
  private:
-  const Arguments& arguments_;
   double seconds_ = 0;
   std::optional<Dataset> whole_;
 };

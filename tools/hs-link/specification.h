@@ -12,6 +12,7 @@ namespace hapsim {
 inline ToolSpec link_specification() {
   ToolSpec spec;
   spec.name = "hs-link";
+  spec.task = Task::kForces;
   spec.summary = "telepresence: an operator and a teleoperator over UDP";
   spec.input = "operator: motion (press,t,x,y,z,ux,uy,uz[,contact]), a line a sample";
   spec.description = {

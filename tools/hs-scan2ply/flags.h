@@ -21,7 +21,7 @@ inline constexpr SwitchFlag keep_outliers{"--keep-outliers"}, ascii{"--ascii"},
     all_parts{"--all-parts"}, cavities{"--cavities"}, sections{"--sections"};
 inline constexpr TextFlag fix_zone{"--fix-zone"}, root{"--root"}, tip{"--tip-link"}, beam{"--beam"};
 inline constexpr ChoiceFlag unit{"--unit"}, angle_unit{"--angle-unit"}, plan{"--scan-plan"};
-inline constexpr FileFlag json{"--json"}, zone{"--zone"}, robot{"--robot"};
+inline constexpr FileFlag zone{"--zone"}, robot{"--robot"};
 }  // namespace flag
 
 }  // namespace hapsim

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "base/units.h"
-#include "cli/tool.h"
+#include "cli/tell.h"
 #include "formats/format_table.h"
 #include "hs-scan2ply/flags.h"
 #include "hs-scan2ply/specification.h"
@@ -120,7 +121,7 @@ int run_plan(const Arguments& arguments, const ScanFileOptions& file) {
                   fmt::format("none of {} places can be reached", targets.size()),
                   "check --object-frame, --tip-link, --mount and --area");
   }
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   write_plan(output.stream(), *file.robot, targets, plan, standoff);
   output.commit();
   say(arguments, kTool,
@@ -262,13 +263,16 @@ int run(const Arguments& arguments) {
     report.write(scan_json(record));
     report.commit();
   }
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   format_to_write(arguments.output(), Content::kPoints)
       .write_points(output.stream(), clean,
                     {.ascii = arguments[flag::ascii],
                      .comments = {"hs-scan2ply: points in m, read in " + unit}});
   output.commit();
-  say(arguments, kTool, points_words(record, record.volume ? "the volume's frame" : unit));
+  Summary summary = points_summary(record, record.volume ? "the volume's frame" : unit);
+  if (arguments.output() != "-")
+    summary.next = "hs-reconstruct " + shell_quoted(arguments.output()) + " -o surface.ply";
+  say_summary(arguments, summary);
   return 0;
 }
 

@@ -122,6 +122,7 @@ inline std::vector<Option> scan2ply_options() {
 inline ToolSpec scan2ply_specification() {
   ToolSpec spec;
   spec.name = kTool;
+  spec.task = Task::kBody;
   spec.summary = "clean points with normals from scans, robots and CT";
   spec.input = "scan: " + names_to_read(Content::kPoints) +
                " (rows of numbers); joint angles (--robot); sections; a "

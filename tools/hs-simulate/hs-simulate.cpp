@@ -5,8 +5,11 @@
 #include <span>
 
 #include "acfm/acfm_fit.h"
+#include "answer.h"
+#include "base/counted.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "base/shell_words.h"
 #include "common_options.h"
 #include "experiment/forces.h"
 #include "hs-simulate/flags.h"
@@ -45,9 +48,28 @@ void write_simulated(const Arguments& arguments, const std::string& label, Recor
     out.metadata.set("force_noise", format_number(noise));
     out.metadata.set("seed", arguments.text(flag::seed));
   }
-  Output output(arguments.output());
+  Output output(result_file(arguments));
   write_recording(output.stream(), out);
   output.commit();
+}
+
+// Forces of how many rows, and a comparison with what was measured, where the motion has that.
+Summary simulated_summary(const Arguments& arguments, std::size_t rows, const std::string& label,
+                          bool measured) {
+  Summary s;
+  s.verdict = fmt::format("{}: forces of {}",
+                          arguments.input() == "-" ? "standard input" : arguments.input(), label);
+  s.size = counted(static_cast<std::ptrdiff_t>(rows), "row", "rows");
+  s.values = {{"rows", static_cast<double>(rows), "1"}};
+  if (!measured || arguments.output() == "-" || arguments.input() == "-" ||
+      arguments.given(flag::add_noise))
+    return s;
+  s.next = fmt::format("hs-compare {} --simulated {}", shell_quoted(arguments.input()),
+                       shell_quoted(arguments.output()));
+  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model})
+    if (arguments.given(flag)) s.next += " " + flag + " " + shell_quoted(arguments.text(flag));
+  s.next += " --html report.html -o residuals.csv";
+  return s;
 }
 
 void write_forces(const Arguments& arguments, const Model& model, Dataset dataset,
@@ -70,6 +92,7 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
   options.force_control = arguments[flag::force_control];
   if (arguments.given(flag::rim_edge)) options.rim_edge = arguments[flag::rim_edge];
   Recording out = load_recording(arguments, arguments.input(), options.force_control);
+  const bool measured = !out.f.empty();
   if (!options.force_control) say_beyond(arguments, press_depth(body, out), model);
   Progress progress(arguments, "rows", out.rows());
   options.step = [&progress](std::size_t rows) { progress.step(rows); };
@@ -77,9 +100,16 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
   out.f = std::move(result.force);
   out.u = std::move(result.motion);
   write_simulated(arguments, effects_label(model), out);
-  say(arguments, "hs-simulate",
-      fmt::format("{} rows by finite elements, up to {} unknowns, {} Newton steps, model {}",
-                  out.rows(), result.unknowns, result.newton_steps, effects_label(model)));
+  Summary summary = simulated_summary(arguments, out.rows(), effects_label(model),
+                                      measured && !options.force_control);
+  summary.items = {{"SOLVED",
+                    "",
+                    "",
+                    {fmt::format("{} rows by finite elements, up to {} unknowns, {} Newton steps",
+                                 out.rows(), result.unknowns, result.newton_steps)}}};
+  summary.values.push_back({"unknowns", static_cast<double>(result.unknowns), "1"});
+  summary.values.push_back({"newton_steps", static_cast<double>(result.newton_steps), "1"});
+  tell_answer(arguments, summary);
   return 0;
 }
 
@@ -111,10 +141,18 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
     body.write_field(output.stream(), dataset.episodes[row.episode], row.sample);
     output.commit();
   }
-  say(arguments, "hs-simulate",
-      fmt::format("{} rows, {} positions on {} tetrahedra, {} nodes under the tool; {}",
-                  dataset.rows(), dataset.positions.size(), mesh.tets.size(), body.patch_size(0),
-                  body.solver().why));
+  Summary summary = simulated_summary(arguments, dataset.rows(), effects_label(model),
+                                      !dataset.recording.f.empty());
+  summary.items = {
+      {"SOLVED",
+       "",
+       "",
+       {fmt::format("{} rows, {} positions on {} tetrahedra, {} nodes under the tool; {}",
+                    dataset.rows(), dataset.positions.size(), mesh.tets.size(), body.patch_size(0),
+                    body.solver().why)}}};
+  summary.values.push_back({"positions", static_cast<double>(dataset.positions.size()), "1"});
+  summary.values.push_back({"nodes_under_tool", static_cast<double>(body.patch_size(0)), "1"});
+  tell_answer(arguments, summary);
   return 0;
 }
 
@@ -149,13 +187,23 @@ int run_acfm(const Arguments& arguments, const Acfm& model) {
   Recording out = dataset.recording;
   out.f = acfm_forces(model, dataset);
   write_simulated(arguments, "acfm", out);
-  say(arguments, "hs-simulate",
-      fmt::format("{} rows, {} positions, from {} sub-models of {} Maxwell elements a direction",
-                  dataset.rows(), dataset.positions.size(), model.positions.size(), model.terms));
+  Summary summary =
+      simulated_summary(arguments, dataset.rows(), "acfm", !dataset.recording.f.empty());
+  summary.items = {
+      {"SOLVED",
+       "",
+       "",
+       {fmt::format("{} rows, {} positions, from {} sub-models of {} Maxwell elements a direction",
+                    dataset.rows(), dataset.positions.size(), model.positions.size(),
+                    model.terms)}}};
+  summary.values.push_back({"positions", static_cast<double>(dataset.positions.size()), "1"});
+  tell_answer(arguments, summary);
   return 0;
 }
 
 int run(const Arguments& arguments) {
+  if (arguments.given(flag::json) && arguments[flag::live])
+    fail_usage("--json is of the batch mode", "leave out --live or --json");
   if (arguments[flag::own_mesh] && arguments[flag::live])
     fail_usage("--own-mesh is of the batch mode", "leave out --live or --own-mesh");
   if (arguments[flag::full] && arguments[flag::live])
@@ -206,12 +254,19 @@ int run(const Arguments& arguments) {
   say_beyond(arguments, w.depth, model);
   say_together(arguments, "hs-simulate", w.dataset.recording);
   const double uncertainty = w.places.mesh_uncertainty();
-  const std::string words =
-      fmt::format("{} rows, {} positions, model {}, mesh uncertainty {:.2f} %", w.dataset.rows(),
-                  w.dataset.positions.size(), effects_label(model), 100 * uncertainty);
+  Summary summary = simulated_summary(arguments, w.dataset.rows(), effects_label(model),
+                                      !w.dataset.recording.f.empty());
+  summary.items = {
+      {"SOLVED",
+       "",
+       "",
+       {fmt::format("{} rows, {} positions, each on its own graded mesh; mesh uncertainty {:.2f} %",
+                    w.dataset.rows(), w.dataset.positions.size(), 100 * uncertainty)}}};
+  summary.values.push_back({"positions", static_cast<double>(w.dataset.positions.size()), "1"});
+  summary.values.push_back({"mesh_uncertainty", uncertainty, "1"});
   const Eigen::VectorXd f = contact_mesh_forces(arguments, model, w, all);
   write_forces(arguments, model, std::move(w.dataset), all, f, uncertainty);
-  say(arguments, "hs-simulate", words);
+  tell_answer(arguments, summary);
   return 0;
 }
 

@@ -1,6 +1,7 @@
 // The command line of hs-simulate.
 #pragma once
 
+#include "answer.h"
 #include "common_options.h"
 #include "hs-simulate/flags.h"
 #include "prepared_options.h"
@@ -10,6 +11,7 @@ namespace hapsim {
 inline ToolSpec simulate_specification() {
   ToolSpec spec;
   spec.name = "hs-simulate";
+  spec.task = Task::kForces;
   spec.summary = "contact forces of a model along a motion";
   spec.input = "motion or recording CSV (press,t,x,y,z,ux,uy,uz; forces in it are ignored)";
   spec.description = {
@@ -193,6 +195,7 @@ inline ToolSpec simulate_specification() {
                           .minimum = 1,
                           .maximum = 4});
   for (const Option& option : hand_flags()) spec.options.push_back(option);
+  spec.options.push_back(answer_option("Output"));
   spec.examples = {
       {"hs-simulate data.csv --body body.ply --model m0.csv -o forces.csv", "Forces of a model."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated -",

@@ -13,7 +13,7 @@ inline constexpr SwitchFlag normal{"--normal"}, preserve_surface{"--preserve-sur
     remesh{"--remesh"}, ascii{"--ascii"};
 inline constexpr ChoiceFlag order{"--order"}, gmsh_version{"--gmsh-version"};
 inline constexpr FileFlag curved_to{"--curved-to"}, region{"--region"}, contacts{"--contacts"},
-    vtu{"--vtu"}, gmsh{"--gmsh"}, inp{"--inp"}, json{"--json"};
+    vtu{"--vtu"}, gmsh{"--gmsh"}, inp{"--inp"};
 inline constexpr TextFlag fixed{"--fixed"}, contact_meshes{"--contact-meshes"}, unit{"--unit"},
     tetgen{"--tetgen"};
 inline constexpr TimeFlag time_limit{"--time-limit"};

@@ -4,8 +4,9 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/shell_words.h"
 #include "base/units.h"
-#include "cli/tool.h"
+#include "cli/tell.h"
 #include "formats/body_input.h"
 #include "formats/format_table.h"
 #include "hs-tetmesh/flags.h"
@@ -23,6 +24,7 @@ constexpr const char* kName = "hs-tetmesh";
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = kName;
+  spec.task = Task::kBody;
   spec.summary = "fill a closed surface with tetrahedra";
   spec.input = "surface, closed: " + names_to_read(Content::kTriangles) +
                "; or a mesh: " + names_to_read(Content::kTetrahedra);
@@ -298,7 +300,7 @@ void write_all(const Arguments& arguments, const TetMesh& mesh, const TetQuality
   }
   if (arguments.given(flag::json)) open(arguments[flag::json]) << body_json(mesh, quality, report);
   format_to_write(arguments.output(), Content::kTetrahedra)
-      .write_mesh(open(arguments.output()), mesh,
+      .write_mesh(open(result_file(arguments)), mesh,
                   {.ascii = arguments[flag::ascii],
                    .comments = window.empty() ? std::vector<std::string>{}
                                               : std::vector<std::string>{window_comment(window)},
@@ -351,9 +353,10 @@ int run(const Arguments& arguments) {
                   "mesh with another --edge");
   write_contact_meshes(arguments, mesh, options);
   write_all(arguments, mesh, quality, report, input.window);
-  for (const std::string& line :
-       body_lines(mesh, quality, report, arguments[flag::unit], arguments.verbose()))
-    say(arguments, kName, line);
+  Summary summary = body_summary(mesh, quality, report, arguments[flag::unit], arguments.verbose());
+  if (arguments.output() != "-")
+    summary.next = "hs-identify data.csv --body " + shell_quoted(arguments.output()) + " -o m0.csv";
+  say_summary(arguments, summary);
   return 0;
 }
 

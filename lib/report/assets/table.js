@@ -1,5 +1,5 @@
-// The head of a column sorts the table by it, by click or key; again it turns the order round. A word in
-// the filter leaves the rows that have it.
+// The head of a column sorts the table by it, by click or key; again it turns the order round. The filter
+// leaves the rows that have, for each of its words, a word that begins so: "complete" is not "incomplete".
 for (const table of document.querySelectorAll("table.sortable")) {
   const body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
   heads.forEach((head, column) => {
@@ -21,10 +21,12 @@ for (const table of document.querySelectorAll("table.sortable")) {
   });
   const filter = document.getElementById("filter"), count = document.getElementById("count");
   filter.addEventListener("input", () => {
-    const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const words = filter.value.toLowerCase().split(/\s+/).filter(Boolean).map(
+      w => new RegExp("(?<![\\p{L}\\p{N}])" + w.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"), "u"));
     let shown = 0;
     for (const row of body.rows) {
-      row.hidden = !words.every(w => row.textContent.toLowerCase().includes(w));
+      const text = [...row.cells].map(cell => cell.textContent).join(" ").toLowerCase();
+      row.hidden = !words.every(w => w.test(text));
       shown += !row.hidden;
     }
     count.textContent = shown + " of " + body.rows.length;

@@ -32,23 +32,21 @@ awk 'BEGIN {
   }
 }' >motion.csv
 hs-simulate motion.csv --body block.ply --model foam.csv --rim-edge 0.12 --add-noise 0.02 -q -o data.csv
-hs-identify data.csv --body block.ply -o elastic.csv 2>elastic.txt
-hs-identify data.csv --body block.ply --add viscoelastic -o one.csv 2>one.txt
-hs-identify data.csv --body block.ply --add viscoelastic --terms auto -o auto.csv 2>auto.txt
-row() { # NAME FILE
-  awk -v name="$1" '
-    /: error [0-9]/ { for (i = 1; i <= NF; ++i) if ($i == "error") error = $(i + 1) " N = " $(i + 4) " %" }
-    /not seen by the fit/ { for (i = 1; i <= NF; ++i) if ($i == "fit") unseen = $(i + 1) " N" }
-    END { printf "%-26s %-22s %s\n", name, error, unseen }' "$2"
+hs-identify data.csv --body block.ply -q -o elastic.csv
+hs-identify data.csv --body block.ply --add viscoelastic -q -o one.csv
+hs-identify data.csv --body block.ply --add viscoelastic --terms auto -q -o auto.csv
+told() { sed -n "s/^# $2: //p" "$1"; } # MODEL WHAT
+row() { # NAME MODEL
+  printf '%-26s %-22s %s\n' "$1" "$(printf '%.4g' "$(told "$2" rmse)") N" "$(printf '%.4g' "$(told "$2" heldout)") N"
 }
 echo 'model                      error                  on unseen places'
-row 'elastic' elastic.txt
-row 'one Maxwell element' one.txt
-row 'as many as the data ask' auto.txt
+row 'elastic' elastic.csv
+row 'one Maxwell element' one.csv
+row 'as many as the data ask' auto.csv
 {
   echo 'figure,thesis,ours'
   for model in elastic one auto; do
-    sed -n "s/.*: error \([0-9.]*\) N .*/foam: error of $model [N],a curve,\1/p" $model.txt
+    echo "foam: error of $model [N],a curve,$(printf '%.4g' "$(told $model.csv rmse)")"
   done
 } >summary.csv
 # Force over time of a deep press, measured and by each model (its Fig. 6.15, 6.16).

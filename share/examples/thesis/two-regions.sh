@@ -29,12 +29,12 @@ awk 'BEGIN {
 }' >motion.csv
 hs-simulate motion.csv --body block.ply --model foams.csv --add-noise 0.05 -q -o data.csv
 hs-identify data.csv --body block.ply --add regions --regions 2 --fix nu=0.3 --folds 0 -o model.csv 2>said.txt
-grep -E '  *E |E \(region|: error' said.txt || true
+grep -E ' E |E \(region| error ' said.txt || true
 awk -F, '$1 == "regions" && $3 ~ /^y/ { ++n; right += $2 == ($4 > 0.1) }
   END { printf "places in the right region: %d of %d (the thesis: all 20)\n", right, n }' model.csv
 # The boundary by eight points, moved with the moduli until the forces fit.
 hs-identify data.csv --body block.ply --model model.csv --refine-boundary 8 --folds 0 -o boundary.csv 2>moved.txt
-grep -E '  *E |E \(region|: error [0-9.]* N =' moved.txt || true
+grep -E ' E |E \(region| error ' moved.txt || true
 # Half-way between the points of the one region and the other, inside the block: root mean square from y = 100 mm.
 off=$(awk -F, '$1 == "regions" { v[$2, $3] = $4 }
   END { for (k = 1; k <= 8; ++k) { x = v[0, "x" k]; y = (v[0, "y" k] + v[1, "y" k]) / 2
@@ -47,9 +47,9 @@ awk -v OFS=, '/^#/ { print; next } !n++ { print $0, "t"; next } { print $0, n / 
   echo 'figure,thesis,ours'
   sed -n 's/.*ready in \([0-9.e+-]*\) s:.*/two regions: made ready [s],0.395,\1/p' live.txt
   sed -n 's/.*median \([0-9.]*\) us.*/\1/p' live.txt | awk '{ printf "two regions: a force [ms],15,%.4f\n", $1 / 1000 }'
-  sed -n 's/.*: error \([0-9.]*\) N =.*/two regions: error with the boundary moved [N],0.1 to 0.3,\1/p' moved.txt
+  sed -n 's/^# rmse: \(.*\)/\1/p' boundary.csv | awk '{ printf "two regions: error with the boundary moved [N],0.1 to 0.3,%.4g\n", $1 }'
   echo "two regions: boundary off by [mm],a curve,$off"
-  sed -n 's/.*: error \([0-9.]*\) N .*/two regions: error before that [N],0.1 to 0.3,\1/p' said.txt
+  sed -n 's/^# rmse: \(.*\)/\1/p' model.csv | awk '{ printf "two regions: error before that [N],0.1 to 0.3,%.4g\n", $1 }'
   awk -F, '$1 == "regions" && $3 ~ /^y/ { ++n; right += $2 == ($4 > 0.1) }
     END { printf "two regions: places in the right one,20 of 20,%d of %d\n", right, n }' model.csv
 } >summary.csv

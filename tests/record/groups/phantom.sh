@@ -12,7 +12,7 @@ step profile 'hs-identify phantom/data.csv --body data/body.ply --model data/m1.
   hs-identify phantom/data.csv --body data/body.ply --model data/m1.csv --robust huber -o robust.csv'
 step terms 'hs-identify phantom/data.csv --body data/body.ply --add viscoelastic --terms auto -o terms.csv'
 step locations 'hs-identify phantom/plain.csv --body data/body.ply --folds 0 --locations locations.csv -o fit.csv'
-step cluster 'hs-cluster locations.csv --boundary boundary.csv --dendrogram tree.csv --svg tree.svg --model clusters.csv -o classified.csv
+step cluster 'hs-cluster locations.csv --boundary boundary.csv --dendrogram tree.csv --svg tree.svg --write-model clusters.csv -o classified.csv
   hs-cluster locations.csv --regions 2 --linkage complete --features E -o two.csv'
 
 # Every format that a mesh is written in, and read back as a mesh and as a body.

@@ -3,19 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "expect_error.h"
 #include "fit/fit_record.h"
 #include "support/synthetic.h"
+#include "support/told.h"
 
 namespace hapsim {
 namespace {
 
-bool tells(const std::vector<std::string>& lines, const std::string& text) {
-  return std::any_of(lines.begin(), lines.end(),
-                     [&](const std::string& l) { return l.find(text) != std::string::npos; });
-}
+using test::tells;
 
 TEST(FitWords, HardlyKnownIsHalfTheValueOrRange) {
   Model model = test::elastic(1e4, 0.4);
@@ -37,20 +36,42 @@ TEST(FitWords, TellErrorsAgainstForceAndNoise) {
   fitted.error.pooled = 0.02;
   fitted.residuals = 1000;
   fitted.undetermined = {"a", "b", "c", "d", "e", "f"};
-  const std::vector<std::string> lines = fit_lines(w, fitted, 0.03, "positions", 0.5);
-  EXPECT_EQ(lines.front().rfind("18 presses at 6 positions, 738 samples; noise 0.01 N", 0), 0u)
-      << lines.front();
-  EXPECT_TRUE(tells(lines, "elastic E = 1e+04 Pa ± 1e+02"));
-  EXPECT_TRUE(tells(lines, "elastic nu = 0.4  ± not estimated"));
-  EXPECT_TRUE(tells(lines, "error 0.02 N = 4 % of the force's rms, 2 x noise"));
-  EXPECT_TRUE(tells(lines, "on positions not seen by the fit 0.03 N = 6 %, 3 x noise"));
-  EXPECT_TRUE(tells(lines, "d is not determined"));
-  EXPECT_FALSE(tells(lines, "e is not determined"));
-  EXPECT_TRUE(tells(lines, "... and 2 more"));
-  EXPECT_FALSE(tells(lines, "fewer than ten force components"));
+  const Summary summary = fit_summary(w, fitted, 0.03, "positions", 0.5);
+  EXPECT_EQ(summary.mark, Summary::Mark::kOpen);
+  EXPECT_TRUE(tells(summary, "elastic fits; more than noise is left error 0.02 N = 2 x noise"))
+      << test::told(summary);
+  EXPECT_TRUE(tells(
+      summary,
+      "ERROR 4 % of the force's rms on positions not seen by the fit 0.03 N = 6 %, 3 x noise"));
+  EXPECT_TRUE(tells(summary, "VALUES elastic E = 1e+04 Pa ± 1e+02, nu = 0.4 ± not estimated"));
+  EXPECT_TRUE(tells(summary, "DATA 18 presses at 6 positions, 738 samples; noise 0.01 N"));
+  EXPECT_TRUE(tells(summary, "d is not determined"));
+  EXPECT_FALSE(tells(summary, "e is not determined"));
+  EXPECT_TRUE(tells(summary, "... and 2 more"));
+  EXPECT_FALSE(tells(summary, "fewer than ten force components"));
   fitted.residuals = 19;
-  EXPECT_TRUE(tells(fit_lines(w, fitted, 0.03, "", 0.5), "fewer than ten force components"));
-  EXPECT_FALSE(tells(fit_lines(w, fitted, 0.03, "", 0.5), "not seen by the fit"));
+  EXPECT_TRUE(tells(fit_summary(w, fitted, 0.03, "", 0.5), "fewer than ten force components"));
+  EXPECT_FALSE(tells(fit_summary(w, fitted, 0.03, "", 0.5), "not seen by the fit"));
+  fitted.error.pooled = 0.011;
+  EXPECT_EQ(fit_summary(w, fitted, 0.03, "", 0.5).mark, Summary::Mark::kGood);
+}
+
+TEST(FitWords, ProgramsGetTheNumbers) {
+  const Experiment w = test::experiment();
+  Fit fitted;
+  fitted.model = test::elastic(1e4, 0.4);
+  fitted.model.parameters[0].std_error = 100;
+  fitted.error.pooled = 0.02;
+  fitted.residuals = 1000;
+  const auto json = nlohmann::json::parse(
+      summary_json(fit_summary(w, fitted, std::nan(""), "positions", 0.5), "hs-identify"));
+  EXPECT_EQ(json["tool"], "hs-identify");
+  EXPECT_EQ(json["mark"], "open");
+  EXPECT_DOUBLE_EQ(json["values"]["elastic.E"]["value"], 1e4);
+  EXPECT_DOUBLE_EQ(json["values"]["elastic.E"]["std_error"], 100);
+  EXPECT_FALSE(json["values"]["elastic.nu"].contains("std_error"));
+  EXPECT_TRUE(json["values"]["heldout"]["value"].is_null());
+  EXPECT_EQ(json["values"]["error"]["unit"], "N");
 }
 
 TEST(FitWords, BoundariesAreToldInMillimetres) {

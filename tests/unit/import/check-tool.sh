@@ -22,7 +22,7 @@ expect() { # CODE TEXT-ON-STANDARD-ERROR COMMAND...
   [[ -z $text ]] || grep -qF -- "$text" err || { cat err; fail "standard error lacks '$text': $*"; }
 }
 
-expect 0 "1 press at 1 position," hs-import machine.csv --tool-radius 4mm --block 90x80x40mm --surface block.ply --scan scan.csv -o data.csv
+expect 0 "1 press at 1 position" hs-import machine.csv --tool-radius 4mm --block 90x80x40mm --surface block.ply --scan scan.csv -o data.csv
 [[ -s block.ply && -s scan.csv ]] || fail "--surface or --scan wrote nothing"
 grep -q '^press,t,x,y,z,ux,uy,uz,fx,fy,fz,contact$' data.csv || fail "wrong header: $(grep -v '^#' data.csv | head -n 1)"
 grep -q '^# tool_radius: 0.004$' data.csv || fail "no tool_radius"

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <sstream>
 
 #include "expect_error.h"
 #include "io/csv.h"
+#include "support/told.h"
 
 namespace hapsim {
 namespace {
@@ -29,16 +29,15 @@ ImportResult imported() {
 }
 
 TEST(ImportReport, TellsPlacesAndTheDepthInContact) {
-  EXPECT_EQ(
-      import_lines(imported()),
-      (std::vector<std::string>{
-          "a fact", "WARNING: a warning",
-          "WARNING: the tool's radius is unknown, and the other tools need it: --tool-radius",
-          "2 presses at 1 position, 3 samples (1 in the air), quasi-static; depth up to 4 mm, "
-          "force up to 1 N"}));
+  const Summary summary = import_summary(imported());
+  EXPECT_EQ(test::told(summary),
+            "? raw.csv: 2 presses at 1 position 3 samples SIZE depth up to 4 mm, force up to 1 N; "
+            "1 sample "
+            "in the air, quasi-static READ a fact WARNING: a warning WARNING: the tool's radius is "
+            "unknown, and the other tools need it: --tool-radius");
   ImportResult known = imported();
   known.recording.metadata.set("tool_radius", "0.004");
-  EXPECT_EQ(import_lines(known).size(), 3u);
+  EXPECT_EQ(import_summary(known).notes.size(), 1u);
 }
 
 TEST(ImportReport, ScansHaveNormalsWhereTheyAreKnown) {

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/told.h"
+
 namespace hapsim {
 namespace {
 
@@ -17,7 +19,9 @@ TEST(ScanRecord, HasOnlyWhatWasDone) {
   auto json = nlohmann::json::parse(scan_json(record));
   EXPECT_EQ(json.size(), 1u);
   EXPECT_EQ(json["points"]["kept"], 9);
-  EXPECT_EQ(points_words(record, "mm").rfind("10 points read in mm; removed 1 given twice", 0), 0u);
+  EXPECT_TRUE(test::tells(
+      points_summary(record, "mm"),
+      "9 of 10 points kept 2 mm apart POINTS 10 points read in mm; removed 1 given twice"));
   record.touch = TouchReport{0.001, 0.002, 0.003};
   record.volume = ScanRecord::VolumeRead{"NRRD", {4, 5, 6}, {}};
   record.volume->surface.voxels = 7;

@@ -11,6 +11,7 @@
 #include "formats/surface_io.h"
 #include "mesh/quality.h"
 #include "support/shapes.h"
+#include "support/told.h"
 #include "tetmesh/body_mesh.h"
 #include "tetmesh/body_words.h"
 #include "tetmesh/curve_edges.h"
@@ -382,13 +383,16 @@ TEST(BodyWords, TellTheSizesOfAMesh) {
   std::size_t counted = 0;
   for (const std::size_t n : json["aspect"]["counts"]) counted += n;
   EXPECT_EQ(counted, cube.tets.size());
-  const auto few = body_lines(cube, quality, report, "mm", false);
-  EXPECT_EQ(few.front(), "a note");
-  EXPECT_NE(few[1].find("0.00012 m^3, unit mm"), std::string::npos) << few[1];
-  EXPECT_GT(body_lines(cube, quality, report, "mm", true).size(), few.size());
+  const Summary few = body_summary(cube, quality, report, "mm", false);
+  EXPECT_TRUE(test::tells(few, "a note"));
+  EXPECT_TRUE(test::tells(few, "0.00012 m^3, unit mm")) << test::told(few);
+  EXPECT_GT(test::told(body_summary(cube, quality, report, "mm", true)).size(),
+            test::told(few).size());
   TetMesh loose = cube;
   std::fill(loose.fixed.begin(), loose.fixed.end(), 0);
-  EXPECT_EQ(body_lines(loose, quality, {}, "m", false)[1].rfind("no node fixed", 0), 0u);
+  const Summary free = body_summary(loose, quality, {}, "m", false);
+  EXPECT_EQ(free.mark, Summary::Mark::kOpen);
+  EXPECT_TRUE(test::tells(free, "no node fixed"));
 }
 
 }  // namespace
