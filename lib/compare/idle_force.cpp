@@ -102,8 +102,10 @@ std::vector<OffsetHypothesis> try_offsets(const RowFacts& facts, const std::vect
   constant.name = "offset";
   constant.p_value = smallest(mean, square / (C - 1) / C, C - 1);
   constant.sentence = fmt::format(
-      "The measured force is off by a constant {} N, pressed or not, as by a sensor's zero.",
-      newtons(mean));
+      "The measured force is off by a constant {} N, {}.", newtons(mean),
+      std::find(facts.phase.begin(), facts.phase.end(), Phase::kAir) != facts.phase.end()
+          ? "pressed or not, as by a sensor's zero"
+          : "at any depth; samples in the air would tell whether it is the sensor's zero");
   result.push_back(finish(std::move(constant), std::vector<Vec3>(measured.size(), mean), measured,
                           simulated, chance));
 

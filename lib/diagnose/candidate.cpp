@@ -12,22 +12,36 @@
 #include "estimate/probability.h"
 #include "fit/learned_field.h"
 #include "fit/press_offsets.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
 
 constexpr double kMuchLess = 0.9;  // of two errors
+constexpr double kNothing = 1e-6;  // rounding alone
 
 // Parameters that the data have to pay for: free ones and offsets solved for press by press.
 double parameter_count(const Model& model) {
-  double count = static_cast<double>(model.free_parameters().size()) + field_freedom(model);
+  double count = static_cast<double>(model.free_parameters().size());
   if (const Effect* effect = offset_effect(model))
     for (const Parameter& p : model.parameters) count += p.effect == effect->card().name;
   return count;
 }
 
+// The forces without an effect that is in the fitted model, all else as it is there.
+Eigen::VectorXd forces_without(const Effect& effect, const Fit& fitted, const Baseline& base,
+                               const TrialGround& g) {
+  Model model = fitted.model;
+  remove_effect(model, effect.card().name);
+  return model_forces(model, g.experiment,
+                      g.experiment.places.estimate(material_of(model), base.fitted.about),
+                      all_episodes(g.dataset), false)
+      .f;
+}
+
 // Columns of the new parameters at the candidate's fit, and the finite change of the forces that it
-// makes; for effects made from locations one gain a position, of which any regions are sums.
+// makes, beside a field with the field as it is then; for effects made from locations one gain a
+// position, of which any regions are sums.
 Eigen::MatrixXd new_columns(const Effect& effect, const Fit& fitted, const Baseline& base,
                             const TrialGround& g) {
   const Selection all = all_episodes(g.dataset);
@@ -51,7 +65,9 @@ Eigen::MatrixXd new_columns(const Effect& effect, const Fit& fitted, const Basel
       chosen.push_back(static_cast<int>(c));
   Eigen::MatrixXd columns(signal.f.size(), static_cast<Eigen::Index>(chosen.size()) + 1);
   columns.leftCols(columns.cols() - 1) = signal.df(Eigen::all, chosen);
-  columns.rightCols<1>() = signal.f - model_forces(base.fitted, g.experiment, all, false).f;
+  columns.rightCols<1>() = signal.f - (learns_field(base.fitted.model)
+                                           ? forces_without(effect, fitted, base, g)
+                                           : model_forces(base.fitted, g.experiment, all, false).f);
   return columns;
 }
 
@@ -109,6 +125,10 @@ bool runs_like_the_force(const Model& start, const Effect& effect, const Baselin
 CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const TrialGround& g) {
   if (y.offsets) take_out_press_means(g.dataset, all_episodes(g.dataset), columns);
   y.weights.whiten(columns);
+  const Eigen::RowVectorXd whole = columns.colwise().norm();
+  y.freedom.take_out(columns);
+  for (Eigen::Index c = 0; c < columns.cols(); ++c)
+    if (columns.col(c).norm() < kNothing * whole[c]) columns.col(c).setZero();
   if (y.jacobian.cols() > 0) {
     const auto qr = y.jacobian.colPivHouseholderQr();
     columns -= y.jacobian * qr.solve(columns);
@@ -124,6 +144,23 @@ CandidateScores press_scores(Eigen::MatrixXd columns, const Yardstick& y, const 
     at += n;
   }
   return scores;
+}
+
+// Of a field, by the places that it was not learned from: each counts as one sample, for what is
+// alike within a place is no news, and the fall of its error says how much is foretold.
+void measure_by_places(const HeldOut& before, const HeldOut& after, Measured& m) {
+  std::vector<double> log_fall;
+  for (std::size_t p = 0; p < after.by_place.size(); ++p)
+    if (before.by_place[p] > 0 && after.by_place[p] > 0)
+      log_fall.push_back(std::log(before.by_place[p] / after.by_place[p]));
+  const auto n = static_cast<double>(log_fall.size());
+  if (n < 2) return;
+  const Eigen::Map<const Eigen::ArrayXd> fall(log_fall.data(),
+                                              static_cast<Eigen::Index>(log_fall.size()));
+  const double mean = fall.mean();
+  const double sd = std::sqrt((fall - mean).square().sum() / (n - 1));
+  m.criterion_gain = 2 * n * std::log(before.error.pooled / after.error.pooled);
+  m.p_value = m.p_by_size = mean > 0 ? student_two_sided(mean / sd * std::sqrt(n), n - 1) / 2 : 1;
 }
 
 }  // namespace
@@ -218,12 +255,18 @@ Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& can
   const double noise = std::max(g.allowance.noise, best);
   const Selection all = all_episodes(g.dataset);
   const Signal signal = model_forces(base.fitted, g.experiment, all, true);
-  Yardstick y{Weights(g.dataset, all, signal.f, noise, g.allowance.floor), noise,
-              measured_forces(g.dataset, all) - signal.f, signal.df,
+  const Weights weights(g.dataset, all, signal.f, noise, g.allowance.floor);
+  Yardstick y{weights,
+              noise,
+              PlaceFreedom(base.fitted, g, signal.f, weights),
+              measured_forces(g.dataset, all) - signal.f,
+              signal.df,
               offset_effect(base.fitted.model) != nullptr};
   if (y.offsets) take_out_press_means(g.dataset, all, y.jacobian);
   y.weights.whiten(y.residual);
   y.weights.whiten(y.jacobian);
+  y.freedom.take_out(y.residual);
+  y.freedom.take_out(y.jacobian);
   return y;
 }
 
@@ -240,35 +283,45 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
   Eigen::VectorXd residual =
       measured_forces(g.dataset, all) - model_forces(candidate.fitted, g.experiment, all, false).f;
   y.weights.whiten(residual);
+  y.freedom.take_out(residual);
   Measured m;
-  m.sum_of_squares = residual.squaredNorm();
-  // Which region each position belongs to is chosen by the data as well, and is paid for.
-  const double extra =
-      candidate.effect->card().is_map
-          ? static_cast<double>(g.dataset.positions.size()) - 1
-          : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model);
-  m.penalty = std::max(1.0, extra) * std::log(static_cast<double>(residual.size()));
   m.memory = autocorrelation_time(residual, g);
+  const EffectCard& card = candidate.effect->card();
+  if (card.is_field) {
+    measure_by_places(base.on_known_map, candidate.held_out, m);
+    return m;
+  }
+  // Which region each position belongs to is chosen by the data as well, and is paid for.
+  const double extra = std::max(
+      1.0, card.is_map
+               ? static_cast<double>(g.dataset.positions.size()) - 1
+               : parameter_count(candidate.fitted.model) - parameter_count(base.fitted.model));
+  const auto count = static_cast<double>(residual.size());
+  const double penalty = extra * std::log(count), before = y.residual.squaredNorm();
+  m.criterion_gain = before - residual.squaredNorm() - penalty;
   const double independent = independent_samples(residual, m.memory);
-  const double fall = y.residual.squaredNorm() / m.sum_of_squares - 1;
-  const double freedom = std::max(1.0, extra);
-  if (independent > 2 * freedom)
-    m.p_by_size = fisher_upper(fall * independent / freedom, freedom, independent);
-  if (candidate.effect->card().per_press) {
-    const Selection every = all_episodes(g.dataset);
-    const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, every, false).f;
+  if (independent > 2 * extra)
+    m.p_by_size = fisher_upper((before / residual.squaredNorm() - 1) * independent / extra, extra,
+                               independent);
+  if (card.per_press) {
+    const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
     const OffsetTest test =
-        test_offsets(g.dataset, (measured_forces(g.dataset, every) - f) / y.noise, f);
+        test_offsets(g.dataset, (measured_forces(g.dataset, all) - f) / y.noise, f);
     m.p_value = test.p_value;
-    m.sum_of_squares = y.residual.squaredNorm() - test.gain;
-    m.explained = test.gain * y.noise * y.noise / static_cast<double>(residual.size());
-    m.smallest_seen = y.noise * std::sqrt((m.penalty + 10) / static_cast<double>(residual.size()));
+    m.criterion_gain = test.gain - penalty;
+    m.explained = test.gain * y.noise * y.noise / count;
+    m.smallest_seen = y.noise * std::sqrt((penalty + 10) / count);
     return m;
   }
   m.scores = press_scores(new_columns(*candidate.effect, candidate.fitted, base, g), y, g);
-  m.scores.penalty = m.penalty;
+  m.scores.penalty = penalty;
   const double information = m.scores.information(0, 0);
-  if (information > 0) m.smallest_seen = std::sqrt((m.penalty + 10) / information);
+  if (information > 0) m.smallest_seen = std::sqrt((penalty + 10) / information);
+  if (!y.freedom.any()) return m;
+  m.hidden = m.scores.information.bottomRightCorner<1, 1>().value() < penalty;
+  const Eigen::VectorXd score = m.scores.by_group.rowwise().sum();
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> inverse(m.scores.information);
+  m.criterion_gain = score.dot(inverse.solve(score)) - penalty;
   return m;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "diagnose/diagnose.h"
+#include "diagnose/place_freedom.h"
 #include "estimate/information.h"
 #include "estimate/sign_flip.h"
 
@@ -37,15 +38,19 @@ struct Candidate {
 struct Yardstick {
   Weights weights;
   double noise = 0;          // [N]
-  Eigen::VectorXd residual;  // of the baseline, whitened
-  Eigen::MatrixXd jacobian;  // of the baseline, whitened
+  PlaceFreedom freedom;      // of the field that the baseline learns
+  Eigen::VectorXd residual;  // of the baseline, whitened, without that freedom
+  Eigen::MatrixXd jacobian;  // the same of its parameters
   bool offsets = false;      // the baseline solves for an offset of each press
 };
 
+// How much better the candidate is. Most effects are judged by the sum of squares and the number of
+// parameters; beside a field that the baseline learns by what the field cannot follow; a field by
+// the places that it has not seen, for what it spends on those it has is not counted in parameters.
 struct Measured {
-  double sum_of_squares = 0;  // of the candidate's whitened residuals
-  double penalty = 0;         // extra parameters times log n
-  double memory = 1;          // samples per independent one in the candidate's residuals
+  double criterion_gain = 0;
+  bool hidden = false;  // what it does the field or a law of each place could do as well
+  double memory = 1;    // samples per independent one in the candidate's residuals
   // Fall of the mean squared residual [N^2]; NaN: that of the fit.
   double explained = std::numeric_limits<double>::quiet_NaN();
   CandidateScores scores;  // empty when the effect has a test of its own
@@ -76,6 +81,7 @@ Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>&
                          const TrialGround& ground);
 // Over all presses.
 double autocorrelation_time(const Eigen::VectorXd& residual, const TrialGround& ground);
+// A field must have been held out.
 Measured measure(const Candidate& candidate, const Baseline& baseline, const Yardstick& yardstick,
                  const TrialGround& ground);
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "diagnose/few_presses.h"
 #include "diagnose/foretold.h"
+#include "diagnose/held_out.h"
 #include "diagnose/rivals_together.h"
 #include "diagnose/superfluous.h"
 #include "diagnose/try_effects.h"
@@ -33,19 +34,25 @@ bool learned_beats(const Finding& learned, const Finding& named) {
 // The effect to add: of those that pass the gates the one with the largest gain. Offsets of each
 // press imitate any misfit in part, at the price of many parameters, and come after all else.
 std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
-  std::size_t best = round.findings.size();
+  const std::size_t none = round.findings.size();
+  std::size_t best = none, field = none;
   const auto better = [&](std::size_t k) {
-    if (best == round.findings.size()) return true;
+    if (best == none) return true;
     const EffectCard& card = round.candidates[k].effect->card();
     const EffectCard& best_card = round.candidates[best].effect->card();
     if (card.per_press != best_card.per_press) return best_card.per_press;
-    if (card.is_field) return learned_beats(round.findings[k], round.findings[best]);
-    if (best_card.is_field) return !learned_beats(round.findings[best], round.findings[k]);
     return round.findings[k].criterion_gain > round.findings[best].criterion_gain;
   };
-  for (std::size_t k = 0; k < round.findings.size(); ++k)
-    if (passes(round.findings[k], gates, can_hold_out) && better(k)) best = k;
-  return best;
+  for (std::size_t k = 0; k < none; ++k) {
+    if (!passes(round.findings[k], gates, can_hold_out)) continue;
+    if (round.candidates[k].effect->card().is_field)
+      field = k;
+    else if (better(k))
+      best = k;
+  }
+  const bool learned =
+      field != none && (best == none || learned_beats(round.findings[field], round.findings[best]));
+  return learned ? field : best;
 }
 
 bool decided(const Finding& winner, const Finding& rival, double noise) {
@@ -62,7 +69,10 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
   for (std::size_t k = 0; k < round.findings.size(); ++k) {
     const Finding& f = round.findings[k];
     if (k == best || !passes(f, gates, can_hold_out)) continue;
-    if (round.candidates[k].effect->card().per_press || decided(winner, f, noise)) continue;
+    const EffectCard& card = round.candidates[k].effect->card();
+    if (card.per_press || decided(winner, f, noise)) continue;
+    // Best of what is unseen: best_of() has compared them.
+    if (card.is_field || round.candidates[best].effect->card().is_field) continue;
     if (contains(*round.candidates[best].effect, f.effect) ||
         contains(*round.candidates[k].effect, winner.effect))
       continue;
@@ -176,6 +186,14 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
     if (known) continue;
     Finding finding = f;
     const bool by_chance = !f.plain && f.p_value >= options.gates.p_value;
+    if (f.hidden) {
+      finding.verdict = Verdict::kNotTestable;
+      finding.evidence = finding.next_measurement =
+          "a law of the depth and a first touch of each place's own would do the same; record " +
+          f.next_measurement;
+      d.findings.push_back(finding);
+      continue;
+    }
     finding.verdict = f.criterion_gain > options.gates.criterion_gain && !by_chance &&
                               f.share >= options.gates.share
                           ? Verdict::kPossible
@@ -293,11 +311,17 @@ bool moves_body(const Model& model) {
   });
 }
 
-bool tells_of_move(const Diagnosis& d) {
-  return std::any_of(d.findings.begin(), d.findings.end(), [](const Finding& f) {
-    return require_effect(f.effect).card().moves_body &&
-           (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable);
+bool names(const Diagnosis& d, bool (*kind)(const EffectCard&)) {
+  return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
+    return (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable) &&
+           kind(require_effect(f.effect).card());
   });
+}
+
+// Stiffnesses that differ by place beyond what is allowed are no work of the shape.
+bool differs_by_place(const Model& model, const TrialGround& g) {
+  const Fit fitted = fit(model, g.experiment, all_episodes(g.dataset), trial_fit_options(g));
+  return left_over(fitted, g).kind == kBody;
 }
 
 }  // namespace
@@ -308,10 +332,15 @@ Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& all
   // Points off the surface that no move explains, of the kind that forces follow, are a wrong
   // shape: what differs by place may be its work.
   if (d.verdict == ModelVerdict::kComplete || !e.shape.plain() ||
-      e.doubted_floor <= allowance.floor || moves_body(model) || tells_of_move(d))
+      e.doubted_floor <= allowance.floor || moves_body(model) ||
+      names(d, [](const EffectCard& card) { return card.moves_body; }))
     return d;
   options.tell("the shape in doubt");
-  d = with_allowance(model, {e, {allowance.noise, e.doubted_floor}}, options);
+  const TrialGround doubted_ground(e, {allowance.noise, e.doubted_floor});
+  if (!names(d, [](const EffectCard& card) { return card.like_shape && !card.is_field; }) &&
+      differs_by_place(model, doubted_ground))
+    return d;
+  d = with_allowance(model, doubted_ground, options);
   d.shape_in_doubt = true;
   std::string doubted;
   for (Finding& f : d.findings) {

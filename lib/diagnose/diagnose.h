@@ -59,6 +59,7 @@ struct Finding {
   bool one_more_term = false;
   bool admitted = false;     // of few presses: by what is unseen
   bool every_site = false;   // regions: a stiffness that changes from position to position
+  bool hidden = false;       // a law of each place, beside a learned field, could do the same
   bool within_form = false;  // no more than an approximate law in the model may leave
   bool by_presses = false;   // held_out_* are of unseen presses: it helps no unseen position
   bool plain = false;        // large beyond chance by its size, whatever unseen positions say

@@ -126,7 +126,7 @@ void judge_gains(const Posterior& p, const Eigen::VectorXd& residual, const Grou
   if (!left.strained) return;
   const bool several = count > 2;
   const bool at_one = several && by_one < by_all && largest > kMost * sum;
-  left.kind = at_one ? "place" : several && left.common_share > kMost ? kSetUp : "body";
+  left.kind = at_one ? "place" : several && left.common_share > kMost ? kSetUp : kBody;
 }
 
 // What is beyond noise and mesh in the whitened residual and goes together from one sample to the
@@ -176,7 +176,7 @@ std::string words_of(const LeftOver& left) {
         "{}; the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
         "position confirms: press around it, a few millimetres apart",
         much, 1e3 * left.where.x(), 1e3 * left.where.y(), 1e3 * left.where.z());
-  if (left.kind == "body")
+  if (left.kind == kBody)
     return fmt::format(
         "{}, and it is a stiffness that differs by place ({}): look at the body, its shape and its "
         "support",

@@ -8,7 +8,7 @@
 
 namespace hapsim {
 
-inline constexpr const char* kSetUp = "set-up";  // LeftOver::kind
+inline constexpr const char *kSetUp = "set-up", *kBody = "body";  // LeftOver::kind
 
 // The allowance for mesh and shape error is a prior of the six gains c_p of each position
 // (experiment/weights.h), of standard deviation delta. What the forces say of them is tested: with

@@ -22,9 +22,9 @@ std::optional<Baseline> without_superfluous(const std::string& effect, const Bas
   Candidate candidate;
   candidate.effect = &require_effect(effect);
   candidate.fitted = base.fitted;
+  candidate.held_out = held_out_for(*candidate.effect, base);
   const Yardstick yardstick = make_yardstick(without, {candidate}, g);
-  const Measured m = measure(candidate, without, yardstick, g);
-  const double gain = yardstick.residual.squaredNorm() - m.sum_of_squares - m.penalty;
+  const double gain = measure(candidate, without, yardstick, g).criterion_gain;
   const double noise = g.allowance.noise * g.allowance.noise;
   const double more = without.fitted.error.pooled * without.fitted.error.pooled;
   const double fall = more - base.fitted.error.pooled * base.fitted.error.pooled;

@@ -230,11 +230,12 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
   }
   try_at_some_first(at_some_first, departures, least, base, g, options, count, round);
   refine_promising(round.candidates, base, g, options);
+  for (Candidate& c : round.candidates)
+    if (c.effect->card().is_field) hold_out(c, g, folds);
   const Yardstick yardstick = make_yardstick(base, round.candidates, g);
   std::vector<Measured> measured;
   for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, g));
   const std::vector<double> p = p_values(measured, options.flips, random);
-  const double before = yardstick.residual.squaredNorm();
   const double noise = g.allowance.noise * g.allowance.noise;
   const double by_laws = left_by_laws(base.fitted, g);
   const double beyond_noise = base.fitted.error.pooled * base.fitted.error.pooled - noise;
@@ -254,7 +255,7 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
       continue;
     }
     f.p_value = p[k];
-    f.criterion_gain = before - m.sum_of_squares - m.penalty;
+    f.criterion_gain = m.criterion_gain;
     f.memory = m.memory;
     const double fall = base.fitted.error.pooled * base.fitted.error.pooled -
                         c.fitted.error.pooled * c.fitted.error.pooled;
@@ -264,8 +265,10 @@ Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
         std::isnan(m.explained) || c.fitted.error.pooled < kLikeNoise * g.allowance.noise;
     if (beyond_noise > 0.01 * noise)
       f.share = std::clamp((all_of_it ? fall : m.explained) / beyond_noise, 0.0, 1.0);
+    f.hidden = m.hidden && f.share >= options.gates.share;
     // Refits for held-out positions cost most and only matter to what passes otherwise.
-    if (f.criterion_gain > options.gates.criterion_gain && f.share >= options.gates.share) {
+    if (!c.effect->card().is_field && f.criterion_gain > options.gates.criterion_gain &&
+        f.share >= options.gates.share) {
       options.tell(f.effect + " on unseen data");
       hold_out(c, g, folds);
       prefer_sites(c, base, g, folds);

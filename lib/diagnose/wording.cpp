@@ -62,13 +62,27 @@ std::string describe_where(const Candidate& candidate) {
 
 namespace {
 
-// A map's regions with their moduli, or the places and reach of a field.
-std::string map_words(const Candidate& candidate) {
-  if (candidate.effect->card().is_field) {
-    const PlaceField field = place_field(candidate.fitted.model);
-    return fmt::format("{} places, alike over {:.2g} mm", field.place.size(),
-                       1e3 * (field.factor.share > 0.5 ? field.factor.fine : field.factor.range));
+// The places and reach of a field, and what the depth does where that is not what the model says.
+std::string field_words(const PlaceField& field) {
+  constexpr double kPlain = 0.05;  // a tenth of the power between a disc's law and a ball's
+  const auto kernel = [](const PlaceField::Kernel& k) { return k.share > 0.5 ? k.fine : k.range; };
+  std::string text = fmt::format("{} places, alike over {:.2g} mm", field.place.size(),
+                                 1e3 * kernel(field.factor));
+  double low = field.mean_power, high = field.mean_power;
+  for (const Vec3& p : field.place) {
+    low = std::min(low, field.at(p)[1]);
+    high = std::max(high, field.at(p)[1]);
   }
+  if (std::max(std::abs(low), std::abs(high)) < kPlain) return text;
+  return text + fmt::format(
+                    "; with depth the force grows otherwise than the model says, by a "
+                    "further power of {:+.2f} ({:+.2f} to {:+.2f} by place)",
+                    field.mean_power, low, high);
+}
+
+// A map's regions with their moduli, or a field's places.
+std::string map_words(const Candidate& candidate) {
+  if (candidate.effect->card().is_field) return field_words(place_field(candidate.fitted.model));
   const MaterialSpec material = material_of(candidate.fitted.model);
   const auto [least, most] = std::minmax_element(material.modulus.begin(), material.modulus.end());
   return fmt::format("{}, E from {:.3g} to {:.3g} Pa",

@@ -35,12 +35,12 @@ class LearnedPlace : public Effect {
     static const EffectCard card{
         .name = "learned-place",
         .stage = Stage::kContact,
-        .title = "the stiffness changes smoothly from place to place",
+        .title = "the stiffness, and how it grows with depth, change smoothly from place to place",
         .equation =
-            "f = f_before exp(G(x) + H(x) ln(d/depth)), G(x) = sum_i g_i k(|x - x_i|), H alike, k "
-            "= (1 - share) m(r/range) + share m(r/fine) + nugget (r < 0.1 mm), m Matern's "
-            "correlation of order 5/2, d the depth along the normal (of a flat tool that is as "
-            "deep)",
+            "f = f_before exp(G(x) + H(x) ln(d/depth)), G(x) = sum_i g_i k(|x - x_i|), H(x) = "
+            "mean_power + sum_i h_i k(|x - x_i|), k = (1 - share) m(r/range) + share m(r/fine) + "
+            "nugget (r < 0.1 mm), m Matern's correlation of order 5/2, d the depth along the "
+            "normal (of a flat tool that is as deep)",
         .source =
             "Gaussian process (Rasmussen and Williams, Gaussian Processes for Machine Learning, "
             "2006), its scales those under which each place is likeliest given the others",
@@ -68,6 +68,8 @@ class LearnedPlace : public Effect {
                        {"h_nugget", "1", "as nugget", 0, 0, 0, 10, 0.1, false, kNoLimit, true},
                        {"h_sd", "1", "standard deviation of the power", 0, 0, 0, 1e3, 0.1, false,
                         kNoLimit, true},
+                       {"mean_power", "1", "power of the depth that all places share", 0, 0, -10,
+                        10, 0.1, false, kNoLimit, true},
                        {"x1", "m", "place", 0, 0, -10, 10, 0.01, false, kNoLimit, true},
                        {"y1", "m", "place", 0, 0, -10, 10, 0.01, false, kNoLimit, true},
                        {"z1", "m", "place", 0, 0, -10, 10, 0.01, false, kNoLimit, true},

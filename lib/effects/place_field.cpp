@@ -9,7 +9,7 @@ namespace hapsim {
 namespace {
 
 constexpr double kShallow = 0.1;     // of the depth: the power ends there
-constexpr std::size_t kCommon = 11;  // rows before those of the places
+constexpr std::size_t kCommon = 12;  // rows before those of the places
 constexpr std::size_t kOfPlace = 5;  // x, y, z, g, h
 
 }  // namespace
@@ -29,6 +29,7 @@ PlaceField::PlaceField(const Values& v) {
   depth = v[0].value;
   factor = kernel(1);
   power = kernel(6);
+  mean_power = v[11].value;
   for (std::size_t i = kCommon; i < v.size(); i += kOfPlace) {
     place.emplace_back(v[i].value, v[i + 1].value, v[i + 2].value);
     g.push_back(v[i + 3].value);
@@ -40,6 +41,7 @@ std::vector<double> PlaceField::values() const {
   std::vector<double> values{depth};
   for (const Kernel& k : {factor, power})
     values.insert(values.end(), {k.range, k.fine, k.share, k.nugget, k.sd});
+  values.push_back(mean_power);
   for (std::size_t i = 0; i < place.size(); ++i)
     values.insert(values.end(), {place[i].x(), place[i].y(), place[i].z(), g[i], h[i]});
   return values;
@@ -51,7 +53,7 @@ std::pair<int, int> PlaceField::columns(const Values& values, std::size_t place)
 }
 
 std::array<double, 2> PlaceField::at(const Vec3& p) const noexcept {
-  std::array<double, 2> sum{0, 0};
+  std::array<double, 2> sum{0, mean_power};
   for (std::size_t i = 0; i < place.size(); ++i) {
     const double square = (place[i] - p).squaredNorm();
     sum[0] += g[i] * factor.at(square);

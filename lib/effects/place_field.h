@@ -9,10 +9,10 @@
 
 namespace hapsim {
 
-// G(x) = sum_i g_i k(|x - x_i|) and H(x) alike, with k = (1 - share) m(r/range) + share m(r/fine),
-// and nugget more at the place itself (kSamePlace); m is Matern's correlation of order 5/2. The
-// force is exp(G + H ln(d/depth)) times what it was, d the depth along the normal; the power ends
-// at a tenth of that depth, where it would have no slope.
+// G(x) = sum_i g_i k(|x - x_i|), and H(x) alike about its mean, with k = (1 - share) m(r/range) +
+// share m(r/fine), and nugget more at the place itself (kSamePlace); m is Matern's correlation of
+// order 5/2. The force is exp(G + H ln(d/depth)) times what it was, d the depth along the normal;
+// the power ends at a tenth of that depth, where it would have no slope.
 struct PlaceField {
   static constexpr double kFar = 1e6;  // [m], a length that is not set
 
@@ -24,6 +24,7 @@ struct PlaceField {
   };
   double depth = 1e-3;  // [m]
   Kernel factor, power;
+  double mean_power = 0;
   std::vector<Vec3> place;   // [m]
   std::vector<double> g, h;  // weights, one a place
 

@@ -110,6 +110,7 @@ struct HeldOut {
   ForceError error;                // over all held-out rows; NaN when nothing could be held out
   std::vector<double> squares;     // sum of squares by fold [N^2]
   std::vector<double> components;  // 3 x rows by fold
+  std::vector<double> by_place;    // sum of squares by position [N^2]
 };
 // Truly refitted for every fold; bodies with features stay linear about what is known.
 HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment,

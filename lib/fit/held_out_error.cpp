@@ -39,6 +39,7 @@ HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment
   const Dataset& dataset = experiment.dataset;
   HeldOut result;
   result.error.axes = dataset.axes();
+  result.by_place.assign(dataset.positions.size(), 0);
   FitOptions about = options;
   about.rounds = 0;
   about.keep_scales = false;
@@ -55,6 +56,13 @@ HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment
     Eigen::VectorXd r =
         measured_forces(dataset, held_out) - model_forces(fitted, experiment, held_out, false).f;
     if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);
+    Eigen::Index at = 0;
+    for (const int e : held_out) {
+      const Episode& episode = dataset.episodes[static_cast<std::size_t>(e)];
+      const auto n = static_cast<Eigen::Index>(3 * episode.rows.size());
+      result.by_place[static_cast<std::size_t>(episode.position)] += r.segment(at, n).squaredNorm();
+      at += n;
+    }
     result.squares.push_back(r.squaredNorm());
     result.components.push_back(static_cast<double>(r.size()));
     squares += result.squares.back();

@@ -266,10 +266,6 @@ void write_field(std::ostream& out, const PlaceField& field, const Surface& surf
   write(surface.vertices, false);
 }
 
-double field_freedom(const Model& model) {
-  return learns_field(model) ? 2 * static_cast<double>(place_field(model).place.size()) : 0;
-}
-
 void forget_field(Model& model) {
   if (!learns_field(model)) return;
   PlaceField field;
@@ -291,7 +287,8 @@ void learn_field(Model& model, const Experiment& experiment, const Linearisation
     asked.col(0).array() -= std::log(value / modulus.value);
     modulus.value = value;
   }
-  asked.col(1).array() -= asked.col(1).mean();
+  field.mean_power = asked.col(1).mean();
+  asked.col(1).array() -= field.mean_power;
   field.place.clear();
   for (const PlaceData& p : places) field.place.push_back(p.point);
   interpolate(places, asked.col(0), keep_scales, field.factor, field.g);

@@ -22,9 +22,8 @@ void forget_field(Model& model);
 // material's stiffness. What each place asks for, the factor of the model's force without the field
 // and the power of the depth on top, is the likeliest under the sensor's noise (or what such two
 // numbers leave, where that is larger) and a wide prior; both are then interpolated by kriging. The
-// mean of the factor goes into the modulus where that is free; the mean power is no matter of place
-// and left out. `keep_scales`: lengths and nuggets stay as they are, if they have been learned.
-// Of fewer than ten places nothing is learned.
+// mean of the factor goes into the modulus where that is free. `keep_scales`: lengths and nuggets
+// stay as they are, if they have been learned. Of fewer than ten places nothing is learned.
 void learn_field(Model& model, const Experiment& experiment, const Linearisation& about,
                  const Selection& selection, double noise, bool keep_scales);
 
@@ -39,8 +38,5 @@ std::vector<FieldAt> field_at(const PlaceField& field, const std::vector<Vec3>& 
 // x,y,z,pressed,factor,low,high,power,power_sd: the factor with its 95 % band, at the pressed
 // places (1) and at the vertices of a surface (0).
 void write_field(std::ostream& out, const PlaceField& field, const Surface& surface);
-
-// Numbers that the data have to pay for: two a place. 0 without a field that is learned.
-double field_freedom(const Model& model);
 
 }  // namespace hapsim

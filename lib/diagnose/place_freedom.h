@@ -1,0 +1,34 @@
+// What a stiffness that is learned from the places says of them already.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "diagnose/trial_ground.h"
+#include "fit/fit.h"
+
+namespace hapsim {
+
+// Where a model learns a field, each place has a stiffness and a power of the depth of its own, and
+// whatever looks like them is no evidence for another effect. Nor is it known better where a press
+// begins, which law the depth has, or what the body does sideways at its own place. So, axis by
+// axis, a force that is constant in contact, or goes with the model's force |f| or with |f| times
+// ln d or its square, tells of nothing but the place. The air does, and a way out, speed, time, and
+// presses of other directions there. Without such a field: nothing.
+class PlaceFreedom {
+ public:
+  PlaceFreedom(const Fit& fitted, const TrialGround& ground, const Eigen::VectorXd& forces,
+               const Weights& weights);
+  bool any() const { return !places_.empty(); }
+  // Of whitened columns (stacked rows), in place.
+  void take_out(Eigen::Ref<Eigen::MatrixXd> columns) const;
+
+ private:
+  struct Place {
+    std::vector<Eigen::Index> rows;
+    Eigen::MatrixXd Q;  // orthonormal
+  };
+  std::vector<Place> places_;
+};
+
+}  // namespace hapsim
