@@ -1,27 +1,41 @@
-// What a step of the real-time loop costs with each effect of the catalogue: a million steps each
-// by the clock, whose own 20 to 40 ns are in it, with the memory that they took. No effect is
-// named.
+// Every effect of the catalogue in the real-time loop: how far it is from the batch mode at places
+// that were prepared, and what a step costs, a million each by the clock, whose own 20 to 40 ns are
+// in it, with the memory that they took. Where a step cannot be what a whole press would have, the
+// effect's card says why, and it is printed. No effect is named.
+//
+//   bench_steps [EFFECT...]
+//
+// Exit code 1 where a limit is missed that is not the machine's: the difference, or memory.
+// Recorded in bench/results/effects-live.txt (bench/record.sh).
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "linalg/blas.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"
 #include "realtime/real_time.h"
 #include "support/allocations.h"
-#include "support/every_effect.h"
+#include "support/live_against_batch.h"
 
 namespace {
 
 using namespace hapsim;
 
 constexpr int kSteps = 1'000'000;
+constexpr double kSame = 1e-9;  // of the largest force
+
+struct Failures {
+  int different = 0, with_memory = 0, not_finite = 0;
+};
 
 // A tool that wanders over the top and presses as it goes, up to 3 mm deep.
-void steps(const std::string& name, const PreparedBody& body, bool slides) {
+void steps(const std::string& name, const std::string& difference, const PreparedBody& body,
+           bool slides, Failures& failures) {
   ToolLoopOptions options;
   options.contact.slides = slides;
   ForceLoop loop(body, options);
@@ -44,40 +58,75 @@ void steps(const std::string& name, const PreparedBody& body, bool slides) {
   }
   const long taken = test::allocations - before;
   fmt::print(
-      "{:<16} {:>6} {:>5.0f} % {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>9.1f} {:>11} {:>7}   "
+      "{:<16} {:>10} {:>6} {:>5.0f} % {:>8.2f} {:>8.2f} {:>8.2f} {:>9.2f} {:>9.1f} {:>11} {:>7}   "
       "{:.3g}\n",
-      name, slides ? "slides" : "holds", 100.0 * static_cast<double>(touching) / kSteps,
+      name, difference, slides ? "slides" : "holds", 100.0 * static_cast<double>(touching) / kSteps,
       1e-3 * histogram.quantile(0.5), 1e-3 * histogram.quantile(0.99),
       1e-3 * histogram.quantile(0.999), 1e-3 * histogram.quantile(0.9999),
       1e-3 * histogram.largest(), taken, finite ? "yes" : "NO", work / kSteps);
+  failures.with_memory += taken != 0 ? 1 : 0;
+  failures.not_finite += finite ? 0 : 1;
+}
+
+// Straight presses and bent ones; an effect that asks for what comes later is compared in straight
+// ones.
+double difference_of(const Model& model, const PreparedBody& body, bool looks_ahead) {
+  double largest = 0;
+  for (const bool straight : {true, false}) {
+    if (looks_ahead && !straight) continue;
+    static const Experiment straight_one = test::rich_experiment(true);
+    static const Experiment bent = test::rich_experiment(false);
+    const Experiment& experiment = straight ? straight_one : bent;
+    largest = std::max(
+        largest, test::live_difference(body, experiment, test::batch_forces(model, experiment)));
+  }
+  return largest;
+}
+
+bool asked_for(const std::string& name, const std::vector<std::string>& names) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
 }
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  const std::vector<std::string> names(argv + 1, argv + argc);
   prepare_blas_for_many_threads();
   const Experiment experiment = test::rich_experiment(true);
   PreparedBodyOptions options;
   options.tool_radius = 0.004;
+  options.most_samples = 16;  // places in between are the other bench's
   options.contacts = [&](const MaterialSpec& m) { return known_contacts(experiment.places, m); };
-  fmt::print("{}\none step of the loop, {} steps [us]\n", enter_real_time(), kSteps);
-  fmt::print("{:<16} {:>6} {:>7} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11} {:>7}   mean force [N]\n",
-             "effect", "tool", "touch", "median", "99 %", "99.9 %", "99.99 %", "longest",
-             "allocations", "finite");
+  fmt::print("{}\none step of the loop, {} steps [us]; difference: largest, of the largest force\n",
+             enter_real_time(), kSteps);
+  fmt::print(
+      "{:<16} {:>10} {:>6} {:>7} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11} {:>7}   mean force [N]\n",
+      "effect", "difference", "tool", "touch", "median", "99 %", "99.9 %", "99.99 %", "longest",
+      "allocations", "finite");
+  Failures failures;
+  const auto measure = [&](const std::string& name, const Model& model, const EffectCard* card) {
+    const PreparedBody body(test::pressed_block(), model, options);
+    const double difference = difference_of(model, body, card == nullptr || card->looks_ahead);
+    failures.different += difference > kSame ? 1 : 0;
+    for (const bool slides : {false, true})
+      steps(name, fmt::format("{:.1e}", difference), body, slides, failures);
+    if (card != nullptr && !card->live.empty()) fmt::print("  its card: {}\n", card->live);
+  };
   Model all;
+  int count = 0;
   for (const Effect* effect : catalogue()) {
+    const EffectCard& card = effect->card();
     Random random(7);
     const Model model = test::model_with(*effect, random, 4);
-    const EffectCard& card = effect->card();
-    const PreparedBody body(test::pressed_block(), model, options);
-    for (const bool slides : {false, true}) steps(card.name, body, slides);
+    if (asked_for(card.name, names)) measure(card.name, model, &card), ++count;
     if (card.solved || card.moves_body || card.is_map) continue;
     for (const Parameter& p : model.parameters)
       if (p.effect == card.name) all.parameters.push_back(p);
   }
-  const PreparedBody body(test::pressed_block(), all, options);
-  for (const bool slides : {false, true}) steps("all at once", body, slides);
+  if (names.empty()) measure("all at once", all, nullptr);
   leave_real_time();
-  return 0;
+  fmt::print("{} effects: {} differ by more than {:g}, {} loops took memory, {} were not finite\n",
+             count, failures.different, kSame, failures.with_memory, failures.not_finite);
+  return failures.different + failures.with_memory + failures.not_finite > 0 ? 1 : 0;
 }

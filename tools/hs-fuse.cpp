@@ -219,8 +219,7 @@ int run_live_fusion(const Arguments& arguments) {
         say(arguments, "hs-fuse",
             report.latency.summary() + fmt::format("; {} later than a period", report.misses));
         tell_hand(arguments, "hs-fuse", felt);
-        if (const std::string deep = report.depth_summary(); !deep.empty())
-          say(arguments, "hs-fuse", deep);
+        for (const std::string& words : report.beyond_words()) say(arguments, "hs-fuse", words);
         say(arguments, "hs-fuse", "finite elements: " + loop.slow_steps().summary());
         say(arguments, "hs-fuse", fusion_words(loop.report()));
       });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "experiment/fitted_range.h"
 #include "io/number.h"
 
 namespace hapsim {
@@ -14,6 +15,7 @@ void record_fit(AcfmFit& fit, const Dataset& dataset, const Noise& noise) {
   metadata.set("tool_radius", format_number(dataset.recording.tool_radius()));
   metadata.set("force_noise", format_number(noise.value));
   metadata.set("rmse", format_number(fit.rmse));
+  record_range(dataset, metadata);
   if (!std::isnan(fit.held_out_presses))
     metadata.set("heldout_presses", format_number(fit.held_out_presses));
   if (!std::isnan(fit.held_out_positions))

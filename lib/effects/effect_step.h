@@ -38,6 +38,11 @@ struct StepSample {
   double moduli = 1, times = 1;  // factors of all Maxwell elements' moduli and relaxation times
 };
 
+// How far into the surface and along it a law's forces were verified; 0: it says nothing of that.
+struct LawRange {
+  double into = 0, along = 0;
+};
+
 // Made before the loop, where it may take memory; from then on nothing allocates, locks, throws or
 // calls the system. What it remembers lies in the loop's memory, which is stored and gone on from
 // as it is: so many numbers, all 0 at the start of the session, handed to every call.
@@ -48,6 +53,8 @@ class EffectStep {
   // The tool presses there from the next sample on; also when a stored state is gone on from. What
   // is derived from the place is not memory.
   virtual void take_place(const StepPlace& /*place*/) noexcept {}
+  // Of a law that takes the linear one's place: its own range, in tool radii.
+  virtual LawRange law() const { return {}; }
   // How far over the surface it still acts on a tool that has touched [m].
   virtual double reach() const { return 0; }
   // Motion effects (Effect::move): changes sample.u.

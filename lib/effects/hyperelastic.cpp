@@ -14,6 +14,7 @@ namespace {
 // Fitted to finite-strain elements of a half-space under the bonded disc, exponential law of b = 0
 // to 6, nu = 0.3 to 0.45, depths to 1.6 and sideways to 1 radius: normal forces within 2 % (at nu =
 // 0.4 within 1 %), tangential stiffness under depth within 2 %, tangential forces within 4 % rms.
+constexpr double kVerifiedInto = 1.6, kVerifiedAlong = 1;
 constexpr double kPower = 1.25;         // of the strain measure in the stiffness
 constexpr double kShear = 1.69;         // stiffening sideways over that with depth
 constexpr double kDeepening = 0.30;     // rise of the tangential stiffness with depth, g
@@ -116,6 +117,7 @@ class HyperelasticStep : public EffectStep {
  public:
   HyperelasticStep(double s, double finite, double radius) : law_{s, finite, 0, 0, radius, {}} {}
   std::size_t memory() const override { return 3; }
+  LawRange law() const override { return {kVerifiedInto, kVerifiedAlong}; }
   void take_place(const StepPlace& place) noexcept override {
     stiffness_ = place.contact;
     contact_.emplace(stiffness_, place.normal, law_.a, true);

@@ -1,5 +1,6 @@
 #include "fit/fit_record.h"
 
+#include "experiment/fitted_range.h"
 #include "io/number.h"
 #include "model/model_edit.h"
 #include "model/search_state.h"
@@ -14,6 +15,7 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   model.metadata.set("rmse", format_number(fitted.error.told()));
   model.metadata.set("force_noise", format_number(w.noise.value));
   model.metadata.set("depth", format_number(w.depth.depth));
+  record_range(w.dataset, model.metadata);
   if (w.dataset.tools() > 1)
     model.metadata.remove("tool_radius");
   else

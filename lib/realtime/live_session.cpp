@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <optional>
 
 #include "realtime/real_time.h"
@@ -16,12 +17,28 @@ bool goes_on(const MotionLine& last, const MotionLine& line) {
 
 }  // namespace
 
-std::string LiveReport::depth_summary() const {
-  if (deep == 0) return "";
-  return fmt::format(
-      "{} of {} lines are deeper than the model was fitted to, or than {:.0f} % of the way through "
-      "the body; of {} the force is held at {:.0f} %",
-      deep, latency.count(), 100 * kValidShare, held, 100 * kHeldShare);
+void LiveReport::count(int bits) noexcept {
+  for (std::size_t k = 0; k < beyond.size(); ++k) beyond[k] += bits >> k & 1;
+  deep += bits & (kBeyondDepth | kBeyondHeld) ? 1 : 0;
+}
+
+std::vector<std::string> LiveReport::beyond_words() const {
+  std::vector<std::string> words;
+  const auto of = [this](Beyond bit) {
+    return beyond[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(bit)))];
+  };
+  const auto say = [&](std::int64_t lines, const std::string& what) {
+    if (lines > 0) words.push_back(fmt::format("{} of {} lines {}", lines, latency.count(), what));
+  };
+  say(of(kBeyondPlaces),
+      "press where no contact mesh can be made, beside the support: their forces are extrapolated");
+  say(deep, fmt::format("are deeper than the model was fitted to, or than {:.0f} % of the way "
+                        "through the body; of {} the force is held at {:.0f} %",
+                        100 * kValidShare, of(kBeyondHeld), 100 * kHeldShare));
+  say(of(kBeyondFitted), "press away from the places that the model was fitted to");
+  say(of(kBeyondSpeed), "move faster than the model was fitted to");
+  say(of(kBeyondLaw), "go farther into the body or along it than the model's law was verified");
+  return words;
 }
 
 void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOptions& options,
@@ -55,10 +72,8 @@ void run_live(MotionSource& in, std::ostream& out, ToolLoop& loop, const LiveOpt
     }
     line.u = loop.pressed();
     line.beyond = loop.beyond();
-    line.uncertainty = loop.uncertainty() * force.norm();
-    if (line.beyond & kBeyondPlaces) ++report.off;
-    if (line.beyond & kBeyondHeld) ++report.held;
-    if (line.beyond & (kBeyondDepth | kBeyondHeld)) ++report.deep;
+    line.uncertainty = line.in_air ? 0 : loop.uncertainty() * force.norm();
+    report.count(line.beyond);
     in.write_force(text, line, force);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.flush();

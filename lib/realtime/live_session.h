@@ -1,8 +1,10 @@
 // Motion in, forces out at once.
 #pragma once
 
+#include <array>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "realtime/latency.h"
 #include "realtime/motion_source.h"
@@ -18,11 +20,12 @@ struct LiveOptions {
 struct LiveReport {
   // From the line read (with a rate: from when it was due) to its force handed to the system.
   LatencyHistogram latency;
-  std::int64_t misses = 0;          // forces later than one period after their line was due
-  std::int64_t deep = 0, held = 0;  // lines that are beyond what is valid, and of these those held
-  std::int64_t off = 0;             // lines whose place contact meshes cannot be made for
-  // What is said of the deep ones; "" where there is none.
-  std::string depth_summary() const;
+  std::int64_t misses = 0;  // forces later than one period after their line was due
+  // Forces of lines in contact that are beyond what is valid, by the bits of Beyond.
+  std::array<std::int64_t, 7> beyond{};
+  std::int64_t deep = 0;  // of the first two bits together
+  void count(int beyond) noexcept;
+  std::vector<std::string> beyond_words() const;  // what is said of them
 };
 
 // Runs until the input ends; `loop` made with `relaxed` where the source has contact points. Every

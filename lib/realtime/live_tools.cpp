@@ -63,8 +63,7 @@ void run_live_tools(ToolSource& in, std::ostream& out, SeveralTools& tools,
     for (std::size_t k = 0; k < feel.size(); ++k) {
       answer[k] = feel[k];
       if (in.has_contact_point()) answer[k].press = presses.told(k);
-      if (feel[k].beyond & kBeyondHeld) ++report.held;
-      if (feel[k].beyond & (kBeyondDepth | kBeyondHeld)) ++report.deep;
+      report.count(feel[k].beyond);
     }
     in.write(text, step, {answer.data(), feel.size()});
     out.write(text.data(), static_cast<std::streamsize>(text.size()));

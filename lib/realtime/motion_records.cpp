@@ -8,11 +8,15 @@
 #include <string>
 
 #include "base/error.h"
+#include "realtime/tool_loop.h"
 
 namespace hapsim {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are little-endian");
+
+// The bits that these records have had from the first: they have no version to tell of more.
+constexpr int kBeyondInRecords = kBeyondDepth | kBeyondHeld | kBeyondPlaces;
 
 template <class T>
 T take(const char*& from) {
@@ -72,7 +76,9 @@ void MotionRecords::write_hand_force(std::string& buffer, const MotionLine& line
                                      int safety, const Vec3&) const {
   buffer.clear();
   put(buffer, static_cast<std::int32_t>(line.press));
-  put(buffer, static_cast<std::int32_t>(line.in_air ? 0 : 1 + 2 * line.beyond) | safety << 8);
+  put(buffer,
+      static_cast<std::int32_t>(line.in_air ? 0 : 1 + 2 * (line.beyond & kBeyondInRecords)) |
+          safety << 8);
   put(buffer, line.t);
   for (const Vec3* v : {&line.point, &line.u, &force})
     for (int k = 0; k < 3; ++k) put(buffer, (*v)[k] == 0 ? 0.0 : (*v)[k]);  // no minus zero

@@ -10,8 +10,9 @@ namespace hapsim {
 //   tip in      32 bytes: t, x, y, z
 //   press in    64 bytes: press, contact (integers), t, x, y, z, ux, uy, uz
 //   force out   88 bytes: press, contact (integers), t, x, y, z, ux, uy, uz, fx, fy, fz
-// contact: 0 in the air; 1 in contact, and 2 for kBeyondDepth, 4 for kBeyondHeld beside it; of a
-// force for a hand 256 times its Safety besides.
+// contact: 0 in the air; 1 in contact, and 2 for kBeyondDepth, 4 for kBeyondHeld, 8 for
+// kBeyondPlaces beside it, other bits of Beyond not; of a force for a hand 256 times its Safety
+// besides.
 class MotionRecords : public MotionSource {
  public:
   enum class Kind { kTip, kPress };

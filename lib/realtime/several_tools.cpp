@@ -203,6 +203,7 @@ void SeveralTools::feel(double t) noexcept {
     if (!tool.touches) {
       feel.force = tool.loop.press(t, feel.u, true);
       feel.beyond = tool.loop.beyond();
+      feel.uncertainty = 0;  // the body exerts nothing
       feel.torque.setZero();
       tool.torque.advance(t, Vec3::Zero());
       continue;

@@ -158,6 +158,7 @@ std::vector<std::string> ToolLines::columns() const {
   add(turns_, {"tqx", "tqy", "tqz"});
   add(true, {"contact", "beyond"});
   add(warm_, {"temp"});
+  add(uncertain_, {"uncertainty"});
   add(hand_, {"safety", "ax", "ay", "az"});
   add(hand_ && turns_, {"atqx", "atqy", "atqz"});
   return names;
@@ -185,6 +186,10 @@ void ToolLines::write(std::string& buffer, const ToolStep& step,
     if (warm_) {
       buffer += ',';
       append_value(buffer, step.temperature);
+    }
+    if (uncertain_) {
+      buffer += ',';
+      append_value(buffer, f.uncertainty);
     }
     if (hand_) {
       buffer += ',';

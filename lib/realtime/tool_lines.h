@@ -33,6 +33,8 @@ class ToolLines : public ToolSource {
   // From now on each line ends in safety, ax, ay, az, of tools that turn also atqx, atqy, atqz: why
   // the force or torque is not what was asked for, and that.
   void tell_hand() { hand_ = true; }
+  // And before these in the force's uncertainty.
+  void tell_uncertainty() { uncertain_ = true; }
   bool next(ToolStep& step) override;
   void write(std::string& buffer, const ToolStep& step,
              std::span<const ToolFeel> feel) const override;
@@ -73,6 +75,7 @@ class ToolLines : public ToolSource {
   std::size_t known_ids_ = 0;
   std::size_t tools_ = 1;
   bool known_ = false, warm_ = false, turns_ = false, counted_ = false, hand_ = false;
+  bool uncertain_ = false;
   Row row_;
   bool waiting_ = false;  // row_ is of the next step
 };

@@ -30,17 +30,20 @@ Vec3 ToolLoop::step(double t, const Vec3& tool) noexcept {
   if (!now.touching()) return leave(t, Vec3::Zero());
   const bool began = now.phase == ContactPhase::kBegan;
   if (began && options_.relaxed) forget();
-  if (began || options_.contact.slides) touch({now.anchor, now.surface.normal, now.surface.face});
+  if (began) speed_.restart();
+  if (began || options_.contact.slides)
+    touch({now.anchor, now.surface.normal, now.surface.face}, now.anchor);
   return press_within(t, now.displacement);
 }
 
 void ToolLoop::begin(const Vec3& contact) noexcept {
   if (surface_ != nullptr) {
     const SurfaceSide side = surface_->at(contact);
-    touch({side.point, side.normal, side.face});
+    touch({side.point, side.normal, side.face}, contact);
   } else {
-    touch({contact, Vec3::Zero(), -1});
+    touch({contact, Vec3::Zero(), -1}, contact);
   }
+  speed_.restart();
   if (options_.relaxed) forget();
 }
 
@@ -48,15 +51,27 @@ Vec3 ToolLoop::press(double t, const Vec3& u, bool in_air) noexcept {
   return in_air ? leave(t, u) : press_within(t, u);
 }
 
-void ToolLoop::touch(const Place& place) noexcept {
+// `told`: as recordings give it, which may lie off the surface.
+void ToolLoop::touch(const Place& place, const Vec3& told) noexcept {
+  fitted_ = options_.fitted.has_place(told);
   way_.begin(place.point, place.normal);
   take_place(place);
 }
 
+int ToolLoop::beyond_at(double t, const Vec3& u, double share) noexcept {
+  const double depth = way_.depth(u);
+  int beyond = share > kValidShare || !options_.fitted.has_depth(depth) ? kBeyondDepth : 0;
+  if (!sampled_) beyond |= kBeyondPlaces;
+  if (!fitted_) beyond |= kBeyondFitted;
+  if (!options_.fitted.has_speed(speed_.add(t, u))) beyond |= kBeyondSpeed;
+  const double square = u.squaredNorm() - depth * depth;
+  if (depth > law_.into || square > law_.along * law_.along) beyond |= kBeyondLaw;
+  return beyond;
+}
+
 Vec3 ToolLoop::press_within(double t, const Vec3& u) noexcept {
   const double share = way_.share(u);
-  beyond_ = share > kValidShare || way_.depth(u) > options_.fitted_depth ? kBeyondDepth : 0;
-  if (!sampled_) beyond_ |= kBeyondPlaces;
+  beyond_ = beyond_at(t, u, share);
   pressed_ = u;
   if (share > kHeldShare) {
     beyond_ |= kBeyondHeld;
@@ -67,6 +82,7 @@ Vec3 ToolLoop::press_within(double t, const Vec3& u) noexcept {
 
 Vec3 ToolLoop::leave(double t, const Vec3& u) noexcept {
   beyond_ = 0;
+  speed_.restart();
   pressed_ = u;
   return advance_in_air(t, u);
 }

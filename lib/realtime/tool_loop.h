@@ -3,6 +3,8 @@
 
 #include <limits>
 
+#include "effects/effect_step.h"
+#include "experiment/fitted_range.h"
 #include "mesh/tool_contact.h"
 #include "mesh/way_through.h"
 
@@ -11,16 +13,18 @@ namespace hapsim {
 struct ToolLoopOptions {
   ToolContactOptions contact;  // of step(): radius, release, sliding
   bool relaxed = true;         // the body is relaxed before each contact; false: it remembers
-  // The deepest displacement that the model was fitted to [m].
-  double fitted_depth = std::numeric_limits<double>::infinity();
+  FittedRange fitted;          // of the model; beyond it forces are said to be so
   bool sensor = true;  // forces as the model's sensor reads them; false: as a hand feels them
 };
 
 // What a force is said to be beyond: bits of ToolLoop::beyond().
 enum Beyond : int {
-  kBeyondDepth = 1,  // deeper than fitted, or than kValidShare of the way through the body
-  kBeyondHeld = 2,   // it is that of kHeldShare of that way, where the tool is held to be
-  kBeyondPlaces = 4  // where contact meshes cannot be made: beside the support
+  kBeyondDepth = 1,   // deeper than fitted, or than kValidShare of the way through the body
+  kBeyondHeld = 2,    // it is that of kHeldShare of that way, where the tool is held to be
+  kBeyondPlaces = 4,  // where contact meshes cannot be made: beside the support
+  kBeyondFitted = 8,  // farther from the places that the model was fitted to than these lie apart
+  kBeyondSpeed = 16,  // faster than it was fitted
+  kBeyondLaw = 32     // farther into the surface or along it than the law was verified (LawRange)
 };
 
 // Finds the contact and hands displacements to a model. step(), begin() and press() allocate
@@ -69,11 +73,14 @@ class ToolLoop {
   void set_quality(double uncertainty, bool sampled) noexcept {
     uncertainty_ = uncertainty, sampled_ = sampled;
   }
+  // The range of the model's law [m]; at first it is endless.
+  void set_law(const LawRange& law) noexcept { law_ = law; }
 
   void restore_tool(const ToolState& state) noexcept { contact_.restore(state); }
 
  private:
-  void touch(const Place& place) noexcept;
+  void touch(const Place& place, const Vec3& told) noexcept;
+  int beyond_at(double t, const Vec3& u, double share) noexcept;
   Vec3 press_within(double t, const Vec3& u) noexcept;
   Vec3 leave(double t, const Vec3& u) noexcept;
 
@@ -84,7 +91,9 @@ class ToolLoop {
   Vec3 pressed_ = Vec3::Zero();
   int beyond_ = 0;
   double uncertainty_ = 0;
-  bool sampled_ = true;
+  bool sampled_ = true, fitted_ = true;  // of the place
+  LawRange law_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  ToolSpeed speed_;
   double temperature_ = std::numeric_limits<double>::quiet_NaN();
 };
 

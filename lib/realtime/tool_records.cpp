@@ -14,6 +14,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are little-endian");
 constexpr char kToolMagic[] = "hapsimIO";
+constexpr int kBeyondSinceFour = kBeyondFitted | kBeyondSpeed | kBeyondLaw;
 
 template <class T>
 T taken(const char*& from) {
@@ -116,7 +117,8 @@ void ToolRecords::write(std::string& buffer, const ToolStep& step,
   add_to(buffer, step.t);
   add_to(buffer, step.temperature);
   for (const ToolFeel& f : feel) {
-    for (const int i : {f.press, f.in_air ? 0 : 1, f.beyond, f.safety})
+    const int beyond = version_ >= 4 ? f.beyond : f.beyond & ~kBeyondSinceFour;
+    for (const int i : {f.press, f.in_air ? 0 : 1, beyond, f.safety})
       add_to(buffer, static_cast<std::int32_t>(i));
     for (const Vec3* v : {&f.point, &f.u, &f.turn, &f.force, &f.torque}) add_vector(buffer, *v);
     add_to(buffer, f.uncertainty);

@@ -25,10 +25,11 @@ namespace hapsim {
 // Version 3 asks as 2 does, answers 16 + 192 tools bytes: those of version 2, then of each tool ax
 // ay az, atqx atqy atqz: the force and torque that were asked for. While no motion comes, for a
 // hand, answers come that nobody has asked for; bit 512 of their safety says so. To version 2 none
-// does.
+// does. Version 4 is as 3, with bits from kBeyondFitted to kBeyondLaw in beyond; earlier ones have
+// none of these.
 class ToolRecords : public ToolSource {
  public:
-  static constexpr std::uint32_t kVersion = 3, kFirstVersion = 2;
+  static constexpr std::uint32_t kVersion = 4, kFirstVersion = 2;
   static constexpr std::size_t kHeaderBytes = 32, kStepBytes = 16, kPoseBytes = 80,
                                kFeelBytes = 144, kAskedBytes = 48;
   // Reads the header. Error(kBadInput): it is none, a version or size that cannot be served, a

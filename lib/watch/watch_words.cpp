@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "io/csv.h"
 
 namespace hapsim {
@@ -59,25 +61,32 @@ std::vector<std::string> WatchNews::next(double t) {
   return lines;
 }
 
-void write_events(std::ostream& out, const std::vector<WatchEvent>& events) {
-  CsvWriter csv(out, {},
-                {"begun", "alarm", "named", "change", "stiffness", "bias_x", "bias_y", "bias_z",
-                 "shift_x", "shift_y", "shift_z", "error", "shift_error_x", "shift_error_y",
-                 "shift_error_z", "presses", "updated", "relaxation", "slowness"});
-  for (const WatchEvent& e : events) {
-    std::vector<std::string> row{format_number(e.begun), format_number(e.alarm),
-                                 format_number(e.named), change_name(e.change),
-                                 format_number(e.correction.gone ? 0 : e.correction.stiffness)};
-    for (const Vec3* v : {&e.correction.bias, &e.correction.shift})
-      for (int k = 0; k < 3; ++k) row.push_back(format_number((*v)[k]));
-    row.push_back(format_number(e.error_with));
-    for (int k = 0; k < 3; ++k) row.push_back(format_number(e.shift_error[k]));
-    row.push_back(std::to_string(e.presses));
-    row.push_back(e.updated < 0 ? "" : format_number(e.updated));
-    row.push_back(format_number(e.correction.relaxation));
-    row.push_back(format_number(e.correction.slowness));
-    csv.row(row);
-  }
+void write_events(std::ostream& out, const std::vector<ToolEvents>& tools) {
+  std::vector<std::string> header{"begun",         "alarm",         "named",         "change",
+                                  "stiffness",     "bias_x",        "bias_y",        "bias_z",
+                                  "shift_x",       "shift_y",       "shift_z",       "error",
+                                  "shift_error_x", "shift_error_y", "shift_error_z", "presses",
+                                  "updated",       "relaxation",    "slowness"};
+  const bool named = std::any_of(tools.begin(), tools.end(),
+                                 [](const ToolEvents& tool) { return !tool.tool_id.empty(); });
+  if (named) header.emplace_back("tool_id");
+  CsvWriter csv(out, {}, header);
+  for (const ToolEvents& tool : tools)
+    for (const WatchEvent& e : tool.events) {
+      std::vector<std::string> row{format_number(e.begun), format_number(e.alarm),
+                                   format_number(e.named), change_name(e.change),
+                                   format_number(e.correction.gone ? 0 : e.correction.stiffness)};
+      for (const Vec3* v : {&e.correction.bias, &e.correction.shift})
+        for (int k = 0; k < 3; ++k) row.push_back(format_number((*v)[k]));
+      row.push_back(format_number(e.error_with));
+      for (int k = 0; k < 3; ++k) row.push_back(format_number(e.shift_error[k]));
+      row.push_back(std::to_string(e.presses));
+      row.push_back(e.updated < 0 ? "" : format_number(e.updated));
+      row.push_back(format_number(e.correction.relaxation));
+      row.push_back(format_number(e.correction.slowness));
+      if (named) row.push_back(tool.tool_id);
+      csv.row(row);
+    }
 }
 
 }  // namespace hapsim

@@ -34,9 +34,15 @@ class WatchNews {
   bool learned_ = false;
 };
 
+// The changes that the stream of a tool has shown; of one tool without a name the name is empty.
+struct ToolEvents {
+  std::string tool_id;
+  std::vector<WatchEvent> events;
+};
+
 // A row a change (CSV): its times [s] (updated: empty while it was not), kind, and the correction
 // in all: stiffness (0: the body is gone), bias [N], shift and its standard error [m], relaxation
-// and slowness; the error it leaves [N] and the presses it rests on.
-void write_events(std::ostream& out, const std::vector<WatchEvent>& events);
+// and slowness; the error it leaves [N] and the presses it rests on; of tools with names tool_id.
+void write_events(std::ostream& out, const std::vector<ToolEvents>& tools);
 
 }  // namespace hapsim

@@ -140,7 +140,7 @@ refuse 2 'live mode' motion.csv "${common[@]}" --rate 1000
 refuse 2 'live mode' motion.csv "${common[@]}" --binary tip
 refuse 2 'batch mode' --live motion.csv "${common[@]}" --add-noise 1
 refuse 2 'live mode' motion.csv "${common[@]}" --uncertainty
-refuse 2 'records have no place' --live --binary tip --uncertainty "${common[@]}" --tool-radius 0.004
+refuse 2 'records of tip have no place' --live --binary tip --uncertainty "${common[@]}" --tool-radius 0.004
 { head -n 3 model.csv; printf 'shift,0,%s,,-1,1,fixed\n' dx,0.003,m dy,0,m dz,0,m rx,0,rad ry,0,rad rz,0,rad; } >shift.csv
 refuse 3 'hs-simulate --live --contacts' --live motion.csv --body body.ply --model shift.csv
 

@@ -53,6 +53,11 @@ inline ToolSpec compare_specification() {
       "is "
       "told, and a model that fits better sees more. Along a face a shift rests on how the model's "
       "stiffness goes with the place; there its standard error may be too small.",
+      "Of several tools (a column tool_id) each is watched by itself, with the false alarms that "
+      "are "
+      "put up with. From where two touch at once the rest of their presses is left out, and how "
+      "many "
+      "lines that are is told.",
       "Rows of a stream have a column contact, 0 where the tool is off the body; without it every "
       "row is in contact, and a displacement out of the body pulls. SIGINT or SIGTERM ends the "
       "stream; what was answered until then, or before a bad row, is written."};
@@ -146,7 +151,8 @@ inline ToolSpec compare_specification() {
          "when it was known to 0.4 of the usual error [s]; empty before, and where the error has "
          "stayed above twice the usual: the correction does not explain it"},
         {"relaxation", "factor of the moduli that relax, beside stiffness"},
-        {"slowness", "factor of their times"}}}};
+        {"slowness", "factor of their times"},
+        {"tool_id", "the tool that noticed it, where the stream has several"}}}};
   spec.examples = {
       {"hs-compare data.csv --simulated forces.csv -o residuals.csv", "Residuals and a summary."},
       {"hs-simulate data.csv --body body.ply --model m0.csv | hs-compare data.csv --simulated - "

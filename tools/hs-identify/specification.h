@@ -67,6 +67,11 @@ inline ToolSpec identify_specification() {
       "A flat tool that covers the body compresses it between plates, bonded to both: samples "
       "beyond a strain of 0.3, to which finite strain (hyperelastic) was verified, are left out, "
       "here and in hs-diagnose.",
+      "The model says what it was fitted to: metadata depth (the deepest press), speed (the "
+      "fastest "
+      "in contact, over ways of 10 ms), places (x y z of up to 64 of them) and reach (how far from "
+      "these a place is still among them), all in SI units. hs-simulate --live says of each force "
+      "what it is beyond.",
       "Effects: " + effect_names() + "."};
   spec.options = experiment_flags();
   std::erase_if(spec.options, [](const Option& o) { return o.name() == flag::body.name; });

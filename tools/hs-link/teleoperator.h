@@ -38,7 +38,7 @@ inline int run_teleoperator(const Arguments& arguments) {
   tell_accuracy(arguments, "hs-link", body.field());
   ToolLoopOptions hand;
   hand.sensor = false;
-  hand.fitted_depth = fitted_depth(model);
+  hand.fitted = fitted_range(model.metadata, model.name);
   ForceLoop loop(body, hand);
   Terms terms = link_terms(mesh, arguments[flag::tool_radius]);
   terms.model = fingerprint_of(model);

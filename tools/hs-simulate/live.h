@@ -46,9 +46,10 @@ struct LiveInput {
     if (binary && arguments.given(flag::tools))
       fail_usage("--tools is of lines", "records say themselves of how many tools they are");
     if (binary) {
-      if (arguments.given(flag::uncertainty))
-        fail_usage("records have no place for --uncertainty", "leave out --binary, or it");
       const std::string kind = arguments[flag::binary];
+      if (arguments.given(flag::uncertainty) && kind != "extended")
+        fail_usage("records of " + kind + " have no place for --uncertainty",
+                   "leave it out, or take --binary extended, which always has it");
       if (kind == "extended") {
         auto records = std::make_unique<ToolRecords>(input);
         header = records->header();
@@ -66,9 +67,8 @@ struct LiveInput {
       auto lines = std::make_unique<ToolLines>(std::move(csv), input.name(), tools);
       if (hand) lines->tell_hand();
       metadata = lines->metadata();
+      if (arguments.given(flag::uncertainty)) lines->tell_uncertainty();
       columns = lines->columns();
-      if (arguments.given(flag::uncertainty))
-        fail_usage("lines of several tools have no place for --uncertainty", "leave it out");
       several = std::move(lines);
       return;
     }
@@ -133,13 +133,7 @@ int answer_by(const Arguments& arguments, LiveInput& in, const std::string& labe
               fmt::format("; {} of {} later than a period", report.misses, report.latency.count());
         say(arguments, "hs-simulate", text);
         tell_hand(arguments, "hs-simulate", in.felt);
-        if (report.off > 0)
-          say(arguments, "hs-simulate",
-              fmt::format("{} of {} lines press where no contact mesh can be made, beside the "
-                          "support: their forces are extrapolated",
-                          report.off, report.latency.count()));
-        if (const std::string deep = report.depth_summary(); !deep.empty())
-          say(arguments, "hs-simulate", deep);
+        for (const std::string& words : report.beyond_words()) say(arguments, "hs-simulate", words);
       });
   require_motion(in.input, in.felt);
   return 0;
@@ -214,7 +208,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
                     "stiffness",
                     body.terms().size(), body.misfit()));
   ToolLoopOptions loop_options = in.loop_options();
-  loop_options.fitted_depth = fitted_depth(model);
+  loop_options.fitted = fitted_range(model.metadata, model.name);
   if (in.several) return answer_several(arguments, in, mesh, model, body, loop_options);
   ForceLoop loop(body, loop_options);
   return answer(arguments, in, effects_label(model), loop);
@@ -240,7 +234,9 @@ inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
     fail_input(in.input.name(),
                "its columns are those of a moving tip, whose contacts only a body shows",
                "give --body body.ply, or the columns press,t,x,y,z,ux,uy,uz");
-  AcfmLoop loop(model, surface ? &*surface : nullptr, in.loop_options());
+  ToolLoopOptions loop_options = in.loop_options();
+  loop_options.fitted = fitted_range(model.metadata, arguments[flag::model]);
+  AcfmLoop loop(model, surface ? &*surface : nullptr, loop_options);
   return answer(arguments, in, "acfm", loop);
 }
 

@@ -54,8 +54,14 @@ inline ToolSpec simulate_specification() {
       "metadata depth), are said to be so; presses through the body are an error. Live there is a "
       "column beyond: 1 for such a depth; 2 where the tool is held at nine tenths of the way, ux, "
       "uy, uz and the force being those of the tool as it is held; 4 beside the support, where no "
-      "contact mesh can be made and the force is extrapolated; sums of these. With --uncertainty "
-      "there is a column uncertainty besides: the standard uncertainty of the force [N] that the "
+      "contact mesh can be made and the force is extrapolated; 8 farther from the places that the "
+      "model was fitted to (its metadata places) than its metadata reach: than nine in ten of them "
+      "are from their next one, and than two tool radii; 16 faster than it was fitted (its "
+      "metadata speed; over ways of 10 ms); 32 farther into the surface than 1.6 tool radii or "
+      "along it than half of one, to which the linear law was compared with finite strain (a "
+      "whole radius with hyperelastic); sums of these. What a model does not say of itself is "
+      "not flagged. With --uncertainty there is a column uncertainty besides: the standard "
+      "uncertainty of the force [N] that the "
       "interpolation and the meshes leave, 1.96 times of which covers the difference to the batch "
       "mode in some 95 of 100 places; the model's own error is not in it.",
       "A column contact is 0 where the tool is off the body, and the force zero; without it every "
@@ -69,9 +75,8 @@ inline ToolSpec simulate_specification() {
       "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
       "units. In, tip (32 bytes): t x y z; press (64 bytes): i press, i contact (0: in the air), t "
       "x "
-      "y z ux uy uz. Out (88 bytes): i press, i contact (0 in the air, else 1 and twice what "
-      "beyond "
-      "would be), t x y z ux uy uz fx fy fz. Give --tool-radius.",
+      "y z ux uy uz. Out (88 bytes): i press, i contact (0 in the air, else 1 and twice what 1, 2 "
+      "and 4 of beyond would be), t x y z ux uy uz fx fy fz. Give --tool-radius.",
       "Live, up to four tools press one body at once with a column tool_id, lines of one time, one "
       "a tool, being one step: pressing with one moves the surface under the others. Say with "
       "--tools, or in metadata tools, how many there are, so that a step is answered as soon as "
@@ -91,14 +96,14 @@ inline ToolSpec simulate_specification() {
       "and what a force is beyond. Both directions begin with a header of 32 bytes: 8 bytes "
       "hapsimIO, i version, i bytes of a record, i tools, i kind (0: tips, 1: presses), 8 bytes of "
       "0. Who asks gives the newest version that it knows; the answer says the one that is spoken "
-      "(3), and how large its records are. What a record has beyond its version is passed over. In "
+      "(4), and how large its records are. What a record has beyond its version is passed over. In "
       "(16 + 80 tools bytes): t, temp (NaN: not known); of each tool i press, i contact, x y z, ux "
       "uy uz, thx thy thz. Out (16 + 144 tools bytes): t, temp; of each tool i press, i contact, i "
       "beyond, i safety, x y z, ux uy uz, thx thy thz, fx fy fz, tqx tqy tqz, and the standard "
       "uncertainty of the force (NaN: not known); from version 3 on then 48 tools bytes more, of "
       "each "
-      "tool ax ay az, atqx atqy atqz. Without it the records are the ones before, so "
-      "older programs go on.",
+      "tool ax ay az, atqx atqy atqz; from version 4 on beyond has 8, 16 and 32. Records of tip "
+      "and press stay as they were, so older programs go on.",
       "A model of hs-identify --acfm is springs and dashpots by position; between positions they "
       "are "
       "interpolated by inverse distances. It is answered by the same flags, in batch and live.",

@@ -8,6 +8,7 @@
 #include "realtime/force_loop.h"
 #include "support/allocations.h"
 #include "support/every_effect.h"
+#include "support/live_against_batch.h"
 #include "support/shared_cache.h"
 
 namespace hapsim {
@@ -32,31 +33,12 @@ std::unique_ptr<PreparedBody> prepared(const Model& model) {
   return std::make_unique<PreparedBody>(test::pressed_block(), model, options);
 }
 
-// Row `from` of the recording and those after it; `each` is told every force.
-template <class Each>
-void run(ForceLoop& loop, const Dataset& dataset, std::size_t from, const Each& each) {
-  const Recording& r = dataset.recording;
-  for (std::size_t i = from; i < r.rows(); ++i) {
-    if (i == 0 || r.press[i] != r.press[i - 1]) loop.begin(r.position[i]);
-    loop.set_temperature(r.temp[i]);
-    each(i, loop.press(r.t[i], r.u[i], r.in_air(i)));
-  }
-}
-
 Eigen::VectorXd batch(const Model& model, bool straight) {
-  const Experiment& w = experiment(straight);
-  return solved_forces(model, w, all_episodes(w.dataset), false).f;
+  return test::batch_forces(model, experiment(straight));
 }
 
-// The largest difference of the loop from the batch mode over the largest force.
 double difference(const Model& model, bool straight, const Eigen::VectorXd& expected) {
-  const auto body = prepared(model);
-  ForceLoop loop(*body);
-  double largest = 0;
-  run(loop, experiment(straight).dataset, 0, [&](std::size_t i, const Vec3& f) {
-    largest = std::max(largest, (f - expected.segment<3>(3 * static_cast<Eigen::Index>(i))).norm());
-  });
-  return largest / expected.cwiseAbs().maxCoeff();
+  return test::live_difference(*prepared(model), experiment(straight), expected);
 }
 
 class EveryEffectLive : public ::testing::TestWithParam<const Effect*> {};
@@ -90,12 +72,13 @@ TEST_P(EveryEffectLive, GoesOnFromAStoredState) {
     ForceLoop whole(*body), second(*body);
     std::vector<Vec3> forces;
     ForceLoopState stored;
-    run(whole, dataset, 0, [&](std::size_t i, const Vec3& f) {
+    test::run_live(whole, dataset, 0, [&](std::size_t i, const Vec3& f) {
       forces.push_back(f);
       if (i + 1 == at) stored = whole.state();
     });
     second.restore(stored);
-    run(second, dataset, at, [&](std::size_t i, const Vec3& f) { ASSERT_EQ(f, forces[i]) << i; });
+    test::run_live(second, dataset, at,
+                   [&](std::size_t i, const Vec3& f) { ASSERT_EQ(f, forces[i]) << i; });
   }
 }
 
@@ -163,8 +146,8 @@ TEST(EffectSteps, AHandFeelsNoSensor) {
   ForceLoop felt(*body, hand), without(*bare_body);
   std::vector<Vec3> forces;
   const Dataset& dataset = experiment(false).dataset;
-  run(without, dataset, 0, [&](std::size_t, const Vec3& f) { forces.push_back(f); });
-  run(felt, dataset, 0, [&](std::size_t i, const Vec3& f) { ASSERT_EQ(f, forces[i]); });
+  test::run_live(without, dataset, 0, [&](std::size_t, const Vec3& f) { forces.push_back(f); });
+  test::run_live(felt, dataset, 0, [&](std::size_t i, const Vec3& f) { ASSERT_EQ(f, forces[i]); });
 }
 
 }  // namespace

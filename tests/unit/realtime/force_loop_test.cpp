@@ -225,6 +225,58 @@ TEST(Batch, RefusesRegionsThatRelaxEachInItsOwnWay) {
   }
 }
 
+// Of a model that was fitted to presses of 2 mm at 20 mm/s about the middle of the top.
+TEST(ForceLoop, SaysWhatAForceIsBeyond) {
+  Metadata metadata;
+  metadata.set("depth", "0.002");
+  metadata.set("speed", "0.02");
+  metadata.set("places", "0.03 0.04 0.04 0.05 0.04 0.04");
+  metadata.set("reach", "0.012");
+  ToolLoopOptions options;
+  options.fitted = fitted_range(metadata, "model");
+  const PreparedBody body(body_mesh(), viscoelastic_model(1), tool());
+  ForceLoop loop(body, options);
+  const Vec3 middle(0.04, 0.04, 0.04);
+  double t = 0;
+  const auto press = [&](const Vec3& u, double speed, double along = 0) {
+    loop.begin(middle + Vec3(along, 0, 0));
+    int beyond = 0;
+    for (int i = 0; i <= 50; ++i) {
+      loop.press(t, 0.02 * i * u);
+      beyond |= loop.beyond();
+      t += u.norm() / speed / 50;
+    }
+    return beyond;
+  };
+  EXPECT_EQ(press({0, 0, -0.002}, 0.02), 0);
+  EXPECT_EQ(press({0.0002, 0, -0.0015}, 0.01), 0);
+  EXPECT_EQ(press({0, 0, -0.0025}, 0.01), kBeyondDepth);
+  EXPECT_EQ(press({0, 0, -0.002}, 0.03), kBeyondSpeed);
+  EXPECT_EQ(press({0, 0, -0.002}, 0.01, 0.02), 0);
+  EXPECT_EQ(press({0, 0, -0.002}, 0.01, 0.024), kBeyondFitted);
+  EXPECT_EQ(press({0.0025, 0, -0.002}, 0.01), kBeyondLaw);
+  EXPECT_EQ(press({0, 0, -0.007}, 0.01), kBeyondDepth | kBeyondLaw);
+  loop.press(t, {0, 0, 0.001}, true);
+  EXPECT_EQ(loop.beyond(), 0);
+  // A sensor that scatters by 0.1 mm from one millisecond to the next moves no faster.
+  loop.begin(middle);
+  for (int i = 0; i < 100; ++i) {
+    loop.press(t += 0.001, Vec3(0, 0, -1e-5 * i - 1e-4 * (i % 2)));
+    EXPECT_EQ(loop.beyond(), 0) << i;
+  }
+  // With the law of finite strain ways along the surface hold to a radius.
+  Model finite = viscoelastic_model(0);
+  for (const Parameter& p : effect_rows(*find_effect("hyperelastic"), 1, {0.1, 1}))
+    finite.parameters.push_back(p);
+  const PreparedBody stiffening(body_mesh(), finite, tool());
+  ForceLoop bent(stiffening);
+  bent.begin(middle);
+  bent.press(0, {0.0035, 0, -0.002});
+  EXPECT_EQ(bent.beyond(), 0);
+  bent.press(0.01, {0.0045, 0, -0.002});
+  EXPECT_EQ(bent.beyond(), kBeyondLaw);
+}
+
 TEST(ForceLoop, SurvivesBadSamples) {
   const Model model = viscoelastic_model(1);
   const PreparedBody body(body_mesh(), model, tool());

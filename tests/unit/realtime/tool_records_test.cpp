@@ -55,7 +55,7 @@ TEST(ToolRecords, AreReadWhateverALaterVersionAddsAtTheirEnd) {
   ASSERT_EQ(answer.size(), 32U);
   std::uint32_t spoken[4];
   std::memcpy(spoken, answer.data() + 8, sizeof spoken);
-  EXPECT_EQ(spoken[0], 3U);
+  EXPECT_EQ(spoken[0], 4U);
   EXPECT_EQ(spoken[1], 16U + 2 * 192U);
   EXPECT_EQ(spoken[2], 2U);
   EXPECT_EQ(spoken[3], 1U);
@@ -73,7 +73,7 @@ TEST(ToolRecords, AreReadWhateverALaterVersionAddsAtTheirEnd) {
   std::array<ToolFeel, 2> feel;
   feel[1].force = {1, 2, 3};
   feel[1].torque = {4, 5, 6};
-  feel[1].beyond = 3;
+  feel[1].beyond = 3 | kBeyondLaw;
   feel[1].safety = 257;
   feel[1].asked_torque = {7, 8, 9};
   std::string out;
@@ -84,7 +84,7 @@ TEST(ToolRecords, AreReadWhateverALaterVersionAddsAtTheirEnd) {
   EXPECT_EQ(torque, 4);
   std::int32_t beyond = 0;
   std::memcpy(&beyond, out.data() + 16 + 144 + 8, 4);
-  EXPECT_EQ(beyond, 3);
+  EXPECT_EQ(beyond, 3 | kBeyondLaw);
   std::int32_t safety = 0;
   std::memcpy(&safety, out.data() + 16 + 144 + 12, 4);
   EXPECT_EQ(safety, 257);
@@ -104,6 +104,16 @@ TEST(ToolRecords, SpeakTheVersionThatIsAsked) {
   std::string out;
   records.write(out, {}, std::array<ToolFeel, 1>());
   EXPECT_EQ(out.size(), 160U);
+  // Who asks for an older version is told nothing that it does not know.
+  Input older_input = bytes_of(header(3, 96, 1, 0));
+  const ToolRecords older(older_input);
+  std::array<ToolFeel, 1> feel;
+  feel[0].beyond = kBeyondDepth | kBeyondFitted | kBeyondSpeed | kBeyondLaw | kBeyondClose;
+  older.write(out, {}, feel);
+  EXPECT_EQ(out.size(), 208U);
+  std::int32_t beyond = 0;
+  std::memcpy(&beyond, out.data() + 16 + 8, 4);
+  EXPECT_EQ(beyond, kBeyondDepth | kBeyondClose);
 }
 
 TEST(ToolRecords, RefuseWhatTheyCannotServe) {
@@ -158,6 +168,11 @@ TEST(ToolLines, LinesOfOneTimeAreAStep) {
   // In the order of the lines.
   EXPECT_EQ(out.substr(0, 10), "0,1,right,");
   EXPECT_NE(out.find("\n7,1,left,"), std::string::npos);
+  feel[0].uncertainty = 0.125;
+  lines.tell_uncertainty();
+  EXPECT_EQ(lines.columns().back(), "uncertainty");
+  lines.write(out, step, feel);
+  EXPECT_EQ(out.substr(out.size() - 7), ",0.125\n");
   ASSERT_TRUE(lines.next(step));
   EXPECT_FALSE(step.present[1]);
   EXPECT_FALSE(lines.next(step));

@@ -47,7 +47,7 @@ TEST(WatchWords, EventsAreRows) {
   events[1].change = Change::kGone;
   events[1].correction.gone = true;
   std::ostringstream out;
-  write_events(out, events);
+  write_events(out, {{"left", {events[0]}}, {"right", {events[1]}}});
   Input input = Input::from_bytes(out.str(), "events.csv");
   const CsvTable table = read_csv(input);
   ASSERT_EQ(table.rows(), 2u);
@@ -62,6 +62,10 @@ TEST(WatchWords, EventsAreRows) {
   EXPECT_EQ(cell("bias_y", 0), "0.25");
   EXPECT_EQ(cell("shift_z", 0), "-0.002");
   EXPECT_EQ(cell("shift_error_z", 0), "0.0002");
+  EXPECT_EQ(cell("tool_id", 1), "right");
+  std::ostringstream of_one;
+  write_events(of_one, {{"", events}});
+  EXPECT_EQ(of_one.str().find("tool_id"), std::string::npos);
 }
 
 // Rows of presses of a second each at `rate`, checked against what is said.
