@@ -209,9 +209,12 @@ int summarise(const Arguments& arguments, const Batch& batch) {
   }
   if (summary) summary->commit();
   for (std::size_t r = 0; r < outcomes.size(); ++r)
-    if (outcomes[r].state == RecordingState::kFailed)
+    if (outcomes[r].state == RecordingState::kFailed) {
       say(arguments, "hs-batch",
           fmt::format("failed: {}: {}", batch.manifest.rows[r].name, outcomes[r].message));
+      if (!outcomes[r].command.empty())
+        say(arguments, "hs-batch", "its step again: " + outcomes[r].command);
+    }
   Summary told = batch_summary(outcomes, overview);
   if (arguments.given(flag::html)) told.details = "The overview: " + arguments.text(flag::html);
   tell_answer(arguments, told);

@@ -328,7 +328,7 @@ std::string next_command(const Arguments& arguments) {
     return "hs-tetmesh " + shell_quoted(arguments[flag::surface]) + " -o body.ply";
   if (arguments.given(flag::scan))
     return "hs-scan2ply " + shell_quoted(arguments[flag::scan]) +
-           " | hs-reconstruct | hs-tetmesh -o body.ply";
+           " | hs-reconstruct --window | hs-tetmesh -o body.ply";
   return "hs-identify " + shell_quoted(arguments.output()) + " --body body.ply -o m0.csv";
 }
 

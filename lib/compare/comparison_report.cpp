@@ -100,7 +100,13 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
     add_body_before(compare(measured, versions.front().recording), map, report);
   add_presses(measured, versions, c, report);
   add_residual_plots(measured, simulated, c, report);
+  if (extras.model) {
+    add_learned_curve(*extras.model, report);
+    add_slices(map.surface, *extras.model, report);
+  }
   add_tables(c, report);
+  add_chances(report);
+  add_flags(measured, extras.flags, report);
   add_provenance(measured, versions, extras, report);
   return report;
 }

@@ -9,6 +9,7 @@
 #include "compare/comparison.h"
 #include "compare/error_map.h"
 #include "compare/report_curves.h"
+#include "compare/report_views.h"
 #include "io/csv.h"
 #include "model/model.h"
 #include "report/report.h"
@@ -24,6 +25,7 @@ struct ReportExtras {
   std::optional<Model> model;
   std::string program;                                     // that made the report: its version
   std::vector<std::pair<std::string, std::string>> files;  // kind and name of each
+  FlagMeanings flags;                                      // of columns of live forces
 };
 
 // `comparison` and `map` are of the last version; `map` may be empty. The verdict is good when the

@@ -42,15 +42,24 @@ std::string where(const Grouping& grouping, int bin) {
   return label;
 }
 
+// Two standard errors of too_stiff().
+double doubt_of(const BinError& error) {
+  return 2 * error.gain_error / (error.gain * error.gain);
+}
+
 }  // namespace
+
+bool right_on_the_whole(const BinError& error) {
+  return error.gain > 0.1 && std::abs(error.too_stiff()) < doubt_of(error);
+}
 
 std::string stiffness_words(const BinError& error) {
   if (std::isnan(error.gain)) return "without force there";
   if (!(error.gain > 0.1))
     return "unlike the measured force (gain " + fmt::format("{:.2f}", error.gain) + ")";
   const double stiff = error.too_stiff();
-  const double doubt = 2 * error.gain_error / (error.gain * error.gain);
-  if (std::abs(stiff) < doubt) return "right (within " + percent(std::max(doubt, 0.001)) + ")";
+  if (right_on_the_whole(error))
+    return "right (within " + percent(std::max(doubt_of(error), 0.001)) + ")";
   return (stiff > 0 ? "too stiff by " : "too soft by ") + percent(stiff);
 }
 

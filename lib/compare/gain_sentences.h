@@ -9,6 +9,7 @@ namespace hapsim {
 
 // "too stiff by 18 %", "too soft by 3 %", or "right (within 2 %)" when the gain is not told from 1.
 std::string stiffness_words(const BinError& error);
+bool right_on_the_whole(const BinError& error);
 
 std::string sentence_overall(const BinError& error);
 

@@ -84,6 +84,7 @@ void add_diagnosis(const CsvTable& table, const std::string& version, Report& re
     change("error of the fit", "rmse_now", "rmse_after");
     change("error on unseen positions", "heldout_now", "heldout_after");
     const double p = number_or_nan(table, "p_value", r);
+    row.p_value = p;
     if (std::isfinite(p))
       row.facts.emplace_back("chance of a false alarm",
                              p < 1e-3 ? "below 0.001" : fmt::format("{:.2g}", p));

@@ -20,14 +20,23 @@ std::string times_noise(const Comparison& c) {
   return c.noise.value > 0 ? fmt::format("{:.2g}", c.size.rmse / c.noise.value) : "?";
 }
 
+bool within_noise(const Comparison& c) {
+  return c.size.rmse <= 1.15 * c.noise.value;
+}
+
 bool only_noise_left(const Comparison& c) {
-  return c.observations.empty() && c.size.rmse <= 1.15 * c.noise.value;
+  return c.observations.empty() && within_noise(c);
 }
 
 std::string verdict_line(const Comparison& c) {
   if (only_noise_left(c))
     return fmt::format("Nothing is left but sensor noise: typical error {}, noise {}.",
                        newtons(c.size.rmse), newtons(c.noise.value));
+  if (within_noise(c))
+    return fmt::format(
+        "The model is as good as the sensor: typical error {}, noise {}. A trace of something else "
+        "is in what is left.",
+        newtons(c.size.rmse), newtons(c.noise.value));
   std::string text =
       fmt::format("The model misses the measurement by typically {}, {} of the force",
                   newtons(c.size.rmse), percent_of(c.size.rmse, c.size.force_rms));
@@ -38,11 +47,10 @@ std::string verdict_line(const Comparison& c) {
 Summary comparison_summary(const Comparison& c, const Recording& measured,
                            const std::vector<SimulatedVersion>& versions) {
   Summary s;
-  const bool noise = only_noise_left(c);
-  s.mark = noise                    ? Summary::Mark::kGood
-           : c.observations.empty() ? Summary::Mark::kOpen
-                                    : Summary::Mark::kBad;
+  const bool noise = only_noise_left(c), open = c.observations.empty() || within_noise(c);
+  s.mark = noise ? Summary::Mark::kGood : open ? Summary::Mark::kOpen : Summary::Mark::kBad;
   s.verdict = measured.name + (noise                    ? ": nothing is left but sensor noise"
+                               : within_noise(c)        ? ": as good as the sensor, but for a trace"
                                : c.observations.empty() ? ": more is left than sensor noise"
                                                         : ": the model misses the measurement");
   s.size = fmt::format("error {} = {} x noise", newtons(c.size.rmse), times_noise(c));
@@ -73,9 +81,10 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
   SummaryItem places{"WORST", "", "", {}};
   for (std::size_t i = 0; i < std::min<std::size_t>(3, worst.size()) && worst.size() > 1; ++i) {
     const BinError& e = c.by_position().errors[static_cast<std::size_t>(worst[i])];
-    places.facts.push_back(fmt::format(
-        "{}: {}, {}", c.by_position().grouping.bins[static_cast<std::size_t>(worst[i])].label,
-        newtons(e.rmse), stiffness_words(e)));
+    std::string fact = c.by_position().grouping.bins[static_cast<std::size_t>(worst[i])].label +
+                       ": " + newtons(e.rmse);
+    if (!right_on_the_whole(e)) fact += ", " + stiffness_words(e);
+    places.facts.push_back(std::move(fact));
   }
   if (!places.facts.empty() && !noise) s.items.push_back(std::move(places));
   return s;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/counted.h"
 #include "base/shell_words.h"
@@ -83,24 +84,38 @@ void add_items(const Diagnosis& d, Summary& s) {
   constexpr std::size_t kInFull = 2, kMostPossible = 3;
   std::vector<const Finding*> shown;
   std::size_t possible = 0;
+  // One effect can be missing more than once, as a relaxation by several terms.
+  std::map<std::string, int> terms;
+  std::map<std::string, const Finding*> last_term;
   for (const Finding& f : d.findings) {
     const bool settled = f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
     const bool others = f.verdict == Verdict::kAbsent || f.verdict == Verdict::kNotTestable;
     if (!settled && (others || ++possible > kMostPossible)) continue;
-    shown.push_back(&f);
+    if (f.verdict == Verdict::kMissing && ++terms[f.effect] > 1)
+      last_term[f.effect] = &f;
+    else
+      shown.push_back(&f);
   }
-  for (const Finding* f : shown)
+  for (const Finding* f : shown) {
     s.items.push_back(item_of(d, *f, shown.size() > kInFull || f->verdict == Verdict::kPossible));
+    if (f->verdict != Verdict::kMissing || terms[f->effect] == 1) continue;
+    s.items.back().name += fmt::format(", {} terms", terms[f->effect]);
+    s.items.back().facts.push_back(
+        fmt::format("with all of its terms {:.3g} N", last_term[f->effect]->rmse_after.told()));
+  }
   if (possible > kMostPossible)
-    s.notes.push_back(fmt::format("{} more are possible", possible - kMostPossible));
+    s.notes.push_back(possible == kMostPossible + 1
+                          ? "1 more is possible"
+                          : fmt::format("{} more are possible", possible - kMostPossible));
 }
 
-// What the verdict's own words say beyond the names of what is missing.
+// What the verdict's own words say beyond what stands on the screen already.
 std::string beyond_names(const Diagnosis& d) {
-  if (d.verdict == ModelVerdict::kComplete) return "";
-  const std::string names = "missing: " + joined(named(d, Verdict::kMissing), ", then ") + ".";
-  if (d.explanation.rfind(names, 0) != 0) return d.explanation;
-  const std::size_t begin = d.explanation.find_first_not_of(' ', names.size());
+  const std::string told = d.verdict == ModelVerdict::kComplete
+                               ? kNothingMissing
+                               : "missing: " + joined(named(d, Verdict::kMissing), ", then ") + ".";
+  if (d.explanation.rfind(told, 0) != 0) return d.explanation;
+  const std::size_t begin = d.explanation.find_first_not_of(' ', told.size());
   return begin == std::string::npos ? "" : d.explanation.substr(begin);
 }
 
@@ -113,7 +128,9 @@ Summary diagnosis_summary(const Diagnosis& d, const DiagnosedFiles& files,
            : d.verdict == ModelVerdict::kAmbiguous ? Summary::Mark::kOpen
                                                    : Summary::Mark::kBad;
   s.verdict = files.recording + ": " + verdict_words(d);
-  s.size = fmt::format("error {:.3g} N = {:.2g} x noise", d.rmse.told(), d.rmse.told() / d.noise);
+  const double ratio = d.rmse.told() / d.noise;
+  s.size = fmt::format("error {:.3g} N = {} x noise", d.rmse.told(),
+                       ratio < 100 ? fmt::format("{:.2g}", ratio) : fmt::format("{:.0f}", ratio));
   add_items(d, s);
   if (const std::string more = beyond_names(d); !more.empty())
     s.notes.insert(s.notes.begin(), more);

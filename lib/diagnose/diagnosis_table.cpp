@@ -80,8 +80,10 @@ std::string next_step(const Diagnosis& d, const DiagnosedFiles& files, const std
       return fmt::format("hs-simulate {}{} -o forces.csv", inputs(files), files.flags);
     default:
       return fmt::format(
-          "hs-simulate {}{} | hs-compare {} --simulated - --body {} --html report.html",
-          inputs(files), files.flags, recording, body);
+          "hs-simulate {}{} | hs-compare {} --simulated - --body {}{} --html report.html -o "
+          "residuals.csv",
+          inputs(files), files.flags, recording, body,
+          files.output.empty() ? "" : " --diagnosis " + shell_quoted(files.output));
   }
 }
 

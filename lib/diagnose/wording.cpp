@@ -192,8 +192,7 @@ std::string describe_verdict(const Diagnosis& d) {
     case ModelVerdict::kUnexplained:
       return "none of the effects it knows explains the error: " + d.left.words;
     default:
-      return "nothing is missing that these data could show above the sizes named with each "
-             "effect." +
+      return kNothingMissing +
              (d.left.error < kLikeNoise
                   ? ""
                   : fmt::format(

@@ -18,6 +18,9 @@ void describe_fit(const Candidate& candidate, const Measured& measured, Finding&
 std::string evidence_words(const Finding& finding);
 // Where contact points lie off the body's surface; "" where they do not.
 std::string shape_words(const Diagnosis& diagnosis);
+// With which the words of a complete model's verdict begin.
+inline const std::string kNothingMissing =
+    "nothing is missing that these data could show above the sizes named with each effect.";
 std::string describe_verdict(const Diagnosis& diagnosis);
 
 // A version of an improved model with its errors; `noise` of the force [N].

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "effects/effects.h"
 
 namespace hapsim {
@@ -52,11 +53,20 @@ const Effect& maxwell_effect() {
   return effect;
 }
 
+std::string known_effects(const std::string& meant) {
+  std::vector<std::string> names;
+  std::string all;
+  for (const Effect* effect : catalogue()) {
+    names.push_back(effect->card().name);
+    all += (all.empty() ? "" : ", ") + names.back();
+  }
+  const std::string near = nearest(meant, names);
+  return near.empty() ? "the catalogue has: " + all : "did you mean '" + near + "'?";
+}
+
 const Effect& require_effect(const std::string& name) {
   if (const Effect* effect = find_effect(name)) return *effect;
-  std::string all;
-  for (const Effect* effect : catalogue()) all += (all.empty() ? "" : ", ") + effect->card().name;
-  fail_usage("unknown effect '" + name + "'", "the catalogue has: " + all);
+  fail_usage("unknown effect '" + name + "'", known_effects(name));
 }
 
 }  // namespace hapsim

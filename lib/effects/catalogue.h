@@ -22,7 +22,10 @@ const Effect& field_effect();
 // The effect of Maxwell elements (EffectCard::maxwell).
 const Effect& maxwell_effect();
 
-// Error(kUsage) that names the nearest effect and lists all.
+// The effect that was probably meant, "did you mean 'friction'?", or else all of them.
+std::string known_effects(const std::string& meant);
+
+// Error(kUsage) with known_effects().
 const Effect& require_effect(const std::string& name);
 
 }  // namespace hapsim

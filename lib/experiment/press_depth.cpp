@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <numeric>
 
 #include "base/error.h"
+#include "experiment/fitted_range.h"
 
 namespace hapsim {
 namespace {
@@ -112,21 +112,16 @@ PositionsThrough positions_through(std::span<const TetMesh> bodies, const Datase
   return out;
 }
 
-double fitted_depth(const Model& model) {
-  return model.metadata.number("depth", model.name)
-      .value_or(std::numeric_limits<double>::infinity());
-}
-
 std::string beyond_depth(const PressDepth& depth, const Model& model) {
   if (depth.share > kValidShare)
     return fmt::format(
         "line {} goes {:.0f} % of the way through the body: beyond {:.0f} % these forces mean "
         "little",
         depth.line, 100 * depth.share, 100 * kValidShare);
-  const double fitted = fitted_depth(model);
-  if (depth.depth > 1.001 * fitted)
+  const FittedRange fitted = fitted_range(model.metadata, model.name);
+  if (!fitted.has_depth(depth.depth))
     return fmt::format("presses go {:.3g} mm deep, and the model was fitted to {:.3g} mm",
-                       1e3 * depth.depth, 1e3 * fitted);
+                       1e3 * depth.depth, 1e3 * fitted.depth);
   return "";
 }
 

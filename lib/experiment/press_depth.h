@@ -31,11 +31,7 @@ struct PositionsThrough {
 // Error(kBadInput) where they are more than half of the positions: then it is the unit or the body.
 PositionsThrough positions_through(std::span<const TetMesh> bodies, const Dataset& dataset);
 
-// The deepest displacement that the model was fitted to, which hs-identify writes down [m];
-// infinite where it does not say.
-double fitted_depth(const Model& model);
-
-// What is said of presses beyond what the model is valid for (kValidShare, fitted_depth()); ""
+// What is said of presses beyond what the model is valid for (kValidShare, FittedRange); ""
 // where there is none.
 std::string beyond_depth(const PressDepth& depth, const Model& model);
 

@@ -137,7 +137,8 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
   for (const std::string& known : known_words(result.model, w.dataset)) add(known);
   add(plates_words(result.model, w));
   warn(result.at_bound,
-       " is at its bound: the data ask for more than the model can give, or cannot tell");
+       " is at its bound: the data ask for more than the model can give, or cannot tell; where it "
+       "is known, hold it (--fix NAME=VALUE), for the other values depend on it");
   warn(result.undetermined, " is not determined by these data: fix it, or press where it matters");
   warn(hardly_known(result.model),
        " is hardly known (standard error of half its value or range): fix it, or press at more "
@@ -159,16 +160,28 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
 
 }  // namespace
 
+namespace {
+
+std::string noise_origin(const Experiment& w) {
+  if (w.noise.measured) return "measured from the data";
+  const auto how = w.dataset.recording.metadata.find("force_noise_from");
+  return how ? "estimated from " + *how : "declared";
+}
+
+}  // namespace
+
 Summary fit_summary(const Experiment& w, const Fit& result, double held_out, const std::string& by,
                     double force_rms) {
   constexpr double kNoiseAlone = 1.15;
   Summary s;
   const double error = result.error.told(), noise = w.noise.value;
   const bool unseen = !by.empty() && !std::isnan(held_out);
-  const bool only_noise = error <= kNoiseAlone * noise;
-  s.mark = only_noise ? Summary::Mark::kGood : Summary::Mark::kOpen;
+  const bool only_noise = error <= kNoiseAlone * noise, known = result.at_bound.empty();
+  s.mark = only_noise && known ? Summary::Mark::kGood : Summary::Mark::kOpen;
   s.verdict = fmt::format("{}: {} fits{}", w.dataset.recording.name, effects_label(result.model),
-                          only_noise ? " to the noise" : "; more than noise is left");
+                          !only_noise ? "; more than noise is left"
+                          : known     ? " to the noise"
+                                      : " to the noise, but at a bound");
   s.size = fmt::format("error {:.4g} N = {:.3g} x noise", error, error / noise);
   s.items = {
       {"ERROR", "", "", {fmt::format("{:.3g} % of the force's rms", 100 * error / force_rms)}}};
@@ -189,7 +202,7 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
                     counted(w.dataset.recording.presses().size(), "press", "presses"),
                     counted(w.dataset.positions.size(), "position", "positions"),
                     setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
-                    noise, w.noise.measured ? "measured from the data" : "declared", force_rms)}});
+                    noise, noise_origin(w), force_rms)}});
   s.notes = doubts(w, result);
   return s;
 }

@@ -200,7 +200,8 @@ std::vector<std::string> untold_times(const Model& model, const Dataset& dataset
           p.value > longest
               ? fmt::format("the longest press lasts {:.3g} s, and slower relaxation counts as E",
                             longest)
-              : fmt::format("its standard error is {:.2g} s", p.std_error)));
+          : std::isnan(p.std_error) ? "no standard error can be given"
+                                    : fmt::format("its standard error is {:.2g} s", p.std_error)));
     }
     if (result.empty() && t.rows.size() == 1)
       result.push_back(fmt::format(

@@ -248,8 +248,7 @@ class Assembler {
       return result_.notes.warnings.push_back(
           "there are too few samples to estimate the noise of the force");
     metadata.set("force_noise", fmt::format("{:.3g}", noise.sigma));
-    metadata.add_comment(
-        "force_noise is the standard deviation per component [N], estimated from " + noise.how);
+    metadata.set("force_noise_from", noise.how);
     result_.notes.facts.push_back(
         fmt::format("force noise {:.3g} N, from {}", noise.sigma, noise.how));
   }

@@ -39,11 +39,8 @@ const char* state_name(ParameterState state) {
 
 void check_row(const Parameter& p, const std::string& where) {
   const Effect* effect = find_effect(p.effect);
-  if (effect == nullptr) {
-    std::string all;
-    for (const Effect* e : catalogue()) all += (all.empty() ? "" : " ") + e->card().name;
-    fail_input(where, "unknown effect '" + p.effect + "'", "the catalogue has: " + all);
-  }
+  if (effect == nullptr)
+    fail_input(where, "unknown effect '" + p.effect + "'", known_effects(p.effect));
   const ParameterCard* card = parameter_card(*effect, p.name);
   if (card == nullptr) {
     std::string all;

@@ -12,8 +12,9 @@
 
 namespace hapsim {
 
-// The budget of a body, some 20 to 40 s of two processors.
-constexpr std::size_t kMostSamples = 400;
+// The budget of a body with limbs and thin parts: some two minutes of two processors. Others reach
+// the tolerance with a third of it at most.
+constexpr std::size_t kMostSamples = 1000;
 
 struct FieldSamplingOptions {
   double tolerance = 0.02;  // relative error of the force, root mean square over the surface

@@ -42,6 +42,7 @@ struct SeveralTools::Tool {
   ToolTorque torque;
   bool touches = false;
   bool placed = false;        // it has touched, or (press()) was told where it will
+  bool told = false;          // step(): a point was told before its first touch
   int press = 0;              // of the last pose, by press()
   Vec3 point = Vec3::Zero();  // the contact's, on the undeformed surface
   // The last finite ones, by step(); at first there is no tool.
@@ -158,7 +159,9 @@ void SeveralTools::find_contact(std::size_t k, const ToolPose& pose) noexcept {
     tool.d.tail<3>() = rotation_vector(turned_by(tool.turn) * tool.at_touch.conjugate());
   } else {
     tool.d.setZero();
-    if (!tool.placed) tool.point = state.surface.point;
+    // Before its first touch it is told at one place, as every other press is.
+    if (!tool.placed && !tool.told) tool.point = state.surface.point;
+    tool.told = true;
   }
 }
 

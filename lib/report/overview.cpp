@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "base/median.h"
@@ -68,8 +70,9 @@ std::string missing_words(const std::vector<OverviewRow>& rows) {
   int diagnosed = 0;
   for (const OverviewRow& row : rows) {
     diagnosed += row.verdict.empty() ? 0 : 1;
-    std::istringstream names(row.missing);
-    for (std::string name; names >> name;) ++count[name];
+    std::istringstream words(row.missing);  // of several terms so many times
+    const std::set<std::string> names{std::istream_iterator<std::string>(words), {}};
+    for (const std::string& name : names) ++count[name];
   }
   std::vector<std::pair<std::string, int>> order(count.begin(), count.end());
   std::stable_sort(order.begin(), order.end(),

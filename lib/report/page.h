@@ -21,6 +21,8 @@ std::string page_diagnosis(const Report& report);
 std::string page_body(const Report& report);
 std::string page_presses(const Report& report);
 std::string page_residuals(const Report& report);
+std::string page_learned(const Report& report);
+std::string page_slices(const Report& report);
 std::string page_tables(const Report& report);
 std::string page_reading(const Report& report);
 std::string page_provenance(const Report& report);

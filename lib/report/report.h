@@ -85,6 +85,23 @@ struct DiagnosisRow {
   std::vector<std::pair<std::string, std::string>> facts;  // short cells: name, text
   std::vector<std::pair<std::string, std::string>> notes;  // long text: name, text
   std::string command;
+  double p_value = std::numeric_limits<double>::quiet_NaN();
+};
+
+// A curve with its range.
+struct ReportCurve {
+  std::string title, note, x_label, y_label;
+  std::vector<double> x, middle, low, high;
+};
+
+// A cut through the body: square cells, row by row from the lower left corner.
+struct ReportSlice {
+  std::string title;            // "z = 12.0 mm"
+  std::string right, up;        // axes: "x [mm]"
+  double left = 0, bottom = 0;  // of the corner [m]
+  double cell = 1;              // edge [m]
+  int columns = 0;
+  std::vector<double> modulus;  // of a cell, E [Pa]; 0 outside the body
 };
 
 // What one model version lacks.
@@ -112,6 +129,8 @@ struct Report {
   std::string presses_note;  // what was left out for the file's size
   std::string time_label = "time [s]";
   std::vector<ResidualPlot> residuals;
+  std::vector<ReportCurve> learned;
+  std::vector<ReportSlice> slices;
   std::vector<ReportTable> tables;
   std::vector<std::pair<std::string, std::string>> provenance;
 };

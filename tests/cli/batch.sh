@@ -158,7 +158,7 @@ cp 15000.csv "it's/more.csv"
 printf 'name,body,data,options,common_options\na,../box.ply,../8000.csv,--folds 0 --data more.csv,--rim-edge 0.3\nb,../box.ply,../8000.csv,--help,\n' >"it's/two.csv"
 batch "it's out" "it's/two.csv"
 grep -q 'failed: b: model made no output' err && grep -q '1 of 2 recordings done, 1 failed' err || complain "a step without output fails"
-[[ $(wc -l <err) -lt 8 ]] || complain 'make warns of the names'
+! grep -qi 'warning' err || complain 'make warns of the names'
 before=$(field "it's out/summary.csv" a E)
 cp 8000.csv "it's/more.csv"
 batch "it's out" "it's/two.csv"

@@ -103,7 +103,8 @@ awk 'BEGIN {
   }
 }' >tips.csv
 run hs-simulate --live --accuracy 0.3 tips.csv --body body.ply --model elastic.csv -q -o two.csv
-run hs-simulate two.csv --full --body body.ply --model elastic.csv -q -o s.csv
+run hs-simulate two.csv --body body.ply --model elastic.csv --rim-edge 0.3 -q -o s.csv
+run hs-identify two.csv --body body.ply --effects elastic --rim-edge 0.3 -q -o two-m.csv
 run hs-simulate --live two.csv --accuracy 0.3 --body body.ply --model elastic.csv -q -o s.csv
 run hs-identify --follow two.csv --accuracy 0.3 --body body.ply -q -o e.csv
 run hs-compare two.csv --simulated s.csv -q -o c.csv

@@ -16,6 +16,7 @@
 #include "hs-compare/follow.h"
 #include "hs-compare/specification.h"
 #include "report/figures.h"
+#include "safety/flag_meanings.h"
 
 namespace hapsim {
 namespace {
@@ -41,6 +42,7 @@ std::vector<SimulatedVersion> read_versions(const Arguments& arguments, const Re
 ReportExtras read_extras(const Arguments& arguments) {
   ReportExtras extras;
   extras.program = version();
+  extras.flags = live_flag_meanings();
   if (arguments.given(flag::title)) extras.title = arguments[flag::title];
   if (arguments.given(flag::history)) {
     Input input(arguments[flag::history]);
@@ -63,15 +65,12 @@ ReportExtras read_extras(const Arguments& arguments) {
   return extras;
 }
 
-// A diagnosis of the model; what was not given stands in capitals. "" where there is no file of the
-// data.
-std::string next_command(const Arguments& arguments) {
-  if (arguments.input() == "-") return "";
-  const auto given = [&](const FileFlag& flag, const char* otherwise) {
-    return arguments.given(flag) ? shell_quoted(arguments[flag]) : otherwise;
-  };
+// A diagnosis of the model, where more than noise is left, none was given, and all its files were.
+std::string next_command(const Arguments& arguments, const Comparison& c) {
+  if (arguments.input() == "-" || within_noise(c) || arguments.given(flag::diagnosis)) return "";
+  if (!arguments.given(flag::body) || !arguments.given(flag::model)) return "";
   return "hs-diagnose " + shell_quoted(arguments.input()) + " --body " +
-         given(flag::body, "BODY.ply") + " --model " + given(flag::model, "MODEL.csv") +
+         shell_quoted(arguments[flag::body]) + " --model " + shell_quoted(arguments[flag::model]) +
          " -o effects.csv";
 }
 
@@ -127,7 +126,10 @@ int run(const Arguments& arguments) {
   std::for_each(outputs.rbegin(), outputs.rend(), [](auto& output) { output->commit(); });
 
   Summary summary = comparison_summary(c, measured, versions);
-  summary.next = next_command(arguments);
+  summary.next = next_command(arguments, c);
+  if (!within_noise(c) && !arguments.given(flag::diagnosis) && summary.next.empty())
+    summary.notes.push_back(
+        "hs-diagnose, given the recording, its body and the model, says what is missing.");
   if (arguments.given(flag::html)) summary.details = "The report: " + arguments.text(flag::html);
   say_summary(arguments, summary);
   if (!arguments.given(flag::fail_above)) return 0;

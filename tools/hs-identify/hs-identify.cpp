@@ -69,7 +69,6 @@ Improvement improve_step_by_step(const Arguments& arguments, const FitRequest& p
                   history_row(arguments.output() + ": " + effects_label(step.fitted.model),
                               step.fitted, step.held_out.told(), w.noise.value, force_rms));
   }
-  if (!improvement.stopped) say(arguments, "hs-identify", end_words(improvement));
   return improvement;
 }
 
@@ -170,6 +169,7 @@ int run(const Arguments& arguments) {
   const double force_rms = force_error(w.dataset, measured_forces(w.dataset, all)).told();
   ForceError unseen;
   std::string cut_short;  // what a signal ended
+  std::string ended;      // why it was not improved further
   Folds folds;
   Fit result;
   if (plan.automatic) {
@@ -177,7 +177,10 @@ int run(const Arguments& arguments) {
         improve_step_by_step(arguments, plan, body, options, fit_options, w, force_rms, watch);
     result = improvement.steps.back().fitted;
     unseen = improvement.steps.back().held_out;
-    cut_short = improvement.stopped ? "the model was improved" : "";
+    if (improvement.stopped)
+      cut_short = "the model was improved";
+    else
+      ended = end_words(improvement);
     folds.by = improvement.unseen;
   } else {
     Starts starts = build_starts(plan, w, all, fit_options, extend);
@@ -212,6 +215,7 @@ int run(const Arguments& arguments) {
   }
   if (!cut_short.empty()) mark_interrupted(model, "while " + cut_short);
   Summary summary = fit_summary(w, result, held_out, folds.by, force_rms);
+  if (!ended.empty()) summary.notes.insert(summary.notes.begin(), ended);
   if (arguments.verbose()) say(arguments, "hs-identify", "BLAS: " + blas_name());
   if (const std::string later = rest.tell(result, w); !later.empty())
     summary.notes.push_back(later);

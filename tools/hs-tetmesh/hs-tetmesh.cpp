@@ -1,6 +1,7 @@
 // hs-tetmesh: a closed surface becomes a body of tetrahedra on its support.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "base/error.h"
@@ -354,8 +355,14 @@ int run(const Arguments& arguments) {
   write_contact_meshes(arguments, mesh, options);
   write_all(arguments, mesh, quality, report, input.window);
   Summary summary = body_summary(mesh, quality, report, arguments[flag::unit], arguments.verbose());
-  if (arguments.output() != "-")
-    summary.next = "hs-identify data.csv --body " + shell_quoted(arguments.output()) + " -o m0.csv";
+  if (arguments.output() != "-") {
+    const std::string rest = " --body " + shell_quoted(arguments.output()) + " -o m0.csv";
+    const char* usual = "data.csv";
+    if (std::filesystem::exists(usual))
+      summary.next = std::string("hs-identify ") + usual + rest;
+    else
+      summary.notes.push_back("with a recording of presses:  hs-identify RECORDING.csv" + rest);
+  }
   say_summary(arguments, summary);
   return 0;
 }

@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "compare/error_surface.h"
 #include "compare/report_body.h"
 #include "compare/report_tables.h"
 #include "compare/wording.h"
+#include "effects/catalogue.h"
 #include "report/palette.h"
+#include "support/shapes.h"
+#include "support/synthetic.h"
 #include "synthetic_recording.h"
 
 namespace hapsim {
@@ -263,6 +268,64 @@ TEST(ComparisonReport, TellsWhatTheForcesAndTheHistoryKnow) {
   EXPECT_NE(std::find(report.provenance.begin(), report.provenance.end(),
                       std::pair<std::string, std::string>{"measured: force_noise", "0.020000"}),
             report.provenance.end());
+}
+
+bool has_table(const Report& report, const std::string& caption) {
+  return std::any_of(report.tables.begin(), report.tables.end(),
+                     [&](const ReportTable& t) { return t.caption.rfind(caption, 0) == 0; });
+}
+
+TEST(ComparisonReport, ShowsHowSureADiagnosisIsAndTheFlagsOfLiveForces) {
+  Compared c = compared(12, 0.5);
+  ReportExtras extras;
+  EXPECT_FALSE(
+      has_table(comparison_report(c.measured, c.versions, c.comparison, {}, extras), "How sure"));
+  extras.diagnoses = {{"", table("effect,verdict,p_value\nmodel,incomplete,\nfriction,absent,0.4\n"
+                                 "regions,missing,1e-5\nlayer,possible,0.03\n")}};
+  extras.flags = {{"beyond", {{1, "deep"}, {8, "elsewhere"}, {16, "fast"}}}};
+  c.measured.extra_header = {"beyond"};
+  c.measured.extra = {std::vector<std::string>(c.measured.rows(), "0")};
+  c.measured.extra[0][3] = "9";
+  c.measured.extra[0][5] = "8";
+  const Report report = comparison_report(c.measured, c.versions, c.comparison, {}, extras);
+  ASSERT_TRUE(has_table(report, "How sure") && has_table(report, "What the live force"));
+  const ReportTable& sure = report.tables[report.tables.size() - 2];
+  ASSERT_EQ(sure.rows.size(), 3u);
+  EXPECT_EQ(sure.rows[0][0], "regions");
+  EXPECT_EQ(sure.rows[0][2], "below 0.001");
+  EXPECT_EQ(sure.rows[2][0], "friction");
+  EXPECT_GT(sure.bar[0], sure.bar[1]);
+  const ReportTable& flags = report.tables.back();
+  ASSERT_EQ(flags.rows.size(), 2u);
+  EXPECT_EQ(flags.rows[0][1], "deep");
+  EXPECT_EQ(flags.rows[0][3], "1");
+  EXPECT_EQ(flags.rows[1][3], "2");
+  EXPECT_EQ(flags.rows[1][2], "line " + std::to_string(c.measured.line[3]));
+}
+
+// A block with a stiff ball in the middle: each cut through it shows both, and nothing outside.
+TEST(ComparisonReport, CutsABodyWithABallInsideOpen) {
+  const Effect& ball = require_effect("inclusion");
+  Model model = test::elastic(1e4, 0.4);
+  Report report;
+  add_slices(test::box({0.04, 0.03, 0.02}), model, report);
+  EXPECT_TRUE(report.slices.empty());
+  const std::map<std::string, double> value{
+      {"x", 0.02}, {"y", 0.015}, {"z", 0.01}, {"radius", 0.006}, {"ratio", 3}};
+  for (const ParameterCard& card : ball.card().parameters) {
+    Parameter p = test::elastic(1, 0.4).parameters.front();
+    p.effect = ball.card().name;
+    p.name = card.name;
+    p.value = value.count(card.name) != 0 ? value.at(card.name) : card.start;
+    model.parameters.push_back(p);
+  }
+  add_slices(test::box({0.04, 0.03, 0.02}), model, report);
+  ASSERT_EQ(report.slices.size(), 3u);
+  for (const ReportSlice& slice : report.slices) {
+    const std::set<double> found(slice.modulus.begin(), slice.modulus.end());
+    EXPECT_EQ(found.size(), 2u) << slice.title;  // a block fills its box
+    EXPECT_EQ(*found.begin(), 1e4);
+  }
 }
 
 }  // namespace

@@ -23,12 +23,12 @@ Recording presses_by_place(bool approach) {
   r.name = "places";
   r.metadata.set("tool_radius", "0.003");
   int press = 0;
-  for (int i = 0; i < 4; ++i)
+  for (int i = 0; i < 5; ++i)
     for (int j = 0; j < 4; ++j, ++press)
       for (int k = approach ? -2 : 1; k <= kSteps; ++k) {
         r.line.push_back(static_cast<long>(r.line.size()) + 2);
         r.press.push_back(press);
-        r.position.emplace_back(0.0125 + 0.011 * i, 0.0125 + 0.012 * j, 0.03);
+        r.position.emplace_back(0.0125 + 0.00875 * i, 0.0125 + 0.012 * j, 0.03);
         r.u.emplace_back(0, 0, -kDepth * k / kSteps);
         r.contact.push_back(k > 0 ? 1 : 0);
         r.f.push_back(Vec3::Zero());
