@@ -77,7 +77,7 @@ int run(const Arguments& arguments) {
   Output output(arguments.output());
   output.write(tool_list(kTools) +
                "\nOne of them:  hs help identify\n"
-               "First steps:  man hs-identify, and README.md: from a scan to what a model lacks\n");
+               "First steps:  README.md: from a scan to what a model lacks\n");
   output.commit();
   return 0;
 }
@@ -93,6 +93,7 @@ int main(int argc, char** argv) {
   } else if (argc > 2) {
     if (const hapsim::ListedTool* tool = hapsim::find_tool(argv[1]))
       hapsim::become(*tool, argv + 1);
+    if (argv[1][0] != '-') argc = 2;  // no tool has that name
   }
   return hapsim::run_tool(hapsim::specification(), argc, argv, hapsim::run);
 }

@@ -19,7 +19,7 @@ inline Option accuracy_option(const std::string& group) {
       .value = "SHARE",
       .help = group +
               ": relative error of the force between samples of the contact stiffness at which "
-              "no more are taken, root mean square over the surface; none beyond 400 of them, and "
+              "no more are taken, root mean square over the surface; none beyond 1000 of them, and "
               "what was reached by then is said.",
       .group = group,
       .default_text = "0.02",
@@ -35,8 +35,9 @@ inline PreparedBodyOptions prepared_options(const Arguments& arguments, double t
   options.tool_radius = tool_radius;
   options.cache = default_cache_directory();
   options.tolerance = arguments[flag::accuracy];
-  options.progress = [&arguments, &progress](std::size_t most) -> std::function<void()> {
-    progress = std::make_shared<Progress>(arguments, "samples of the contact stiffness", most);
+  // How many it will be is known when they suffice.
+  options.progress = [&arguments, &progress](std::size_t) -> std::function<void()> {
+    progress = std::make_shared<Progress>(arguments, "samples of the contact stiffness", 0);
     return [&progress] { progress->step(); };
   };
   return options;

@@ -51,6 +51,8 @@ Comparison compare(const Recording& measured, const Recording& simulated) {
   Comparison c;
   c.size = error_size(measured.f, simulated.f);
   c.noise = noise_level(measured);
+  c.mesh =
+      c.size.force_rms * simulated.metadata.number("mesh_uncertainty", simulated.name).value_or(0);
   c.facts = row_facts(measured);
   c.breakdowns = break_down(c.facts, measured.f, simulated.f, c.noise.value);
   c.observations = find_structure(c.facts, measured.f, simulated.f, c.noise.value);

@@ -11,6 +11,7 @@ namespace hapsim {
 struct Comparison {
   ErrorSize size;
   NoiseLevel noise;
+  double mesh = 0;  // what the meshes of the simulated forces leave open [N]; 0: not known
   RowFacts facts;
   std::vector<Breakdown> breakdowns;  // the first is by position
   std::vector<Observation> observations;

@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compare/gain_sentences.h"
 
 namespace hapsim {
+namespace {
+
+constexpr double kAlike = 1.15;  // two typical errors that far apart count as one
+
+}  // namespace
 
 std::string newtons(double force) {
   return fmt::format("{:.3g} N", force);
@@ -20,22 +26,21 @@ std::string times_noise(const Comparison& c) {
   return c.noise.value > 0 ? fmt::format("{:.2g}", c.size.rmse / c.noise.value) : "?";
 }
 
-bool within_noise(const Comparison& c) {
-  return c.size.rmse <= 1.15 * c.noise.value;
+bool within_doubt(const Comparison& c) {
+  return c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh);
 }
 
 bool only_noise_left(const Comparison& c) {
-  return c.observations.empty() && within_noise(c);
+  return c.observations.empty() && c.size.rmse <= kAlike * c.noise.value;
 }
 
 std::string verdict_line(const Comparison& c) {
   if (only_noise_left(c))
     return fmt::format("Nothing is left but sensor noise: typical error {}, noise {}.",
                        newtons(c.size.rmse), newtons(c.noise.value));
-  if (within_noise(c))
+  if (within_doubt(c))
     return fmt::format(
-        "The model is as good as the sensor: typical error {}, noise {}. A trace of something else "
-        "is in what is left.",
+        "The model is as good as sensor and meshes let it be: typical error {}, noise {}.",
         newtons(c.size.rmse), newtons(c.noise.value));
   std::string text =
       fmt::format("The model misses the measurement by typically {}, {} of the force",
@@ -44,13 +49,24 @@ std::string verdict_line(const Comparison& c) {
   return text + ".";
 }
 
+namespace {
+
+std::string noise_origin(const Comparison& c, const Recording& measured) {
+  if (c.noise.estimated)
+    return "estimated from differences in time: there is no force_noise in the recording";
+  const auto how = measured.metadata.find("force_noise_from");
+  return how ? "estimated from " + *how : "force_noise of the recording";
+}
+
+}  // namespace
+
 Summary comparison_summary(const Comparison& c, const Recording& measured,
                            const std::vector<SimulatedVersion>& versions) {
   Summary s;
-  const bool noise = only_noise_left(c), open = c.observations.empty() || within_noise(c);
+  const bool noise = only_noise_left(c), open = c.observations.empty() || within_doubt(c);
   s.mark = noise ? Summary::Mark::kGood : open ? Summary::Mark::kOpen : Summary::Mark::kBad;
   s.verdict = measured.name + (noise                    ? ": nothing is left but sensor noise"
-                               : within_noise(c)        ? ": as good as the sensor, but for a trace"
+                               : within_doubt(c)        ? ": a trace beyond what sensor and mesh do"
                                : c.observations.empty() ? ": more is left than sensor noise"
                                                         : ": the model misses the measurement");
   s.size = fmt::format("error {} = {} x noise", newtons(c.size.rmse), times_noise(c));
@@ -63,11 +79,7 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
             percent_of(c.size.rmse, c.size.force_rms), percent_of(c.size.rmse, c.size.force_peak),
             newtons(c.size.force_peak), c.size.rmse_axis[0], c.size.rmse_axis[1],
             c.size.rmse_axis[2], measured.rows()),
-        fmt::format(
-            "sensor noise {} ({})", newtons(c.noise.value),
-            c.noise.estimated
-                ? "estimated from differences in time: there is no force_noise in the recording"
-                : "force_noise of the recording")}});
+        fmt::format("sensor noise {} ({})", newtons(c.noise.value), noise_origin(c, measured))}});
   if (versions.size() > 1)
     for (const SimulatedVersion& v : versions)
       s.items[0].facts.push_back(

@@ -14,8 +14,9 @@ std::string newtons(double force);                      // "0.0468 N"
 std::string percent_of(double part, double whole);      // "3.5 %"; "-" of nothing
 std::string times_noise(const Comparison& comparison);  // "1.2"; "?" where the noise is unknown
 
-// The typical error is within 15 % of the sensor noise; and no structure was found besides.
-bool within_noise(const Comparison& comparison);
+// The typical error is within 15 % of what noise and meshes make; of noise alone, and no structure
+// was found besides.
+bool within_doubt(const Comparison& comparison);
 bool only_noise_left(const Comparison& comparison);
 
 // The typical error beside the force and the noise, in one sentence.

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/csv.h"
 
 namespace hapsim {
 
 std::string usual_words(const ModelWatch& watch, const WatchOptions& options) {
+  if (!std::isfinite(watch.least_change()))
+    return "the stream has the model's own forces, without any error: no change can be told";
   return fmt::format(
       "usual error {:.3g} N; alarm when the cumulative sum is above {:.3g}, {:g} false ones an "
       "hour; a change of the stiffness by less than {:.2g} % goes unnoticed",

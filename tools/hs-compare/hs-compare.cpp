@@ -15,6 +15,7 @@
 #include "hs-compare/flags.h"
 #include "hs-compare/follow.h"
 #include "hs-compare/specification.h"
+#include "recording/tools_together.h"
 #include "report/figures.h"
 #include "safety/flag_meanings.h"
 
@@ -67,7 +68,7 @@ ReportExtras read_extras(const Arguments& arguments) {
 
 // A diagnosis of the model, where more than noise is left, none was given, and all its files were.
 std::string next_command(const Arguments& arguments, const Comparison& c) {
-  if (arguments.input() == "-" || within_noise(c) || arguments.given(flag::diagnosis)) return "";
+  if (arguments.input() == "-" || within_doubt(c) || arguments.given(flag::diagnosis)) return "";
   if (!arguments.given(flag::body) || !arguments.given(flag::model)) return "";
   return "hs-diagnose " + shell_quoted(arguments.input()) + " --body " +
          shell_quoted(arguments[flag::body]) + " --model " + shell_quoted(arguments[flag::model]) +
@@ -127,9 +128,11 @@ int run(const Arguments& arguments) {
 
   Summary summary = comparison_summary(c, measured, versions);
   summary.next = next_command(arguments, c);
-  if (!within_noise(c) && !arguments.given(flag::diagnosis) && summary.next.empty())
+  if (!within_doubt(c) && !arguments.given(flag::diagnosis) && summary.next.empty())
     summary.notes.push_back(
         "hs-diagnose, given the recording, its body and the model, says what is missing.");
+  if (const std::string together = tools_together(measured); !together.empty())
+    summary.notes.push_back(together);
   if (arguments.given(flag::html)) summary.details = "The report: " + arguments.text(flag::html);
   say_summary(arguments, summary);
   if (!arguments.given(flag::fail_above)) return 0;

@@ -70,7 +70,7 @@ inline int run_follow(const Arguments& arguments) {
   CsvWriter csv(output.stream(), lines.metadata(), estimate_columns(times.size()));
   output.stream().flush();
   MotionLine line;
-  long rows = 0;
+  long rows = 0, beside = 0;
   const long every = arguments[flag::every];
   const auto tell = [&] {
     csv.row(estimate_row(line.t, rows, identification.estimate()));
@@ -88,7 +88,9 @@ inline int run_follow(const Arguments& arguments) {
           tools[k]->press = line.press;
           response.press(line.t, line.u, line.in_air);
           // Where another tool presses too, the surface is not where this one's contact has it.
-          if (!line.in_air && lines.is_alone())
+          if (!line.in_air && !lines.is_alone())
+            ++beside;
+          else if (!line.in_air)
             identification.add(response.unit_forces(), lines.force());
           if (++rows % every == 0) tell();
         }
@@ -101,7 +103,14 @@ inline int run_follow(const Arguments& arguments) {
         output.commit();
         const OnlineEstimate e = identification.estimate();
         say(arguments, "hs-identify",
-            fmt::format("{} rows: {}; error {:.3g} N", rows, moduli_words(e, times, 4), e.rmse));
+            fmt::format("{} rows: {} at nu = {:g} (--nu); error {:.3g} N", rows,
+                        moduli_words(e, times, 4), static_cast<double>(arguments[flag::nu]),
+                        e.rmse));
+        if (beside > 0)
+          say(arguments, "hs-identify",
+              fmt::format("{} of them are of a tool beside which another pressed, which moves the "
+                          "surface: they do not count",
+                          beside));
       });
   return 0;
 }
