@@ -149,20 +149,28 @@ inline int answer(const Arguments& arguments, LiveInput& in, const std::string& 
                    });
 }
 
-// Several tools, or one that turns.
-inline int answer_several(const Arguments& arguments, LiveInput& in, const TetMesh& mesh,
-                          const Model& model, const PreparedBody& body,
-                          const ToolLoopOptions& options) {
+// What several tools do under each other; none of one tool.
+inline std::optional<ToolCoupling> couple_tools(const Arguments& arguments, const LiveInput& in,
+                                                const TetMesh& mesh, const Model& model,
+                                                const PreparedBody& body) {
   std::optional<ToolCoupling> coupling;
-  if (in.several->tools() > 1) {
-    const std::int64_t start = monotonic_ns();
-    coupling.emplace(mesh, model, body.tool_radius());
-    say(arguments, "hs-simulate",
-        fmt::format("what one tool does under another: {} corners of the surface condensed in "
-                    "{:.1f} ms, in {} order",
-                    coupling->corners(), 1e-6 * static_cast<double>(monotonic_ns() - start),
-                    coupling->second_order() ? "second" : "first"));
-  }
+  if (!in.several || in.several->tools() < 2) return coupling;
+  const std::int64_t start = monotonic_ns();
+  Progress progress(arguments, "what one tool does under another", 0);
+  coupling.emplace(mesh, model, body.tool_radius());
+  clear_progress_line();
+  say(arguments, "hs-simulate",
+      fmt::format("what one tool does under another: {} corners of the surface condensed in "
+                  "{:.2g} s, in {} order",
+                  coupling->corners(), 1e-9 * static_cast<double>(monotonic_ns() - start),
+                  coupling->second_order() ? "second" : "first"));
+  return coupling;
+}
+
+// Several tools, or one that turns.
+inline int answer_several(const Arguments& arguments, LiveInput& in, const Model& model,
+                          const PreparedBody& body, const std::optional<ToolCoupling>& coupling,
+                          const ToolLoopOptions& options) {
   SeveralTools tools(body, coupling ? &*coupling : nullptr, in.several->tools(), options);
   return answer_by(arguments, in, effects_label(model),
                    [&](std::ostream& out, const LiveOptions& live, LiveReport& report) {
@@ -196,6 +204,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
   progress.reset();
   in.within(mesh.nodes);
   tell_accuracy(arguments, "hs-simulate", body.field());
+  const std::optional<ToolCoupling> coupling = couple_tools(arguments, in, mesh, model, body);
   in.metadata.set("off_contacts", format_number(body.field().expected_error()));
   say(arguments, "hs-simulate",
       fmt::format("ready in {:.2g} s: {} samples of the contact stiffness, between them {:.1f} % "
@@ -209,7 +218,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
                     body.terms().size(), body.misfit()));
   ToolLoopOptions loop_options = in.loop_options();
   loop_options.fitted = fitted_range(model.metadata, model.name);
-  if (in.several) return answer_several(arguments, in, mesh, model, body, loop_options);
+  if (in.several) return answer_several(arguments, in, model, body, coupling, loop_options);
   ForceLoop loop(body, loop_options);
   return answer(arguments, in, effects_label(model), loop);
 }
