@@ -144,7 +144,8 @@ std::vector<Option> options() {
        .group = "Output",
        .writes = kTableExtensions},
       choice("Output", flag::estimate_noise,
-             "Whether the noise of the force is estimated and written as force_noise: from "
+             "Whether the noise of the force is estimated and written as metadata force_noise, and "
+             "where it comes from as force_noise_from: from "
              "differences of neighbours "
              "and the samples in the air; auto does it where there are enough and the table says "
              "nothing.",

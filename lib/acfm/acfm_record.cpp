@@ -32,11 +32,10 @@ std::vector<std::string> fit_lines(const AcfmFit& fit, const Dataset& dataset, c
     return fmt::format("{:.4g} N = {:.3g} % of the force's rms, {:.3g} x noise", value,
                        100 * value / force, value / noise.value);
   };
-  line(
-      fmt::format("{} sub-models of {} Maxwell elements a direction from {} samples; noise {:.3g} "
-                  "N ({})",
-                  dataset.positions.size(), fit.model.terms, dataset.rows(), noise.value,
-                  noise.measured ? "measured from the data" : "declared"));
+  line(fmt::format(
+      "{} sub-models of {} Maxwell elements a direction from {} samples; noise {:.3g} "
+      "N ({})",
+      dataset.positions.size(), fit.model.terms, dataset.rows(), noise.value, noise.origin));
   if (fit.derived_axes > 0)
     line(
         fmt::format("{} of {} directions are not moved in these data: taken from the others by "

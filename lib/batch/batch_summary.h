@@ -2,7 +2,8 @@
 #pragma once
 
 #include <map>
-#include <sstream>
+#include <string>
+#include <vector>
 
 #include "batch/batch_report.h"
 #include "cli/summary.h"
@@ -14,13 +15,13 @@ inline Summary batch_summary(const std::vector<RecordingOutcome>& outcomes,
                              const Overview& overview) {
   Summary s;
   double done = 0, failed = 0;
-  std::map<std::string, double> verdicts, missing;
+  std::map<std::string, double> verdicts;
+  std::vector<std::string> missing;
   for (const RecordingOutcome& o : outcomes) {
     done += o.state == RecordingState::kDone ? 1 : 0;
     failed += o.state == RecordingState::kFailed ? 1 : 0;
     if (!o.verdict.empty()) ++verdicts[o.verdict];
-    std::istringstream names(o.missing);
-    for (std::string name; names >> name;) ++missing[name];
+    missing.push_back(o.missing);
   }
   s.mark = all_done(outcomes) ? Summary::Mark::kGood
            : failed > 0       ? Summary::Mark::kBad
@@ -33,7 +34,8 @@ inline Summary batch_summary(const std::vector<RecordingOutcome>& outcomes,
               {"failed", failed, "1"}};
   for (const auto& [verdict, count] : verdicts)
     s.values.push_back({"verdict." + verdict, count, "1"});
-  for (const auto& [effect, count] : missing) s.values.push_back({"missing." + effect, count, "1"});
+  for (const auto& [effect, count] : count_names(missing))
+    s.values.push_back({"missing." + effect, static_cast<double>(count), "1"});
   return s;
 }
 

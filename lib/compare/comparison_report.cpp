@@ -40,9 +40,12 @@ void set_command(const std::string& tool, const Recording& measured, const Repor
   report.next += " -o " + output;
 }
 
-// What the last diagnosis asks for; without one, a diagnosis; of a complete model, its use.
-void add_next(const Recording& measured, const ReportExtras& extras, Report& report) {
+// What the last diagnosis asks for; without one, a diagnosis, unless sensor and meshes explain what
+// is left; of a complete model, its use.
+void add_next(const Recording& measured, const Comparison& c, const ReportExtras& extras,
+              Report& report) {
   if (report.diagnoses.empty()) {
+    if (within_doubt(c)) return;
     set_command("hs-diagnose", measured, extras, "effects.csv", report);
     return;
   }
@@ -92,7 +95,7 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
   report.verdict = verdict_line(c) + (diagnosed.empty() ? "" : " The model is " + diagnosed);
   report.good = diagnosed.empty() ? only_noise_left(c) : diagnosed.rfind("complete", 0) == 0;
   for (const Observation& o : c.observations) report.sentences.push_back(o.sentence);
-  add_next(measured, extras, report);
+  add_next(measured, c, extras, report);
   add_numbers(c, simulated.metadata, report);
   if (extras.model) add_parameters(*extras.model, report);
   add_body(c, map, extras.model ? &*extras.model : nullptr, report);

@@ -145,15 +145,14 @@ void add_tables(const Comparison& c, Report& report) {
 }
 
 void add_numbers(const Comparison& c, const Metadata& simulated, Report& report) {
-  report.numbers = {{"typical error (rmse)", newtons(c.size.rmse),
-                     fmt::format("{} of the force's rms, {} of its peak",
-                                 percent_of(c.size.rmse, c.size.force_rms),
-                                 percent_of(c.size.rmse, c.size.force_peak))},
-                    {"sensor noise", c.noise.value > 0 ? newtons(c.noise.value) : "unknown",
-                     c.noise.estimated ? "estimated from differences in time"
-                                       : "declared in the recording (force_noise)"},
-                    {"error over noise", c.noise.value > 0 ? times_noise(c) + " ×" : "-",
-                     "1 × when nothing but noise is left"}};
+  report.numbers = {
+      {"typical error (rmse)", newtons(c.size.rmse),
+       fmt::format("{} of the force's rms, {} of its peak",
+                   percent_of(c.size.rmse, c.size.force_rms),
+                   percent_of(c.size.rmse, c.size.force_peak))},
+      {"sensor noise", c.noise.value > 0 ? newtons(c.noise.value) : "unknown", c.noise.origin},
+      {"error over noise", c.noise.value > 0 ? times_noise(c) + " ×" : "-",
+       "1 × when nothing but noise is left"}};
   if (const auto share = simulated.number("mesh_uncertainty", "simulated")) {
     report.mesh_uncertainty = *share * c.size.force_rms;
     report.numbers.push_back(

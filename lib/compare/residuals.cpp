@@ -23,8 +23,10 @@ constexpr double kSameNumber = 1e-5;  // [m]; a file with five decimals still ma
 }  // namespace
 
 NoiseLevel noise_level(const Recording& measured) {
-  if (const auto declared = measured.force_noise()) return {*declared, false};
-  return {measure_force_noise(measured).sigma, true};
+  if (const auto declared = measured.force_noise())
+    return {*declared, false, declared_noise_origin(measured)};
+  return {measure_force_noise(measured).sigma, true,
+          "estimated from differences in time: there is no force_noise in the recording"};
 }
 
 ErrorSize error_size(const std::vector<Vec3>& measured, const std::vector<Vec3>& simulated) {

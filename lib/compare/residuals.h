@@ -12,6 +12,7 @@ namespace hapsim {
 struct NoiseLevel {
   double value = 0;
   bool estimated = false;  // from the recording itself, not from `force_noise`
+  std::string origin;      // for sentences
 };
 
 // As recording/force_noise.h has it; 0 when it is not declared and no press has three rows.

@@ -49,26 +49,18 @@ std::string verdict_line(const Comparison& c) {
   return text + ".";
 }
 
-namespace {
-
-std::string noise_origin(const Comparison& c, const Recording& measured) {
-  if (c.noise.estimated)
-    return "estimated from differences in time: there is no force_noise in the recording";
-  const auto how = measured.metadata.find("force_noise_from");
-  return how ? "estimated from " + *how : "force_noise of the recording";
-}
-
-}  // namespace
-
 Summary comparison_summary(const Comparison& c, const Recording& measured,
                            const std::vector<SimulatedVersion>& versions) {
   Summary s;
-  const bool noise = only_noise_left(c), open = c.observations.empty() || within_doubt(c);
-  s.mark = noise ? Summary::Mark::kGood : open ? Summary::Mark::kOpen : Summary::Mark::kBad;
-  s.verdict = measured.name + (noise                    ? ": nothing is left but sensor noise"
-                               : within_doubt(c)        ? ": a trace beyond what sensor and mesh do"
-                               : c.observations.empty() ? ": more is left than sensor noise"
-                                                        : ": the model misses the measurement");
+  const bool noise = only_noise_left(c), even = c.observations.empty(), doubt = within_doubt(c);
+  s.mark = noise || (even && doubt) ? Summary::Mark::kGood
+           : even || doubt          ? Summary::Mark::kOpen
+                                    : Summary::Mark::kBad;
+  s.verdict = measured.name + (noise   ? ": nothing is left but sensor noise"
+                               : doubt ? ": as good as sensor and meshes let it be"
+                               : even  ? ": more is left than sensor noise"
+                                       : ": the model misses the measurement");
+  if (doubt && !even) s.verdict += ", but for a trace";
   s.size = fmt::format("error {} = {} x noise", newtons(c.size.rmse), times_noise(c));
   s.items.push_back(
       {"ERROR",
@@ -79,7 +71,7 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
             percent_of(c.size.rmse, c.size.force_rms), percent_of(c.size.rmse, c.size.force_peak),
             newtons(c.size.force_peak), c.size.rmse_axis[0], c.size.rmse_axis[1],
             c.size.rmse_axis[2], measured.rows()),
-        fmt::format("sensor noise {} ({})", newtons(c.noise.value), noise_origin(c, measured))}});
+        fmt::format("sensor noise {} ({})", newtons(c.noise.value), c.noise.origin)}});
   if (versions.size() > 1)
     for (const SimulatedVersion& v : versions)
       s.items[0].facts.push_back(

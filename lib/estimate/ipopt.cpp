@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
+
+#include "base/error.h"
 
 namespace hapsim {
 namespace {
@@ -131,11 +134,11 @@ std::string message_of(ApplicationReturnStatus status) {
 
 IpoptEnd minimise_by_ipopt(IpoptProblemOf& problem, int max_iterations) {
   static const Calls calls = load();
+  // No other method in its stead: the same fit must not depend on what is installed.
+  if (!calls.complete)
+    fail_io("Ipopt", HAPSIM_IPOPT " cannot be loaded, and a fit under constraints needs it",
+            "install it (Debian: coinor-libipopt1v5)");
   IpoptEnd end;
-  if (!calls.complete) {
-    end.message = "Ipopt (" HAPSIM_IPOPT ") cannot be loaded: install it";
-    return end;
-  }
   const auto n = static_cast<Index>(problem.y.size());
   const auto m = static_cast<Index>(problem.A.rows());
   constexpr double kNone = 1e20;  // Ipopt's infinity is 1e19

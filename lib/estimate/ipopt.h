@@ -29,7 +29,8 @@ struct IpoptEnd {
   std::string message;
 };
 
-// With the Gauss-Newton matrix 2 J'J for the Hessian. One thread at a time.
+// With the Gauss-Newton matrix 2 J'J for the Hessian. One thread at a time. Error(kIo): Ipopt is
+// not installed.
 IpoptEnd minimise_by_ipopt(IpoptProblemOf& problem, int max_iterations);
 
 }  // namespace hapsim

@@ -160,16 +160,6 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
 
 }  // namespace
 
-namespace {
-
-std::string noise_origin(const Experiment& w) {
-  if (w.noise.measured) return "measured from the data";
-  const auto how = w.dataset.recording.metadata.find("force_noise_from");
-  return how ? "estimated from " + *how : "declared";
-}
-
-}  // namespace
-
 Summary fit_summary(const Experiment& w, const Fit& result, double held_out, const std::string& by,
                     double force_rms) {
   constexpr double kNoiseAlone = 1.15;
@@ -202,7 +192,7 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
                     counted(w.dataset.recording.presses().size(), "press", "presses"),
                     counted(w.dataset.positions.size(), "position", "positions"),
                     setups_in_words(w.dataset), counted(w.dataset.rows(), "sample", "samples"),
-                    noise, noise_origin(w), force_rms)}});
+                    noise, w.noise.origin, force_rms)}});
   s.notes = doubts(w, result);
   return s;
 }

@@ -201,10 +201,20 @@ NoiseEstimate measure_force_noise(const Recording& recording) {
   return estimate;
 }
 
+std::string declared_noise_origin(const Recording& recording) {
+  const auto how = recording.metadata.find("force_noise_from");
+  return how ? "estimated from " + *how : "declared";
+}
+
+void forget_force_noise(Metadata& metadata) {
+  for (const char* key : {"force_noise", "force_noise_from"}) metadata.remove(key);
+}
+
 Noise force_noise(const Recording& recording) {
-  if (const auto declared = recording.force_noise()) return {*declared, false};
+  if (const auto declared = recording.force_noise())
+    return {*declared, false, declared_noise_origin(recording)};
   const double measured = measure_force_noise(recording).sigma;
-  return {measured > 0 ? measured : kLeast * peak_of(recording), true};
+  return {measured > 0 ? measured : kLeast * peak_of(recording), true, "measured from the data"};
 }
 
 }  // namespace hapsim

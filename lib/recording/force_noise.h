@@ -34,9 +34,17 @@ struct NoiseEstimate {
 NoiseEstimate measure_force_noise(const Recording& recording);
 
 struct Noise {
-  double value = 0;       // standard deviation per component [N]
-  bool measured = false;  // from the data, not declared
+  double value = 0;              // standard deviation per component [N]
+  bool measured = false;         // from the data, not declared
+  std::string origin = "given";  // for sentences: "estimated from second differences of 12 presses"
 };
+
+// Of the metadata force_noise: "declared", or "estimated from ..." by its metadata
+// force_noise_from, which hs-import writes.
+std::string declared_noise_origin(const Recording& recording);
+
+// Both are of forces that are no longer there.
+void forget_force_noise(Metadata& metadata);
 
 // The metadata `force_noise`, else measured; 1e-4 of the largest force where no press has three
 // rows.

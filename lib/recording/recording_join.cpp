@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "io/number.h"
+#include "recording/force_noise.h"
 
 namespace hapsim {
 namespace {
@@ -44,7 +45,7 @@ void pool_noise(const std::vector<Recording>& recordings, Recording& all) {
     rows += static_cast<double>(r.rows());
   }
   if (alike) return;
-  all.metadata.remove("force_noise");
+  forget_force_noise(all.metadata);
   if (!std::isnan(rows)) all.metadata.set("force_noise", format_number(std::sqrt(squares / rows)));
 }
 

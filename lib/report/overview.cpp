@@ -66,14 +66,13 @@ std::vector<std::pair<std::string, std::vector<OverviewRow>>> by_effects(const O
 
 // "viscoelastic missing in 5 of 5, friction in 1", the most frequent first; empty where nothing is.
 std::string missing_words(const std::vector<OverviewRow>& rows) {
-  std::map<std::string, int> count;
+  std::vector<std::string> lists;
   int diagnosed = 0;
   for (const OverviewRow& row : rows) {
     diagnosed += row.verdict.empty() ? 0 : 1;
-    std::istringstream words(row.missing);  // of several terms so many times
-    const std::set<std::string> names{std::istream_iterator<std::string>(words), {}};
-    for (const std::string& name : names) ++count[name];
+    lists.push_back(row.missing);
   }
+  const std::map<std::string, int> count = count_names(lists);
   std::vector<std::pair<std::string, int>> order(count.begin(), count.end());
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.second > b.second; });
@@ -181,6 +180,16 @@ std::string page_failures(const Overview& o) {
 }
 
 }  // namespace
+
+std::map<std::string, int> count_names(const std::vector<std::string>& lists) {
+  std::map<std::string, int> count;
+  for (const std::string& list : lists) {
+    std::istringstream words(list);
+    const std::set<std::string> names{std::istream_iterator<std::string>(words), {}};
+    for (const std::string& name : names) ++count[name];
+  }
+  return count;
+}
 
 std::vector<std::string> overview_lines(const Overview& overview) {
   std::vector<std::string> lines;

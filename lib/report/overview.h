@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <ostream>
 #include <string>
 #include <utility>
@@ -40,6 +41,10 @@ struct Overview {
 // "median error 0.021 N, 1.1 times the noise; models: 20 complete, 3 incomplete", and where the
 // rows ask for different effects such a line for each. Empty without any error.
 std::vector<std::string> overview_lines(const Overview& overview);
+
+// By name: in how many of these lists, of names between blanks, it stands; of one that stands in a
+// list twice, as a relaxation of several terms, once.
+std::map<std::string, int> count_names(const std::vector<std::string>& lists);
 
 // One HTML file that needs no network: key numbers, how often each verdict, failures, and the
 // recordings with the largest error first (a click on a column's head sorts by it).

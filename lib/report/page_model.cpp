@@ -86,9 +86,8 @@ std::string page_slices(const Report& report) {
       }
   std::string out =
       "<section><h2>Inside the body</h2><p class='note'>The model's modulus in three cuts through "
-      "what differs most; a skin "
-      "is "
-      "drawn all around, on what holds the body as well.</p><div class='multiples'>";
+      "what differs most; a skin is drawn all around, on what holds the body as well.</p>"
+      "<div class='multiples'>";
   for (const ReportSlice& slice : report.slices)
     out += "<figure>" + slice_svg(slice, range) + "<figcaption>" + escape_html(slice.title) +
            "</figcaption></figure>";

@@ -17,6 +17,7 @@
 #include "hs-simulate/specification.h"
 #include "io/csv.h"
 #include "model/model_edit.h"
+#include "recording/force_noise.h"
 #include "simulate/field_rows.h"
 #include "simulate/full_simulation.h"
 #include "simulate/own_mesh.h"
@@ -38,7 +39,7 @@ void say_beyond(const Arguments& arguments, const PressDepth& depth, const Model
 
 // Noise as asked for, metadata, and out.
 void write_simulated(const Arguments& arguments, const std::string& label, Recording& out) {
-  out.metadata.remove("force_noise");
+  forget_force_noise(out.metadata);
   out.metadata.set("simulated", label);
   if (arguments.given(flag::add_noise)) {
     const double noise = arguments[flag::add_noise];

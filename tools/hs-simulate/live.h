@@ -21,6 +21,7 @@
 #include "realtime/real_time.h"
 #include "realtime/tool_lines.h"
 #include "realtime/tool_records.h"
+#include "recording/force_noise.h"
 #include "stream_options.h"
 
 namespace hapsim {
@@ -116,7 +117,7 @@ int answer_by(const Arguments& arguments, LiveInput& in, const std::string& labe
     widen_pipes();
     say(arguments, "hs-simulate", enter_real_time());
   }
-  in.metadata.remove("force_noise");
+  forget_force_noise(in.metadata);
   in.metadata.set("simulated", label);
   Output output(arguments.output());
   if (!in.binary) CsvWriter(output.stream(), in.metadata, in.columns);

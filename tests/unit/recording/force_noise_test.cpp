@@ -217,6 +217,12 @@ TEST(ForceNoise, DeclaredIsNotMeasured) {
   r.metadata.set("force_noise", "0.5");
   EXPECT_FALSE(force_noise(r).measured);
   EXPECT_EQ(force_noise(r).value, 0.5);
+  EXPECT_EQ(force_noise(r).origin, "declared");
+  r.metadata.set("force_noise_from", "third differences of 4 presses");
+  EXPECT_EQ(force_noise(r).origin, "estimated from third differences of 4 presses");
+  forget_force_noise(r.metadata);
+  EXPECT_EQ(force_noise(r).origin, "measured from the data");
+  EXPECT_EQ(declared_noise_origin(r), "declared");  // nothing is left of the earlier one
 }
 
 }  // namespace

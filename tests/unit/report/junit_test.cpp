@@ -57,6 +57,8 @@ TEST(Overview, EachKindOfModelHasItsOwnMedian) {
   page.rows.erase(page.rows.begin() + 1);
   EXPECT_EQ(overview_lines(page).size(), 1U);
   EXPECT_TRUE(overview_lines({}).empty());
+  const std::map<std::string, int> twice{{"friction", 1}, {"viscoelastic", 2}};
+  EXPECT_EQ(count_names({"viscoelastic friction viscoelastic", "viscoelastic", ""}), twice);
 }
 
 TEST(Overview, CountsWhatIsMissing) {
