@@ -12,7 +12,7 @@ awk 'BEGIN {
 }' >motion.csv
 
 "$bin/hs-link" --listen 0 --accuracy 0.3 --body body.ply --model model.csv --tool-radius 0.004 --delay 0.02 \
-  --loss 0.02 --idle 4 2>far.err &
+  --loss 0.02 --idle 20 2>far.err &
 far=$!
 until_true 60 grep -qs listening far.err
 port=$(sed -n 's/.*listening at 127.0.0.1:\([0-9]*\).*/\1/p' far.err)
