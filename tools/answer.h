@@ -1,9 +1,9 @@
 // The answer of a tool as its summary: on the screen, and by --json.
 #pragma once
 
+#include "cli/shared_flags.h"
 #include "cli/tell.h"
 #include "io/stream.h"
-#include "shared_flags.h"
 
 namespace hapsim {
 

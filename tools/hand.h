@@ -9,8 +9,8 @@
 #include "cli/tool.h"
 #include "safety/hand_source.h"
 #include "safety/hand_tools.h"
+#include "safety/safety_options.h"
 #include "safety/safety_words.h"
-#include "safety_options.h"
 
 namespace hapsim {
 

@@ -6,13 +6,13 @@
 #include "answer.h"
 #include "base/error.h"
 #include "base/shell_words.h"
+#include "cli/shared_flags.h"
 #include "formats/format_table.h"
 #include "formats/tetmesh_io.h"
 #include "io/number.h"
 #include "regions/region_map.h"
 #include "regions/region_report.h"
 #include "regions/region_summary.h"
-#include "shared_flags.h"
 
 namespace hapsim {
 namespace flag {

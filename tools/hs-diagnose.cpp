@@ -1,15 +1,14 @@
 // hs-diagnose: which physical effect the model lacks.
-#include <span>
-
 #include "base/error.h"
+#include "cli/shared_flags.h"
 #include "cli/tell.h"
 #include "common_options.h"
 #include "diagnose/diagnosis_summary.h"
 #include "diagnose/diagnosis_table.h"
-#include "experiment/plausible.h"
+#include "diagnose/draft_experiment.h"
+#include "experiment/preparation_flags.h"
 #include "fit/fit_words.h"
 #include "plan/press_plan.h"
-#include "shared_flags.h"
 
 namespace hapsim {
 namespace flag {
@@ -147,8 +146,7 @@ void write_plan(const Arguments& arguments, const Diagnosis& d, const Experiment
 
 DiagnosedFiles files_of(const Arguments& arguments) {
   DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
-  for (const AnyFlag& flag : AnyFlags{flag::tool_radius, flag::noise, flag::floor, flag::rim_edge})
-    if (arguments.given(flag)) files.flags += " " + flag + " " + arguments.text(flag);
+  files.flags = repeated_flags(arguments);
   if (arguments.output() != "-") files.output = arguments.output();
   return files;
 }
@@ -158,13 +156,9 @@ int run(const Arguments& arguments) {
   std::vector<Vec3> window;
   const TetMesh body = load_body(arguments, &window);
   std::shared_ptr<Progress> progress;
-  ExperimentOptions options = experiment_options(arguments, progress);
-  options.windows = {window};
-  options.draft = true;  // many materials are tried; the one that is added is identified finely
-  set_poisson_range(model, options);
-  Dataset dataset = make_dataset(load_pressed(arguments, arguments.input(), true, model));
-  require_presses(dataset);
-  const Experiment w = make_experiment(std::span(&body, 1), std::move(dataset), options);
+  const ExperimentOptions options = experiment_options(arguments, progress);
+  const Experiment w = draft_experiment(
+      body, window, model, load_recording(arguments, arguments.input(), true), options);
   progress.reset();
   for (const std::string& words : left_out_words(w)) say(arguments, "hs-diagnose", words);
   for (const std::string& known : known_words(model, w.dataset))

@@ -6,13 +6,13 @@
 
 #include "answer.h"
 #include "base/error.h"
+#include "cli/shared_flags.h"
 #include "common_options.h"
 #include "exchange/deck_error.h"
 #include "exchange/scene.h"
 #include "formats/field_vtu.h"
 #include "formats/mesh_file.h"
 #include "io/extension.h"
-#include "shared_flags.h"
 
 namespace hapsim {
 namespace flag {

@@ -5,6 +5,7 @@
 
 #include "answer.h"
 #include "base/error.h"
+#include "cli/shared_flags.h"
 #include "common_options.h"
 #include "fusion/fused_loop.h"
 #include "fusion/fusion_summary.h"
@@ -15,7 +16,6 @@
 #include "realtime/live_session.h"
 #include "realtime/motion_lines.h"
 #include "realtime/real_time.h"
-#include "shared_flags.h"
 #include "simulate/full_simulation.h"
 #include "stream_options.h"
 

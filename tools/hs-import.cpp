@@ -6,13 +6,13 @@
 #include "answer.h"
 #include "base/error.h"
 #include "base/shell_words.h"
+#include "cli/shared_flags.h"
 #include "formats/format_table.h"
 #include "import/block.h"
 #include "import/implausible.h"
 #include "import/import_report.h"
 #include "io/number.h"
 #include "io/quantity.h"
-#include "shared_flags.h"
 #include "tables/encoding.h"
 
 namespace hapsim {

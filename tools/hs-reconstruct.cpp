@@ -4,12 +4,12 @@
 #include "base/error.h"
 #include "base/shell_words.h"
 #include "base/units.h"
+#include "cli/shared_flags.h"
 #include "cli/tell.h"
 #include "formats/format_table.h"
 #include "formats/surface_io.h"
 #include "io/number.h"
 #include "reconstruct/surface_record.h"
-#include "shared_flags.h"
 
 namespace hapsim {
 namespace flag {

@@ -1,31 +1,16 @@
 // How the tools that answer at once make a body ready.
 #pragma once
 
-#include <fmt/format.h>
-
 #include <memory>
 #include <string>
 
+#include "cli/shared_flags.h"
 #include "cli/tool.h"
 #include "contact/contact_cache.h"
+#include "realtime/accuracy_option.h"
 #include "realtime/prepared_body.h"
-#include "shared_flags.h"
 
 namespace hapsim {
-
-inline Option accuracy_option(const std::string& group) {
-  return {
-      .flag = flag::accuracy,
-      .value = "SHARE",
-      .help = group +
-              ": relative error of the force between samples of the contact stiffness at which "
-              "no more are taken, root mean square over the surface; none beyond 1000 of them, and "
-              "what was reached by then is said.",
-      .group = group,
-      .default_text = "0.02",
-      .minimum = 0.002,
-      .maximum = 1};
-}
 
 // With the user's cache, so that a second start finds the field; samples are counted in `progress`,
 // which must outlive the preparation.
@@ -46,13 +31,8 @@ inline PreparedBodyOptions prepared_options(const Arguments& arguments, double t
 // What was not reached: told, for forces between samples are that far off.
 inline void tell_accuracy(const Arguments& arguments, const char* tool,
                           const StiffnessField& field) {
-  const double asked = arguments[flag::accuracy];
-  if (field.expected_error() <= asked) return;
-  say(arguments, tool,
-      fmt::format(
-          "between the {} samples of the contact stiffness that were taken forces are {:.1f} % "
-          "off by what is expected, not the {:g} % of --accuracy",
-          field.samples(), 100 * field.expected_error(), 100 * asked));
+  if (const std::string words = accuracy_words(field, arguments[flag::accuracy]); !words.empty())
+    say(arguments, tool, words);
 }
 
 }  // namespace hapsim

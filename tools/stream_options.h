@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/error.h"
+#include "cli/shared_flags.h"
 #include "cli/tool.h"
 #include "io/stream.h"
 #include "recording/contradictions.h"
-#include "shared_flags.h"
 
 namespace hapsim {
 

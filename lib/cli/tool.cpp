@@ -9,13 +9,12 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 #include <stdexcept>
-#include <system_error>
 
 #include "base/error.h"
 #include "cli/check.h"
 #include "cli/completion.h"
+#include "cli/failure.h"
 #include "cli/help.h"
 #include "cli/parse.h"
 #include "io/number.h"
@@ -197,20 +196,10 @@ int run_tool(const ToolSpec& spec, int argc, char** argv,
   clean_up_on_signals();
   try {
     return parse_and_run(spec, argc, argv, run);
-  } catch (const Error& error) {
-    return report(spec, error.code(), error.what());
-  } catch (const ClosedPipe&) {
-    return static_cast<int>(ExitCode::kIo);
-  } catch (const std::bad_alloc&) {
-    return report(spec, ExitCode::kNoConvergence,
-                  "there is not enough memory; use a coarser mesh or a smaller file");
-  } catch (const std::system_error& error) {  // of std::filesystem and of threads
-    return report(spec, ExitCode::kIo, error.what());
-  } catch (const std::exception& error) {
-    return report(spec, ExitCode::kNoConvergence,
-                  std::string("internal error: ") + error.what() + "; please report it");
-  } catch (...) {  // foreign libraries throw what is no std::exception
-    return report(spec, ExitCode::kNoConvergence, "internal error; please report it");
+  } catch (...) {
+    const Failure failure = current_failure();
+    if (failure.words.empty()) return static_cast<int>(failure.code);
+    return report(spec, failure.code, failure.words);
   }
 }
 

@@ -30,6 +30,11 @@ double median_size(const Eigen::VectorXd& r) {
 
 }  // namespace
 
+RobustLoss robust_loss(const std::string& name) {
+  if (name == "huber") return RobustLoss::kHuber;
+  return name == "tukey" ? RobustLoss::kTukey : RobustLoss::kNone;
+}
+
 double robust_weight(RobustLoss loss, double size) {
   size = std::abs(size);
   if (loss == RobustLoss::kNone || size == 0) return 1;

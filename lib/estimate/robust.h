@@ -1,11 +1,15 @@
 // Least squares that a few bad readings cannot pull away.
 #pragma once
 
+#include <string>
+
 #include "estimate/least_squares.h"
 
 namespace hapsim {
 
 enum class RobustLoss { kNone, kHuber, kTukey };
+// "none", "huber" or "tukey".
+RobustLoss robust_loss(const std::string& name);
 
 // Weight of a residual of `size` standard deviations: 1 for small ones. Huber (Ann. Math. Statist.
 // 35, 1964) with k = 1.345: k / |r| beyond; Tukey's biweight (Beaton and Tukey, Technometrics 16,

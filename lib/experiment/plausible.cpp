@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "model/body_parameters.h"
+#include "model/search_state.h"
 
 namespace hapsim {
 
@@ -97,6 +98,20 @@ std::vector<int> idle_regions(const Model& model) {
     if (!placed) idle.push_back(p.region);
   }
   return idle;
+}
+
+std::vector<std::string> doubts_of(const Model& model) {
+  std::vector<std::string> lines;
+  if (is_unfinished(model))
+    lines.push_back(model.name + ": the fit of this model was ended before it converged");
+  for (const int region : idle_regions(model))
+    lines.push_back(
+        fmt::format("{}: elastic E of region {} acts nowhere: no row of the effect regions gives "
+                    "that region a place",
+                    model.name, region));
+  if (const auto what = model.metadata.find("interrupted"))
+    lines.push_back(model.name + ": interrupted " + *what + ", so more may be missing");
+  return lines;
 }
 
 }  // namespace hapsim

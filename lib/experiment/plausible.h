@@ -29,4 +29,8 @@ std::string strange_modulus(const Model& model);
 // is of them.
 std::vector<int> idle_regions(const Model& model);
 
+// What is to be said of a model that was read: its fit was ended early, or a modulus acts nowhere;
+// a line each, beginning with the file's name.
+std::vector<std::string> doubts_of(const Model& model);
+
 }  // namespace hapsim

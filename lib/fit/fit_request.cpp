@@ -51,6 +51,33 @@ TermsRequest parse_terms(const std::optional<std::string>& terms,
   return asked;
 }
 
+FitRequest fit_request(const AskedFit& asked) {
+  FitRequest request;
+  request.terms = parse_terms(asked.terms, asked.windows);
+  request.fix = asked.fix;
+  require_within_bounds(request.fix);
+  request.automatic = asked.effects == std::vector<std::string>{"auto"};
+  if (request.automatic && (!asked.add.empty() || asked.diagnosed))
+    fail_usage("--effects auto finds what to add by itself", "leave --add and --diagnosis out");
+  if (asked.model) {
+    if (asked.effects_given && !request.automatic)
+      fail_usage("--model and --effects exclude each other", "use --model with --add");
+    request.start = asked.model();
+  } else if (!request.automatic) {
+    for (const std::string& effect : asked.effects)
+      if (effect != body_effect().card().name) request.add.push_back(effect);
+  }
+  request.add.insert(request.add.end(), asked.add.begin(), asked.add.end());
+  if (asked.diagnosed)
+    for (const std::string& effect : asked.diagnosed()) request.add.push_back(effect);
+  for (const std::string& effect : request.add) require_effect(effect);
+  for (const std::string& effect : asked.remove) remove_effect(request.start, effect);
+  if (request.start.parameters.empty()) return request;
+  for (const std::string& what : asked.fix) set_state(request.start, what, ParameterState::kFixed);
+  for (const std::string& what : asked.free) set_state(request.start, what, ParameterState::kFree);
+  return request;
+}
+
 void require_within_bounds(const std::vector<std::string>& fix) {
   for (const std::string& what : fix) {
     const std::size_t equals = what.find('=');

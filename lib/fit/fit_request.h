@@ -36,6 +36,20 @@ struct FitRequest {
   std::function<void(const std::string&)> say;  // what was chosen on the way; may be empty
 };
 
+// The same in the words of a command line. The functions are called when they are needed; empty:
+// not given.
+struct AskedFit {
+  std::function<Model()> model;      // to start from
+  std::vector<std::string> effects;  // of a new model; "auto" alone: found by diagnosis
+  bool effects_given = false;        // otherwise they are the usual ones
+  std::vector<std::string> add, remove, fix, free;
+  std::function<std::vector<std::string>()> diagnosed;  // to be added after `add`
+  std::optional<std::string> terms;
+  std::vector<std::string> windows;
+};
+// Error(kUsage): they contradict each other, or name what is not there.
+FitRequest fit_request(const AskedFit& asked);
+
 // Error(kUsage) where a value of `fix` ("nu=0.45", "elastic.nu=0.45") lies outside the bounds of
 // every parameter of that name.
 void require_within_bounds(const std::vector<std::string>& fix);

@@ -1,7 +1,7 @@
 // The flags of hs-identify.
 #pragma once
 
-#include "shared_flags.h"
+#include "cli/shared_flags.h"
 
 namespace hapsim {
 

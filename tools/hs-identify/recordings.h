@@ -11,20 +11,12 @@
 #include "base/error.h"
 #include "common_options.h"
 #include "experiment/plausible.h"
-#include "fit/extend.h"
 #include "formats/tetmesh_io.h"
 #include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
-#include "recording/recording_join.h"
+#include "identify/given_recordings.h"
 
 namespace hapsim {
-
-struct GivenRecordings {
-  std::vector<TetMesh> bodies;
-  std::vector<std::vector<Vec3>> windows;  // of the bodies (ExperimentOptions::windows)
-  std::vector<Setup> setup_of_row;         // Setup::body numbers `bodies`
-  Dataset dataset;                         // all as one
-};
 
 inline std::vector<Option> recording_flags() {
   return {{.flag = flag::data,
@@ -52,11 +44,7 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
   std::vector<std::string> paths = arguments.list(flag::data);
   paths.insert(paths.begin(), arguments.input());
   const std::vector<std::string> bodies = arguments.list(flag::body);
-  if (bodies.size() != 1 && bodies.size() != paths.size())
-    fail_usage(
-        fmt::format("{} for {}", counted(bodies.size(), "body", "bodies"),
-                    counted(paths.size(), "recording", "recordings")),
-        "give --body once, or once for each recording: the main input first, then each --data");
+  require_bodies_for(bodies.size(), paths.size());
   GivenRecordings given;
   std::vector<int> body_of;  // by --body: the same file is the same body
   std::vector<std::string> read;
@@ -75,29 +63,16 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
     given.bodies.push_back(read_body(input, &given.windows.back()));
   }
   std::vector<Recording> recordings;
-  for (std::size_t k = 0; k < paths.size(); ++k) {
-    recordings.push_back(load_recording(arguments, paths[k], true));
-    if (!start.parameters.empty())
-      set_contact_radius(recordings.back(), start);
-    else if (paths.size() == 1)
-      set_contact_radius(recordings.back());
-    const Recording& r = recordings.back();
-    // What is wrong with one of several is told with its file's name.
-    if (paths.size() > 1) require_presses(make_dataset(r));
-    given.setup_of_row.insert(given.setup_of_row.end(), r.rows(),
-                              {body_of[bodies.size() == 1 ? 0 : k], r.disc_radius()});
-  }
-  given.dataset = make_dataset(join_recordings(recordings), given.setup_of_row);
-  if (paths.size() == 1) require_presses(given.dataset);
+  for (const std::string& path : paths) recordings.push_back(load_recording(arguments, path, true));
+  body_of.resize(paths.size(), body_of.front());
+  join_given(given, body_of, std::move(recordings), start);
   return given;
 }
 
-// Refuses, before anything is prepared, too few places, and what is asked of recordings of several
-// bodies or tools and knows one only: features of this tool, and effects (of the start, or to be
-// added) whose parameters belong to one.
+// Refuses, before anything is prepared, too few places, and features of one body and tool where
+// there are several.
 inline void require_fit_for(const Arguments& arguments, const FitRequest& plan,
                             const Dataset& dataset) {
-  if (plan.automatic) require_one_setup(dataset, "--effects auto");
   for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image, flag::library})
     if (arguments.given(flag)) require_one_setup(dataset, flag.name);
   for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image})
@@ -106,9 +81,7 @@ inline void require_fit_for(const Arguments& arguments, const FitRequest& plan,
                  "press at more places");
   if (arguments.given(flag::locations) && dataset.bodies() > 1)
     fail_usage("--locations is for one body, and there are several", "fit each body by itself");
-  std::vector<std::string> effects = plan.start.effects();
-  effects.insert(effects.end(), plan.add.begin(), plan.add.end());
-  require_shared(effects, dataset);
+  require_fit_for(plan, dataset);
 }
 
 }  // namespace hapsim

@@ -1,7 +1,7 @@
 // The flags of hs-link.
 #pragma once
 
-#include "shared_flags.h"
+#include "cli/shared_flags.h"
 
 namespace hapsim {
 

@@ -4,7 +4,7 @@
 #include "common_options.h"
 #include "hs-link/flags.h"
 #include "prepared_options.h"
-#include "safety_options.h"
+#include "safety/safety_options.h"
 #include "stream_options.h"
 
 namespace hapsim {

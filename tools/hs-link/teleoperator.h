@@ -12,7 +12,7 @@
 #include "prepared_options.h"
 #include "realtime/force_loop.h"
 #include "realtime/real_time.h"
-#include "safety_options.h"
+#include "safety/safety_options.h"
 
 namespace hapsim {
 

@@ -1,6 +1,7 @@
 // hs-simulate: the forces of a model along a motion.
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -8,7 +9,6 @@
 #include "answer.h"
 #include "base/counted.h"
 #include "base/error.h"
-#include "base/random.h"
 #include "base/shell_words.h"
 #include "common_options.h"
 #include "experiment/forces.h"
@@ -17,11 +17,10 @@
 #include "hs-simulate/specification.h"
 #include "io/csv.h"
 #include "model/model_edit.h"
-#include "recording/force_noise.h"
 #include "simulate/field_rows.h"
 #include "simulate/full_simulation.h"
 #include "simulate/own_mesh.h"
-#include "simulate/regional_relaxation.h"
+#include "simulate/simulate.h"
 
 namespace hapsim {
 namespace {
@@ -39,16 +38,9 @@ void say_beyond(const Arguments& arguments, const PressDepth& depth, const Model
 
 // Noise as asked for, metadata, and out.
 void write_simulated(const Arguments& arguments, const std::string& label, Recording& out) {
-  forget_force_noise(out.metadata);
-  out.metadata.set("simulated", label);
-  if (arguments.given(flag::add_noise)) {
-    const double noise = arguments[flag::add_noise];
-    Random random(static_cast<std::uint64_t>(arguments[flag::seed]));
-    for (Vec3& force : out.f)
-      for (int k = 0; k < 3; ++k) force[k] += noise * random.normal();
-    out.metadata.set("force_noise", format_number(noise));
-    out.metadata.set("seed", arguments.text(flag::seed));
-  }
+  mark_simulated(out.metadata, label);
+  if (arguments.given(flag::add_noise))
+    add_noise(out, arguments[flag::add_noise], static_cast<std::uint64_t>(arguments[flag::seed]));
   Output output(result_file(arguments));
   write_recording(output.stream(), out);
   output.commit();
@@ -71,19 +63,6 @@ Summary simulated_summary(const Arguments& arguments, std::size_t rows, const st
     if (arguments.given(flag)) s.next += " " + flag + " " + shell_quoted(arguments.text(flag));
   s.next += " --html report.html -o residuals.csv";
   return s;
-}
-
-void write_forces(const Arguments& arguments, const Model& model, Dataset dataset,
-                  const Selection& all, const Eigen::VectorXd& f, double mesh_uncertainty = 0) {
-  const std::vector<int> rows = stacked_rows(dataset, all);
-  Recording out = std::move(dataset.recording);
-  out.metadata.remove("mesh_uncertainty");
-  if (mesh_uncertainty > 0)
-    out.metadata.set("mesh_uncertainty", fmt::format("{:.2g}", mesh_uncertainty));
-  out.f.assign(out.rows(), Vec3::Zero());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    out.f[rows[i]] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
-  write_simulated(arguments, effects_label(model), out);
 }
 
 int run_full_mode(const Arguments& arguments, const Model& model) {
@@ -135,8 +114,9 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   say_together(arguments, "hs-simulate", dataset.recording);
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
-  write_forces(arguments, model, dataset, all,
-               model_forces(model, dataset, stiffness_at, all, false).f);
+  Recording out =
+      with_forces(dataset, all, model_forces(model, dataset, stiffness_at, all, false).f);
+  write_simulated(arguments, effects_label(model), out);
   for (const FieldRow& row : fields) {
     Output output(fmt::format("{}-{}.vtu", arguments[flag::vtu], row.row + 1));
     body.write_field(output.stream(), dataset.episodes[row.episode], row.sample);
@@ -155,29 +135,6 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   summary.values.push_back({"nodes_under_tool", static_cast<double>(body.patch_size(0)), "1"});
   tell_answer(arguments, summary);
   return 0;
-}
-
-// Each position on its own graded mesh.
-Eigen::VectorXd contact_mesh_forces(const Arguments& arguments, const Model& model,
-                                    const Experiment& w, const Selection& all) {
-  const MaterialSpec material = material_of(model);
-  const std::vector<RegionRelaxation> regions = regional_relaxation_of(model, material);
-  if (regions.empty()) return solved_forces(model, w, all, false).f;
-  const auto solve = [&](const MaterialSpec& sample) {
-    const Linearisation about = w.places.solve(sample);
-    std::vector<Eigen::Matrix3d> K;
-    for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) K.push_back(about.at(p, sample).K);
-    return K;
-  };
-  double misfit = 0;
-  const std::vector<PositionStiffness> stiffness =
-      regional_stiffness(regions, material, solve, misfit);
-  say(arguments, "hs-simulate",
-      fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
-                  "stiffness",
-                  stiffness.front().relaxing.size(), misfit));
-  const auto at = [&](std::size_t p) { return stiffness[p]; };
-  return model_forces(model, w.dataset, at, all, false).f;
 }
 
 int run_acfm(const Arguments& arguments, const Acfm& model) {
@@ -245,28 +202,25 @@ int run(const Arguments& arguments) {
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
-  set_poisson_range(model, options);  // as hs-identify did, so its prepared stiffnesses serve again
-  options.borrow = true;              // every row has its force
-  Experiment w =
-      make_experiment(body, load_pressed(arguments, arguments.input(), false, model), options);
+  Recording motion = load_recording(arguments, arguments.input(), false);
+  const bool measured = !motion.f.empty();
+  Simulated simulated =
+      simulate(body, model, std::move(motion), options, [&](const std::string& words) {
+        progress.reset();
+        say(arguments, "hs-simulate", words);
+      });
   progress.reset();
-  for (const std::string& words : left_out_words(w, true)) say(arguments, "hs-simulate", words);
-  const Selection all = all_episodes(w.dataset);
-  say_beyond(arguments, w.depth, model);
-  say_together(arguments, "hs-simulate", w.dataset.recording);
-  const double uncertainty = w.places.mesh_uncertainty();
-  Summary summary = simulated_summary(arguments, w.dataset.rows(), effects_label(model),
-                                      !w.dataset.recording.f.empty());
+  Recording& out = simulated.recording;
+  Summary summary = simulated_summary(arguments, out.rows(), effects_label(model), measured);
   summary.items = {
       {"SOLVED",
        "",
        "",
        {fmt::format("{} rows, {} positions, each on its own graded mesh; mesh uncertainty {:.2f} %",
-                    w.dataset.rows(), w.dataset.positions.size(), 100 * uncertainty)}}};
-  summary.values.push_back({"positions", static_cast<double>(w.dataset.positions.size()), "1"});
-  summary.values.push_back({"mesh_uncertainty", uncertainty, "1"});
-  const Eigen::VectorXd f = contact_mesh_forces(arguments, model, w, all);
-  write_forces(arguments, model, std::move(w.dataset), all, f, uncertainty);
+                    out.rows(), simulated.positions, 100 * simulated.mesh_uncertainty)}}};
+  summary.values.push_back({"positions", static_cast<double>(simulated.positions), "1"});
+  summary.values.push_back({"mesh_uncertainty", simulated.mesh_uncertainty, "1"});
+  write_simulated(arguments, effects_label(model), out);
   tell_answer(arguments, summary);
   return 0;
 }

@@ -21,7 +21,7 @@
 #include "realtime/real_time.h"
 #include "realtime/tool_lines.h"
 #include "realtime/tool_records.h"
-#include "recording/force_noise.h"
+#include "simulate/simulate.h"
 #include "stream_options.h"
 
 namespace hapsim {
@@ -117,8 +117,7 @@ int answer_by(const Arguments& arguments, LiveInput& in, const std::string& labe
     widen_pipes();
     say(arguments, "hs-simulate", enter_real_time());
   }
-  forget_force_noise(in.metadata);
-  in.metadata.set("simulated", label);
+  mark_simulated(in.metadata, label);
   Output output(arguments.output());
   if (!in.binary) CsvWriter(output.stream(), in.metadata, in.columns);
   output.stream() << in.header;

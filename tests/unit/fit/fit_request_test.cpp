@@ -82,5 +82,36 @@ TEST(FitRequest, FixedValuesOutOfBoundsAreRefusedBeforeTheFit) {
   EXPECT_NE(error_of([] { require_within_bounds({"elastic.E=-3"}); }, ExitCode::kUsage), "");
 }
 
+TEST(FitRequest, WordsThatContradictEachOtherAreRefused) {
+  AskedFit asked;
+  asked.effects = {"elastic", "viscoelastic"};
+  asked.fix = {"nu=0.4"};
+  EXPECT_EQ(fit_request(asked).add, std::vector<std::string>{"viscoelastic"});
+  asked.model = [] { return Model{}; };
+  asked.effects_given = true;
+  EXPECT_EQ(error_of([&] { fit_request(asked); }, ExitCode::kUsage),
+            "--model and --effects exclude each other; use --model with --add");
+  asked = {};
+  asked.effects = {"auto"};
+  EXPECT_TRUE(fit_request(asked).automatic);
+  asked.diagnosed = [] { return std::vector<std::string>{}; };
+  EXPECT_NE(error_of([&] { fit_request(asked); }, ExitCode::kUsage), "");
+}
+
+TEST(FitRequest, AModelIsChangedAsTheWordsSay) {
+  AskedFit asked;
+  asked.effects = {"elastic"};
+  asked.model = [] { return test::elastic(12000, 0.3); };
+  asked.add = {"viscoelastic"};
+  asked.diagnosed = [] { return std::vector<std::string>{"friction"}; };
+  asked.fix = {"nu=0.4"};
+  const FitRequest request = fit_request(asked);
+  EXPECT_EQ(request.add, (std::vector<std::string>{"viscoelastic", "friction"}));
+  const Parameter* nu = request.start.find("elastic", 0, "nu");
+  ASSERT_NE(nu, nullptr);
+  EXPECT_EQ(nu->value, 0.4);
+  EXPECT_EQ(nu->state, ParameterState::kFixed);
+}
+
 }  // namespace
 }  // namespace hapsim

@@ -1,4 +1,4 @@
-// The flags that several tools have.
+// The flags that several commands have.
 #pragma once
 
 #include "cli/flag.h"

@@ -1,0 +1,124 @@
+#include "identify/identify.h"
+
+#include <cmath>
+#include <span>
+
+#include "base/error.h"
+#include "diagnose/wording.h"
+#include "experiment/plausible.h"
+#include "fit/fit_record.h"
+#include "fit/fit_words.h"
+#include "io/number.h"
+#include "model/model_edit.h"
+#include "model/search_state.h"
+
+namespace hapsim {
+namespace {
+
+// Adds what a diagnosis finds missing, step by step.
+Improvement improve_step_by_step(const IdentifyRequest& request, const TetMesh& body,
+                                 ExperimentOptions options, const FitOptions& fit_options,
+                                 const Experiment& w, double force_rms) {
+  options.draft = true;
+  options.progress = nullptr;
+  const Experiment draft = make_experiment(std::span(&body, 1), w.dataset, options);
+  ImproveOptions improve_options;
+  improve_options.fit = fit_options;
+  improve_options.diagnose.folds = request.folds;
+  improve_options.diagnose.seed = fit_options.seed;
+  improve_options.progress = request.tell;
+  improve_options.diagnose.progress = request.progress;
+  Model start = request.fit.start;
+  if (start.parameters.empty()) {
+    start = elastic_model(w, all_episodes(w.dataset));
+    for (const std::string& what : request.fit.fix) set_state(start, what, ParameterState::kFixed);
+  }
+  Improvement improvement = improve(start, w, draft, improve_options);
+  for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
+    const ImprovementStep& step = improvement.steps[k];
+    if (request.say) request.say(step_words(step, w.noise.value));
+    if (request.step && k + 1 < improvement.steps.size()) request.step(step, force_rms);
+  }
+  return improvement;
+}
+
+}  // namespace
+
+FitOptions each_fit(const IdentifyRequest& request, const Experiment& w) {
+  FitOptions options = request.options;
+  options.noise = w.noise.value;
+  options.floor = w.floor;
+  options.skip = 0;
+  options.after_start = nullptr;
+  options.profile = false;
+  return options;
+}
+
+Identification identify(const IdentifyRequest& request, const TetMesh& body, const Experiment& w,
+                        ExperimentOptions options) {
+  if (request.options.profile && request.options.robust != RobustLoss::kNone)
+    fail_usage("--profile and --robust exclude each other",
+               "a robust loss is no likelihood: use one of them");
+  const FitOptions fit_options = each_fit(request, w);
+  FitOptions final_options = request.options;
+  final_options.noise = fit_options.noise;
+  final_options.floor = fit_options.floor;
+  ExtendOptions extend;
+  extend.regions = request.regions;
+  extend.terms = request.fit.terms.count;
+  extend.noise = w.noise.value;
+  extend.floor = w.floor;
+
+  const Selection all = all_episodes(w.dataset);
+  Identification result;
+  result.force_rms = force_error(w.dataset, measured_forces(w.dataset, all)).told();
+  ForceError unseen;
+  if (request.fit.automatic) {
+    Improvement improvement =
+        improve_step_by_step(request, body, std::move(options), fit_options, w, result.force_rms);
+    result.fitted = std::move(improvement.steps.back().fitted);
+    unseen = improvement.steps.back().held_out;
+    if (improvement.stopped)
+      result.cut_short = "the model was improved";
+    else
+      result.ended = end_words(improvement);
+    result.unseen_by = improvement.unseen;
+  } else {
+    Starts starts = build_starts(request.fit, w, all, fit_options, extend);
+    require_enough_data(starts.models.front(), w.dataset, all);
+    if (request.starts) request.starts(starts.models);
+    result.fitted = fit_best(starts.models, w, all, final_options, starts.known);
+    if (request.refine && result.fitted.converged) result.fitted = request.refine(result.fitted);
+  }
+  if (result.fitted.stopped) return result;
+  if (!result.fitted.converged)
+    fail_numerics(w.dataset.recording.name, "the fit did not converge: " + result.fitted.message,
+                  "start from a simpler model, or fix a parameter");
+  if (request.folds > 1 && !request.fit.automatic &&
+      !(request.interrupted && request.interrupted())) {
+    const Folds folds = make_folds(w.dataset, request.folds);
+    result.unseen_by = folds.by;
+    unseen = held_out_error(request.fit, result.fitted.model, w, folds, fit_options, extend);
+  }
+  if (request.end && request.end() && result.cut_short.empty()) {
+    result.cut_short = "the error on unseen data was found";
+    unseen = {};
+  }
+  result.unseen = unseen.told();
+  Model& model = result.fitted.model;
+  record_fit(result.fitted, request.fit.start.metadata, w);
+  if (!std::isnan(result.unseen)) {
+    model.metadata.set("heldout", format_number(result.unseen));
+    model.metadata.set("heldout_by", result.unseen_by);
+  }
+  if (!result.cut_short.empty()) mark_interrupted(model, "while " + result.cut_short);
+  return result;
+}
+
+Summary identification_summary(const Identification& i, const Experiment& w) {
+  Summary summary = fit_summary(w, i.fitted, i.unseen, i.unseen_by, i.force_rms);
+  if (!i.ended.empty()) summary.notes.insert(summary.notes.begin(), i.ended);
+  return summary;
+}
+
+}  // namespace hapsim

@@ -1,0 +1,88 @@
+#include "simulate/simulate.h"
+
+#include <fmt/format.h>
+
+#include "base/random.h"
+#include "experiment/contact_radius.h"
+#include "io/number.h"
+#include "model/model_edit.h"
+#include "recording/force_noise.h"
+#include "recording/tools_together.h"
+#include "simulate/regional_relaxation.h"
+
+namespace hapsim {
+namespace {
+
+Eigen::VectorXd contact_mesh_forces(const Model& model, const Experiment& w, const Selection& all,
+                                    const std::function<void(const std::string&)>& say) {
+  const MaterialSpec material = material_of(model);
+  const std::vector<RegionRelaxation> regions = regional_relaxation_of(model, material);
+  if (regions.empty()) return solved_forces(model, w, all, false).f;
+  const auto solve = [&](const MaterialSpec& sample) {
+    const Linearisation about = w.places.solve(sample);
+    std::vector<Eigen::Matrix3d> K;
+    for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) K.push_back(about.at(p, sample).K);
+    return K;
+  };
+  double misfit = 0;
+  const std::vector<PositionStiffness> stiffness =
+      regional_stiffness(regions, material, solve, misfit);
+  say(
+      fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
+                  "stiffness",
+                  stiffness.front().relaxing.size(), misfit));
+  const auto at = [&](std::size_t p) { return stiffness[p]; };
+  return model_forces(model, w.dataset, at, all, false).f;
+}
+
+}  // namespace
+
+Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
+                   ExperimentOptions options, const std::function<void(const std::string&)>& say) {
+  const auto told = [&](const std::string& words) {
+    if (say && !words.empty()) say(words);
+  };
+  set_contact_radius(motion, model);
+  set_poisson_range(model, options);  // as a fit did, so its prepared stiffnesses serve again
+  options.borrow = true;              // every row has its force
+  Experiment w = make_experiment(body, std::move(motion), options);
+  for (const std::string& words : left_out_words(w, true)) told(words);
+  const Selection all = all_episodes(w.dataset);
+  told(beyond_depth(w.depth, model));
+  told(tools_together(w.dataset.recording));
+  Simulated simulated;
+  simulated.mesh_uncertainty = w.places.mesh_uncertainty();
+  simulated.positions = w.dataset.positions.size();
+  const Eigen::VectorXd f = contact_mesh_forces(model, w, all, told);
+  simulated.recording = with_forces(std::move(w.dataset), all, f, simulated.mesh_uncertainty);
+  mark_simulated(simulated.recording.metadata, effects_label(model));
+  return simulated;
+}
+
+Recording with_forces(Dataset dataset, const Selection& episodes, const Eigen::VectorXd& f,
+                      double mesh_uncertainty) {
+  const std::vector<int> rows = stacked_rows(dataset, episodes);
+  Recording out = std::move(dataset.recording);
+  out.metadata.remove("mesh_uncertainty");
+  if (mesh_uncertainty > 0)
+    out.metadata.set("mesh_uncertainty", fmt::format("{:.2g}", mesh_uncertainty));
+  out.f.assign(out.rows(), Vec3::Zero());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    out.f[static_cast<std::size_t>(rows[i])] = f.segment<3>(3 * static_cast<Eigen::Index>(i));
+  return out;
+}
+
+void mark_simulated(Metadata& metadata, const std::string& label) {
+  forget_force_noise(metadata);
+  metadata.set("simulated", label);
+}
+
+void add_noise(Recording& recording, double noise, std::uint64_t seed) {
+  Random random(seed);
+  for (Vec3& force : recording.f)
+    for (int k = 0; k < 3; ++k) force[k] += noise * random.normal();
+  recording.metadata.set("force_noise", format_number(noise));
+  recording.metadata.set("seed", std::to_string(seed));
+}
+
+}  // namespace hapsim

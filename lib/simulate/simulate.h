@@ -1,0 +1,36 @@
+// The forces of a model along a motion, each contact position solved on its own graded mesh.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "experiment/experiment.h"
+#include "experiment/forces.h"
+#include "model/model.h"
+
+namespace hapsim {
+
+struct Simulated {
+  Recording recording;          // the motion with the model's forces, marked (mark_simulated())
+  double mesh_uncertainty = 0;  // share of the force, the median over the positions
+  std::size_t positions = 0;
+};
+
+// `motion` as it was read, with its tool's radius. `say` is told what was left out, is beyond what
+// the model is valid for, or how regions relax; may be empty. Errors of make_experiment().
+Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
+                   ExperimentOptions options, const std::function<void(const std::string&)>& say);
+
+// The dataset's recording with the stacked forces `f` of these episodes, zero elsewhere;
+// `mesh_uncertainty` as its metadata, none where it is 0.
+Recording with_forces(Dataset dataset, const Selection& episodes, const Eigen::VectorXd& f,
+                      double mesh_uncertainty = 0);
+
+// Forces from here on are those of `label`; what was declared of the noise of measured ones goes.
+void mark_simulated(Metadata& metadata, const std::string& label);
+
+// Gaussian noise of this standard deviation [N] on every component of every force, declared.
+void add_noise(Recording& recording, double noise, std::uint64_t seed);
+
+}  // namespace hapsim
