@@ -9,6 +9,10 @@ if(HAPSIM_LINKER_FOLDS)
   add_link_options($<$<CONFIG:Release>:-fuse-ld=gold> $<$<CONFIG:Release>:-Wl,--icf=safe>)
 endif()
 
+# Everything serves programs and the shared library alike. What is hidden is called as directly as in a program
+# by itself; the shared library shows what says so.
+add_compile_options(-fPIC -fvisibility=hidden)
+
 # hapsim_flags(<target>): a section for each function and object, and the warnings every file must pass.
 # g++ 12 warns falsely where a literal is joined to a string: of overlapping copies, and, when <string> is
 # precompiled, of sizes and bounds too.

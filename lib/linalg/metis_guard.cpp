@@ -30,9 +30,10 @@ MetisGuard::MetisGuard() : lock_(one_at_a_time()) {}
 }  // namespace hapsim
 
 // METIS (5.1) calls these two where a public function of it begins and ends; the dynamic linker
-// finds the program's before those of the library. They keep what it needs: that SIGABRT, which it
-// raises in this thread when memory is short, ends its function with an error code.
-extern "C" int gk_sigtrap() {
+// finds the program's, or those of the library of hapsim, before METIS's own. They keep what it
+// needs: that SIGABRT, which it raises in this thread when memory is short, ends its function with
+// an error code.
+extern "C" [[gnu::visibility("default")]] int gk_sigtrap() {
   int* jump = hapsim::of_metis<int*>("gk_cur_jbufs");
   if (jump == nullptr || hapsim::depth + 1 > static_cast<int>(hapsim::before.size())) return 0;
   struct sigaction action = {};
@@ -43,7 +44,7 @@ extern "C" int gk_sigtrap() {
   return 1;
 }
 
-extern "C" int gk_siguntrap() {
+extern "C" [[gnu::visibility("default")]] int gk_siguntrap() {
   if (hapsim::depth == 0) return 0;
   sigaction(SIGABRT, &hapsim::before[static_cast<std::size_t>(--hapsim::depth)], nullptr);
   --*hapsim::of_metis<int*>("gk_cur_jbufs");
