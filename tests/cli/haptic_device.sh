@@ -13,6 +13,15 @@ grep -Eq '^largest force along z 0\.[1-9].*, torque about z [0-9.e-]*[1-9][0-9.e
 PATH=$bin:$PATH ./device 0.03 0.025 0.04 --body none.ply --model model.csv --tool-radius 0.004 >out 2>err
 (($? == 4)) || complain 'a stream that ended is not noticed'
 
+# The same motion by the C interface, in one process.
+library=$(dirname "$bin")/lib
+"${CC:-cc}" -std=c99 -Wall -Wextra -Werror -I "$example/../../../lib/c" "$example/device_linked.c" -L "$library" -lhapsim -lm -Wl,-rpath,"$library" -o linked 2>err ||
+  complain "not compiled: $(cat err)"
+./linked 0.03 0.025 0.04 body.ply model.csv 4mm >linked-out 2>err || complain 'the linked device failed'
+grep -Eq '^largest force along z 0\.[1-9][0-9]* N, [0-9]+ limited$' linked-out || complain "the linked device felt nothing: $(cat linked-out)"
+./linked 0.03 0.025 0.04 body.ply none.csv 4mm >/dev/null 2>err
+(($? == 5)) && grep -q '^none.csv: ' err || complain 'the linked device does not say what it lacks'
+
 # A stream that is late: what is felt is the newest force, said to be old, and fades; later it goes on.
 cat >late.cpp <<'END'
 #include <cstdio>
