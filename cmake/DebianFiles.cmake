@@ -1,5 +1,5 @@
 # Run by cpack for each package before it is closed: what Debian wants beside the program's own files.
-foreach(pair tools:hapsim dev:libhapsim-dev)
+foreach(pair tools:hapsim library:libhapsim0 dev:libhapsim-dev python:python3-hapsim)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 component)
   list(GET pair 1 name)

@@ -1,5 +1,6 @@
 # What is installed beside the tools, and the Debian packages that cpack makes of it: hapsim (component
-# tools) and libhapsim-dev (component dev).
+# tools), libhapsim0 (component library), libhapsim-dev (component dev) and, where the module is built,
+# python3-hapsim (component python).
 include(CMakePackageConfigHelpers)
 
 # The library for CMake: find_package(hapsim), then hapsim::model and the like.
@@ -12,7 +13,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/hapsimConfigVersion.cmake
 install(FILES ${PROJECT_BINARY_DIR}/hapsimConfig.cmake ${PROJECT_BINARY_DIR}/hapsimConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/HapsimDependencies.cmake DESTINATION ${package} COMPONENT dev)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/lib/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hapsim COMPONENT dev
-  FILES_MATCHING PATTERN "*.h" PATTERN assets EXCLUDE)
+  FILES_MATCHING PATTERN "*.h" PATTERN assets EXCLUDE PATTERN lib/c EXCLUDE)
 
 # ... and for pkg-config: every layer, those that use others first.
 get_property(layers GLOBAL PROPERTY hapsim_layers)
@@ -43,7 +44,10 @@ set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "models of soft objects from scans and presses")
 set(CPACK_PACKAGE_CONTACT "hapsim maintainers <maintainers@hapsim.invalid>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_COMPONENTS_ALL tools dev)
+set(CPACK_COMPONENTS_ALL tools library dev)
+if(HAPSIM_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -64,9 +68,29 @@ set(CPACK_DEBIAN_TOOLS_DESCRIPTION "From a scan of a soft object and recordings 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME libhapsim-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 # What HapsimDependencies.cmake looks for.
-set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libfmt-dev, libboost-dev, libcgal-dev, libtet1.5-dev, libsuitesparse-dev, libopenblas0-pthread, libblas-dev, liblapack-dev, coinor-libipopt-dev, libcli11-dev, nlohmann-json3-dev, liborocos-kdl-dev, liburdfdom-dev, libconsole-bridge-dev, libgdcm-dev, libnifti2-dev, libteem-dev, libsqlite3-dev, libsodium-dev, libpugixml-dev, libmatio-dev, libhdf5-dev, zlib1g-dev, pkg-config")
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libhapsim0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), libeigen3-dev, libfmt-dev, libboost-dev, libcgal-dev, libtet1.5-dev, libsuitesparse-dev, libopenblas0-pthread, libblas-dev, liblapack-dev, coinor-libipopt-dev, libcli11-dev, nlohmann-json3-dev, liborocos-kdl-dev, liburdfdom-dev, libconsole-bridge-dev, libgdcm-dev, libnifti2-dev, libteem-dev, libsqlite3-dev, libsodium-dev, libpugixml-dev, libmatio-dev, libhdf5-dev, zlib1g-dev, pkg-config")
 set(CPACK_DEBIAN_DEV_DESCRIPTION "Headers and static libraries of hapsim, for C++ programs that read its bodies
- and models, identify, simulate and diagnose. For CMake and pkg-config.")
+ and models, identify, simulate and diagnose, for CMake and pkg-config; and the header hapsim.h for programs
+ in C, which link libhapsim.so.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libhapsim0)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+file(WRITE ${PROJECT_BINARY_DIR}/debian/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/triggers)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS "libopenblas0-pthread, coinor-libipopt1v5")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "hapsim as a shared library with an interface of C: bodies, recordings and
+ models, and what the tools do with them.")
+if(HAPSIM_PYTHON)
+  math(EXPR next_python "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-hapsim)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)  # libhapsim.so.0 is of no package yet
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "libhapsim0 (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), python3 (>= 3.${Python_VERSION_MINOR}~), python3 (<< 3.${next_python}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_DESCRIPTION "The module hapsim of Python: identifies, simulates, compares and diagnoses
+ contact forces of soft bodies, with arrays of numpy.")
+endif()
 include(CPack)
 
 # `cmake --build build/PRESET --target sbom`: what the tools that are built there are made of.

@@ -96,6 +96,22 @@ function(hapsim_layer name)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
 endfunction()
 
+# hapsim_module(<name> SOURCES a.cpp ... USES c): a room of lib as the module hapsim of Python, over libhapsim.so. It
+# is installed where Debian's Python looks below /usr.
+function(hapsim_module name)
+  if(NOT HAPSIM_PYTHON)
+    return()
+  endif()
+  cmake_parse_arguments(arg "" "" "SOURCES;USES" ${ARGN})
+  pybind11_add_module(hapsim_${name} MODULE NO_EXTRAS ${arg_SOURCES})
+  target_include_directories(hapsim_${name} PRIVATE ${PROJECT_SOURCE_DIR}/lib)
+  target_link_libraries(hapsim_${name} PRIVATE hapsim_shared)
+  hapsim_flags(hapsim_${name})
+  set_target_properties(hapsim_${name} PROPERTIES OUTPUT_NAME hapsim
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
+  install(TARGETS hapsim_${name} LIBRARY DESTINATION lib/python3/dist-packages COMPONENT python)
+endfunction()
+
 # hapsim_tool(<name> USES layer ...): a command in tools/<name>.cpp, or of a folder of that name,
 # installed with its man page.
 function(hapsim_tool name)

@@ -3,6 +3,7 @@
 # again: it does nothing, and needs no root, when everything is there.
 #
 #   share/install-deps.sh            compiler and libraries: what the tools are built from
+#   share/install-deps.sh --python   also what the Python module is built from (-DHAPSIM_PYTHON=ON)
 #   share/install-deps.sh --tests    also what run-tests.sh uses: other solvers, shells, browser, daemons
 #   share/install-deps.sh --dev      also clang-tidy, ccache, and what fuzzing and benchmarks use
 #   share/install-deps.sh --check    install nothing; exit 1 and say what is missing
@@ -16,11 +17,13 @@ packages=(
   liborocos-kdl-dev liburdfdom-dev libgdcm-dev libnifti2-dev libteem-dev zlib1g-dev
   libsodium-dev libsqlite3-dev libpugixml-dev libmatio-dev libhdf5-dev
 )
+python_packages=(python3-dev pybind11-dev python3-numpy)
 # Each is called by a test, or by run-tests.sh; none is asked for only where it happens to be installed.
 test_packages=(
   libgtest-dev clang-format
   calculix-ccx gmsh tetgen                        # peers: solver and meshers
   chromium mandoc libxml2-utils sqlite3 python3 python3-jsonschema   # readers of what the tools write
+  "${python_packages[@]}" python3-matplotlib
   zsh fish lintian                                # completions and packages
   slurm-wlm munge openssh-server openssh-client parallel
   strace procps bsdextrautils                     # faults at a chosen system call; pgrep; col
@@ -36,12 +39,13 @@ check_only=no
 anyway=no
 for argument in "$@"; do
   case $argument in
+    --python) packages+=("${python_packages[@]}") ;;
     --tests) packages+=("${test_packages[@]}") ;;
     --dev) packages+=("${test_packages[@]}" "${dev_packages[@]}") ;;
     --check) check_only=yes ;;
     --anyway) anyway=yes ;;
-    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) fail "unknown argument '$argument'; use --tests, --dev, --check, --anyway or none" ;;
+    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) fail "unknown argument '$argument'; use --python, --tests, --dev, --check, --anyway or none" ;;
   esac
 done
 

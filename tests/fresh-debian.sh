@@ -2,20 +2,20 @@
 # Tries the commands of README.md as a newcomer would: on a fresh, minimal Debian 12 made by
 # debootstrap, from a clone of this repository's last commit. Needs root. Prints how long each took.
 #
-#   tests/fresh-debian.sh [--keep] [--package FILE.deb] [FOLDER] [COMMAND...]
+#   tests/fresh-debian.sh [--keep] [--package FILE.deb]... [FOLDER] [COMMAND...]
 #
-# With --package the Debian package is installed and tried instead: nothing is cloned, and the COMMANDs,
+# With --package these Debian packages are installed and tried instead: nothing is cloned, and the COMMANDs,
 # by default tests/package-check.sh, run in an empty folder.
 # FOLDER (default: a new one under /tmp) receives the system and is removed unless --keep is given; an
 # existing system in it is used again. COMMANDs default to ./run-example.sh and ./run-tests.sh.
 # The mirror, proxies and certificates are taken from this machine's apt configuration.
 set -euo pipefail
 
-keep=no package=
+keep=no packages=()
 while [[ ${1:-} == --* ]]; do
   case $1 in
     --keep) keep=yes ;;
-    --package) package=$(realpath "$2"); shift ;;
+    --package) packages+=("$(realpath "$2")"); shift ;;
     *) echo "fresh-debian: unknown flag $1" >&2; exit 2 ;;
   esac
   shift
@@ -23,7 +23,7 @@ done
 root=${1:-$(mktemp -d /tmp/fresh-debian.XXXXXX)}
 (($#)) && shift
 commands=("$@")
-if [[ -z $package ]]; then
+if ((${#packages[@]} == 0)); then
   ((${#commands[@]})) || commands=(./run-example.sh ./run-tests.sh)
 else
   ((${#commands[@]})) || commands=("bash /root/package-check.sh")
@@ -85,13 +85,14 @@ for at in proc sys dev; do
     mounted=("$root/$at" "${mounted[@]}") || echo "fresh-debian: cannot mount /$at; going on without"
 done
 rm -rf "$root/root/hapsim"
-if [[ -z $package ]]; then
+if ((${#packages[@]} == 0)); then
   git clone -q --no-hardlinks "$repository" "$root/root/hapsim"
 else
   mkdir "$root/root/hapsim"
-  cp "$package" "$root/root/hapsim.deb"
+  rm -rf "$root/root/packages" && mkdir "$root/root/packages"
+  cp "${packages[@]}" "$root/root/packages"
   cp "$repository/tests/package-check.sh" "$root/root/"
-  commands=("apt-get -qq update && apt-get -qq -y install --no-install-recommends make man-db /root/hapsim.deb >/root/apt.log 2>&1 || { tail /root/apt.log; exit 1; }" "${commands[@]}")
+  commands=("apt-get -qq update && apt-get -qq -y install --no-install-recommends make man-db /root/packages/*.deb >/root/apt.log 2>&1 || { tail /root/apt.log; exit 1; }" "${commands[@]}")
 fi
 
 # Only what a login sets, and this machine's proxies.

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # package-check.sh: on a system with the package hapsim installed: every tool's help, man page and
-# completion are there, and the main job of the README runs from the installed tools.
+# completion are there, and the main job of the README runs from the installed tools; where python3-hapsim
+# is installed too, the module finds what they find.
 set -euo pipefail
 fail() { echo "package-check: $*" >&2; exit 1; }
 version=$(dpkg-query -W -f '${Version}' hapsim)
@@ -26,5 +27,14 @@ printf 'name,scan,scan_unit,data\nphantom,%s/scan.csv,mm,%s/plain.csv\n' \
   /usr/share/hapsim/examples/phantom /usr/share/hapsim/examples/phantom >"$out/all.csv"
 make --no-print-directory -s -f /usr/share/hapsim/Makefile.pipeline batch MANIFEST="$out/all.csv" OUT="$out/batch" ||
   fail "the batch"
+if dpkg-query -W python3-hapsim >/dev/null 2>&1; then
+  [[ -s $out/body.ply ]] || fail "the pipeline left no body"
+  (cd "$out" && hs-identify -q /usr/share/hapsim/examples/phantom/data.csv --body body.ply --folds 0 -o tool.csv &&
+    /usr/bin/python3 -c 'import hapsim
+data = hapsim.Recording.read("/usr/share/hapsim/examples/phantom/data.csv")
+hapsim.identify(data, hapsim.Body.read("body.ply"), folds=0).write("module.csv")' &&
+    cmp tool.csv module.csv) || fail "the module of Python"
+  echo "package-check: python3-hapsim $(dpkg-query -W -f '${Version}' python3-hapsim) gives the bytes of hs-identify"
+fi
 rm -rf "$out"
 echo "package-check: $count tools of hapsim $version, the pipeline and a batch: passed"

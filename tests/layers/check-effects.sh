@@ -23,6 +23,8 @@ tools/hs-cluster.cpp regions
 lib/compare/report_body.cpp regions
 lib/tetmesh/body_words.cpp regions
 tools/hs-simulate/ tip
+lib/python/ regions
+lib/python/ temperature
 "
 export literal="\"($(IFS='|'; echo "${names[*]}"))\""
 export call="(^|[^A-Za-z0-9_])($(IFS='|'; echo "${names[*]//-/_}"))_effect\\("

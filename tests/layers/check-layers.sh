@@ -10,7 +10,7 @@ breaches=0
 table=$(for layer in $(sed -nE 's|^add_subdirectory\(lib/([a-z]+)\)|\1|p' "$root/CMakeLists.txt"); do
   printf '%s: ' "$layer"
   tr '\n' ' ' <"$root/lib/$layer/CMakeLists.txt" |
-    sed -nE 's/.*hapsim_layer\(([^)]*)\).*/\1 LINKS/; s/.* USES ([^A-Z]*)[A-Z].*/\1/p' | tr -s ' '
+    sed -nE 's/.*hapsim_(layer|module)\(([^)]*)\).*/\2 LINKS/; s/.* USES ([^A-Z]*)[A-Z].*/\1/p' | tr -s ' '
   printf '\n'
 done)
 
@@ -27,6 +27,7 @@ boost/math/: estimate
 sqlite3\.h: io
 pugixml\.hpp: containers
 matio\.h|hdf5\.h: tables
+pybind11/: python
 "
 
 breach() { # FILE LINE TEXT
