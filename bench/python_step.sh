@@ -15,7 +15,7 @@ awk 'BEGIN {
 }' >box.off
 "$build/bin/hs-tetmesh" -q box.off --edge 0.012 -o body.ply
 printf 'effect,region,parameter,value\nelastic,0,E,12000\nelastic,0,nu,0.4\nviscoelastic,0,E1,6000\nviscoelastic,0,tau1,0.3\n' >model.csv
-PYTHONPATH=$build/python /usr/bin/python3 - "$steps" <<'END'
+PYTHONPATH=$build/python "${PYTHON:-/usr/bin/python3}" - "$steps" <<'END'
 import sys
 import time
 
