@@ -38,7 +38,7 @@ done
 [[ $(bash -c "source '$prefix/share/bash-completion/completions/hs-identify'
   COMP_WORDS=(hs-identify --robust t) COMP_CWORD=2; _hs_identify; echo \"\${COMPREPLY[*]}\"") == tukey ]] ||
   fail "bash does not complete a choice"
-[[ -z $(find "$prefix" -type f ! -path '*/bin/hs' ! -path '*/bin/hs-*' ! -path '*/share/*' ! -path '*/include/hapsim/*' \
+[[ -z $(find "$prefix" -type f ! -path '*/bin/hs' ! -path '*/bin/hs-*' ! -path '*/share/*' ! -path '*/include/hapsim/*' ! -path '*/include/hapsim.h' \
   ! -path '*/lib*/*') ]] || fail "something was installed outside bin, share, include and lib"
 # Taken whole first: a grep that stops at its first match would end make by a closed pipe.
 steps=$(make -n -f "$prefix/share/hapsim/Makefile.pipeline" OUT=out report)
@@ -78,6 +78,14 @@ for program in build/pressing ./pressing; do
   last=$($program body.ply model.csv 0.03 0.025 0.04 0.004 0.002 | tail -n 1)
   [[ ${last##* } == "$force" ]] || fail "$program tells '$last', hs-simulate $force"
 done
+# The C interface, and the module over it.
+printf '#include <hapsim.h>\n#include <stdio.h>\nint main(void) { return puts(hs_version()) < 0 || hs_interface() < HS_INTERFACE; }\n' >version.c
+libraries=$(dirname "$(find "$prefix" -name libhapsim.so.0)")
+quietly sh -c "cc $flags -I '$prefix/include' version.c -L '$libraries' -lhapsim -o version"
+[[ $(LD_LIBRARY_PATH=$libraries ./version) == "$version" ]] || fail "a program of C does not run with libhapsim.so"
+module=$prefix/lib/python3/dist-packages
+[[ ! -d $module || $(LD_LIBRARY_PATH=$libraries PYTHONPATH=$module /usr/bin/python3 -c 'import hapsim; print(hapsim.__version__)') == "$version" ]] ||
+  fail "the module of Python does not load"
 code=0
 ./pressing body.ply nowhere.csv 0 0 0 1 1 2>err || code=$?
 [[ $code == 5 ]] && grep -q "nowhere.csv: cannot be opened" err || fail "the library's error is not told"

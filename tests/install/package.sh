@@ -11,7 +11,7 @@ for needed in dpkg-shlibdeps lintian; do
 done
 cpack --config "$build/CPackConfig.cmake" -B "$out" >"$out/log" 2>&1 || { cat "$out/log"; fail "cpack"; }
 packages=("$out"/*.deb)
-names=$(for package in "${packages[@]}"; do dpkg-deb -f "$package" Package; done | sort | paste -sd' ')
+names=$(for package in "${packages[@]}"; do dpkg-deb -f "$package" Package; done | LC_ALL=C sort | paste -sd' ')
 wanted='hapsim libhapsim-dev libhapsim0'
 [[ ! -d $build/python ]] || wanted+=' python3-hapsim'
 [[ $names == "$wanted" ]] || fail "the packages are $names, not $wanted"
@@ -23,5 +23,5 @@ depends=$(dpkg-deb -f "$out"/hapsim_*.deb Depends)
 for library in coinor-libipopt1v5 libcholmod3 libtet1.5 libopenblas0-pthread; do
   [[ $depends == *"$library"* ]] || fail "the package does not depend on $library"
 done
-dpkg-deb -c "$out"/libhapsim0_*.deb | grep -q 'libhapsim\.so\.0$\|libhapsim\.so\.0 ->' || fail "libhapsim0 has no libhapsim.so.0"
+[[ $(dpkg-deb -c "$out"/libhapsim0_*.deb) == *'/libhapsim.so.0 ->'* ]] || fail "libhapsim0 has no libhapsim.so.0"
 echo "$(basename -a "${packages[@]}" | tr '\n' ' ')without errors"
