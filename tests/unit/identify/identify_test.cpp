@@ -47,6 +47,7 @@ TEST(Identify, WhatIsInterruptedSaysSo) {
 
 TEST(Identify, AFitThatIsStoppedIsTheBestSoFar) {
   Lab lab;
+  lab.request.fit.fix = {};  // one modulus alone would be found at once
   lab.request.options.watch = [](const FitProgress&) { return false; };
   EXPECT_TRUE(lab.found().fitted.stopped);
 }
