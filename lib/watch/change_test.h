@@ -25,10 +25,11 @@ struct TestedSample {
   std::int32_t press = 0;
 };
 
-// The limit h of a one-sided cumulative sum of independent unit normal values, less half a standard
-// deviation each, at which false alarms come every `run` values (Siegmund, Sequential Analysis,
-// 1985, 2.56).
-double change_limit(double run);
+// The limit h of a one-sided cumulative sum of independent values of unit variance, less half a
+// standard deviation each, at which false alarms come every `run` values (Siegmund, Sequential
+// Analysis, 1985, 2.56). `tail`: the t > 0 at which the mean of exp(t (value - 1/2)) is 1, which is
+// 1 for normal values and less where large ones are more frequent.
+double change_limit(double run, double tail = 1);
 
 // Cumulative sum of what a press has shown at most, press by press: where it lies a model is as
 // wrong from the first sample to the last, so a press is one value, however long it lasts.
@@ -36,10 +37,12 @@ class PressSum {
  public:
   // Of so many samples each, the mean square of the standardised residuals makes a block.
   explicit PressSum(std::size_t block_length) : block_length_(block_length) {}
-  // Presses' values while nothing changes: mean and scatter, to the safe side; false alarms every
-  // `run` presses. Of one press the scatter is that of a stated error; of none nothing is ever
-  // told.
-  void learn(const std::vector<double>& values, double run);
+  // Presses' values while nothing changes: mean and scatter, to the safe side, and their tail;
+  // false alarms every `run` presses. Of one press the scatter is that of a stated error; of none
+  // nothing is ever told. From then on the presses that go by unchanged are learned from too, each
+  // time that they have doubled, so that the safe side costs less and less; but not where those
+  // that are new lie higher than chance allows.
+  void learn(std::vector<double> values, double run);
   void restart();
   // The next sample, number `at` of the stream; true when a block has ended with it. `stated`: the
   // share of the usual square that the model states of its error there; presses may scatter as much
@@ -57,8 +60,9 @@ class PressSum {
   double least_growth() const { return std::pow((mean_ + kReference * deviation_) / seen_, 1.5); }
 
  private:
-  static constexpr double kReference = 0.5;  // standard deviations
-  static constexpr std::size_t kWindow = 8;  // blocks whose mean square makes a value
+  static constexpr double kReference = 0.5;          // standard deviations
+  static constexpr std::size_t kWindow = 8;          // blocks whose mean square makes a value
+  static constexpr std::size_t kMostLearned = 4096;  // presses
   struct Excess {
     std::size_t at;
     double value;  // over the usual mean, in standard deviations
@@ -66,6 +70,8 @@ class PressSum {
   double excess() const;      // of this press so far
   Excess this_press() const;  // with the sample at which it shows
   void begin_press();
+  void set_usual();  // from values_
+  void learn_from_later(double value);
   std::size_t block_length_;
   std::array<double, kWindow> window_{};
   std::size_t blocks_ = 0, samples_ = 0;
@@ -74,6 +80,8 @@ class PressSum {
   // that ended since the sum was zero.
   std::vector<Excess> rises_, presses_;
   bool learned_ = false;
+  std::vector<double> values_, later_;  // learned from; since then
+  double run_ = 0;                      // presses
   double mean_ = 1, deviation_ = 1, limit_ = 0;
   double seen_ = 1;  // mean while learning
 };

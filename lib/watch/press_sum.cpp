@@ -11,44 +11,97 @@ namespace {
 // presses learned from may have met less of it than later ones.
 constexpr double kStatedMean = 0.89, kStatedDeviation = 1.0 / 3;
 
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v;
+  return sum / static_cast<double>(values.size());
+}
+
+double squares_about(double mean, const std::vector<double>& values) {
+  double squares = 0;
+  for (const double v : values) squares += (v - mean) * (v - mean);
+  return squares;
+}
+
+// The t of change_limit, at most that of normal values.
+double tail_of(const std::vector<double>& values, double mean, double deviation) {
+  const auto above_one = [&](double t) {
+    double sum = 0;
+    for (const double v : values) sum += std::exp(t * ((v - mean) / deviation - 0.5));
+    return sum > static_cast<double>(values.size());
+  };
+  if (!above_one(1)) return 1;
+  double low = 0.1, high = 1;
+  for (int i = 0; i < 20; ++i) {
+    const double t = 0.5 * (low + high);
+    (above_one(t) ? high : low) = t;
+  }
+  return low;
+}
+
 }  // namespace
 
-// run = (e^(2kb) - 2kb - 1) / (2 k^2), b = h + 1.166, k = 1/2.
-double change_limit(double run) {
+// run = (e^(t b) - t b - 1) / (t k), b = h + 1.166, k = 1/2.
+double change_limit(double run, double tail) {
   constexpr double k = 0.5;
   double low = 0, high = 100;
   for (int i = 0; i < 100; ++i) {
-    const double b = 0.5 * (low + high), x = 2 * k * b;
-    (((std::exp(x) - x - 1) / (2 * k * k) < run) ? low : high) = b;
+    const double b = 0.5 * (low + high), x = tail * b;
+    (((std::exp(x) - x - 1) / (tail * k) < run) ? low : high) = b;
   }
   return std::max(low - 1.166, 0.5);
 }
 
-void PressSum::learn(const std::vector<double>& values, double run) {
+void PressSum::learn(std::vector<double> values, double run) {
   restart();
   learned_ = !values.empty();
-  if (!learned_) return;
-  const auto count = static_cast<double>(values.size());
-  double sum = 0, squares = 0, together = 0;
-  for (const double v : values) sum += v;
-  seen_ = sum / count;
-  for (const double v : values) squares += (v - seen_) * (v - seen_);
-  for (std::size_t i = 1; i < values.size(); ++i)
-    together += (values[i] - seen_) * (values[i - 1] - seen_);
-  const double rho = squares > 0 ? std::clamp(together / squares, 0.0, 0.9) : 0;
-  limit_ = change_limit(run);
+  values_ = std::move(values);
+  run_ = run;
+  if (learned_) set_usual();
+}
+
+void PressSum::set_usual() {
+  const auto count = static_cast<double>(values_.size());
+  seen_ = mean_of(values_);
+  limit_ = change_limit(run_);
   deviation_ = kStatedDeviation;
   mean_ = seen_ + 2 * deviation_;
-  if (values.size() == 1) return;
+  if (values_.size() == 1) return;
+  const double squares = squares_about(seen_, values_);
+  double together = 0;
+  for (std::size_t i = 1; i < values_.size(); ++i)
+    together += (values_[i] - seen_) * (values_[i - 1] - seen_);
+  const double rho = squares > 0 ? std::clamp(together / squares, 0.0, 0.9) : 0;
   // A sum of values that go together scatters like one of independent ones that much wider.
   const double independent = std::max(count * (1 - rho) / (1 + rho), 2.0);
   deviation_ = std::sqrt(squares / (count - 1) * (1 + rho) / (1 - rho));
-  // Both are known from so many presses only: two standard errors to the safe side, those of the
+  if (deviation_ > 0) limit_ = change_limit(run_, tail_of(values_, seen_, deviation_));
+  // Both are known from so many presses only: a standard error to the safe side, which keeps alarms
+  // from being more frequent than stated on the average of what may have been learned; that of the
   // variance by the cube root of chi squared (Wilson and Hilferty).
-  mean_ = seen_ + 2 * deviation_ / std::sqrt(count);
+  mean_ = seen_ + deviation_ / std::sqrt(count);
   const double freedom = 2 / (9 * (independent - 1));
-  deviation_ /= std::pow(std::max(1 - freedom - 2 * std::sqrt(freedom), 0.2), 1.5);
+  deviation_ /= std::pow(std::max(1 - freedom - std::sqrt(freedom), 0.2), 1.5);
   deviation_ = std::max(deviation_, 1e-3);
+}
+
+// What would hide a slow change, were it learned, is not: the sum goes on from what it was.
+void PressSum::learn_from_later(double value) {
+  if (values_.size() >= kMostLearned) return;
+  later_.push_back(value);
+  if (later_.size() < std::max<std::size_t>(values_.size(), 8) || sum_ > 0) return;
+  const double before = mean_of(values_), now = mean_of(later_);
+  const auto n = static_cast<double>(values_.size()), m = static_cast<double>(later_.size());
+  const double variance =
+      std::max((squares_about(before, values_) + squares_about(now, later_)) / (n + m - 1),
+               deviation_ * deviation_ / 4);
+  if (now - before > 2 * std::sqrt(variance * (1 / n + 1 / m))) {
+    later_.clear();
+    return;
+  }
+  values_.insert(values_.end(), later_.begin(), later_.end());
+  later_.clear();
+  set_usual();
 }
 
 void PressSum::begin_press() {
@@ -62,6 +115,7 @@ void PressSum::restart() {
   begin_press();
   sum_ = 0;
   presses_.clear();
+  later_.clear();
 }
 
 double PressSum::end_press() {
@@ -75,6 +129,8 @@ double PressSum::end_press() {
       presses_.clear();
     else
       presses_.push_back(this_press());
+    begin_press();
+    learn_from_later(value);
   }
   begin_press();
   return value;
