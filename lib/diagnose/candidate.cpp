@@ -249,7 +249,7 @@ void prefer_sites(Candidate& candidate, const Baseline& base, const TrialGround&
 }
 
 Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& candidates,
-                         const TrialGround& g) {
+                         const TrialGround& g, bool each_place_free) {
   double best = base.fitted.error.pooled;
   for (const Candidate& c : candidates) best = std::min(best, c.fitted.error.pooled);
   const double noise = std::max(g.allowance.noise, best);
@@ -258,7 +258,7 @@ Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& can
   const Weights weights(g.dataset, all, signal.f, noise, g.allowance.floor);
   Yardstick y{weights,
               noise,
-              PlaceFreedom(base.fitted, g, signal.f, weights),
+              PlaceFreedom(base.fitted, g, signal.f, weights, each_place_free),
               measured_forces(g.dataset, all) - signal.f,
               signal.df,
               offset_effect(base.fitted.model) != nullptr};

@@ -38,7 +38,7 @@ struct Candidate {
 struct Yardstick {
   Weights weights;
   double noise = 0;          // [N]
-  PlaceFreedom freedom;      // of the field that the baseline learns
+  PlaceFreedom freedom;      // of the field that the baseline learns, or as asked
   Eigen::VectorXd residual;  // of the baseline, whitened, without that freedom
   Eigen::MatrixXd jacobian;  // the same of its parameters
   bool offsets = false;      // the baseline solves for an offset of each press
@@ -77,8 +77,9 @@ void hold_out(Candidate& candidate, const TrialGround& ground, const Folds& fold
 // pressed positions noise alone.
 void prefer_sites(Candidate& candidate, const Baseline& baseline, const TrialGround& ground,
                   const Folds& folds);
+// `each_place_free`: as if the baseline learned a field.
 Yardstick make_yardstick(const Baseline& baseline, const std::vector<Candidate>& candidates,
-                         const TrialGround& ground);
+                         const TrialGround& ground, bool each_place_free = false);
 // Over all presses.
 double autocorrelation_time(const Eigen::VectorXd& residual, const TrialGround& ground);
 // A field must have been held out.

@@ -10,6 +10,7 @@
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
 #include "diagnose/rivals_together.h"
+#include "diagnose/shared_by_places.h"
 #include "diagnose/superfluous.h"
 #include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
@@ -275,6 +276,9 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   else
     search(base, g, folds, options, d);
   const bool ambiguous = !d.rivals.empty();
+  if (!few_presses && !ambiguous &&
+      doubt_what_places_share(base, g, folds, options.gates, d.findings))
+    put_in_order(d.findings);
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;

@@ -17,6 +17,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kRounding = 1e-12;  // of the largest force
+
 struct ToolBody::Impl {
   std::vector<BodyTool> tools;
   std::vector<int> number;                          // of each tool: its handle or its tip
@@ -29,6 +31,7 @@ struct ToolBody::Impl {
   State now;
   MatrixXd
       compliance;  // of the freedoms under force control, by Broyden's method; empty: not known
+  double most_force = 0;  // of any tool until now [N]
 
   static std::vector<int> handles(const TetMesh& mesh, const std::vector<BodyTool>& tools,
                                   bool free_base) {
@@ -113,7 +116,10 @@ struct ToolBody::Impl {
   void commit(const std::vector<Vec3>& motion, double dt) {
     now.body = body.state();
     now.motion = motion;
-    for (std::size_t t = 0; t < tools.size(); ++t) now.force[t] = force(t);
+    for (std::size_t t = 0; t < tools.size(); ++t) {
+      now.force[t] = force(t);
+      most_force = std::max(most_force, now.force[t].norm());
+    }
     if (terms == 0) return;
     PointStresses elastic = body.elastic_stresses();
     for (std::size_t i = 0; i < elastic.S.size(); ++i) elastic.S[i] /= factor[law_of_point[i]];
@@ -211,7 +217,9 @@ struct ToolBody::Impl {
     SolveReport report = move(motion);
     if (!report.ok()) return report;
     VectorXd rest = wanted - forces(free);
-    const double allowed = tolerance * wanted.norm() + 1e-15 * (wanted - rest).norm();
+    double largest = most_force;
+    for (std::size_t t = 0; t < tools.size(); ++t) largest = std::max(largest, force(t).norm());
+    const double allowed = tolerance * wanted.norm() + kRounding * largest;
     if (compliance.rows() != static_cast<Index>(free.size()) &&
         !(report = probe(motion, free)).ok())
       return report;

@@ -23,6 +23,8 @@ constexpr std::size_t kFirstBoth = 5, kBoth = 12;
 constexpr double kBesideSupport = 2.5;
 // Where the surface about turns so much, two radii from a right-angled edge, coarse meshes scatter.
 constexpr double kBesideEdge = 0.07;
+// A place that was refused says little of those beyond that share of a radius, which are tried.
+constexpr double kNearRefused = 0.3;
 // The share of the pool that may be less sure than this, in tolerances: twice that is the worst.
 constexpr double kTail = 0.01, kLeastSure = 1.25;
 
@@ -139,7 +141,7 @@ std::vector<Vec3> FieldSampling::draw(std::size_t count, std::uint64_t seed) con
     const double a = std::sqrt(random.uniform()), b = random.uniform();
     const Vec3 p = (1 - a) * surface.vertices[t[0]] + a * (1 - b) * surface.vertices[t[1]] +
                    a * b * surface.vertices[t[2]];
-    if (is_touchable(p)) places.push_back(p);
+    if (is_touchable(p, kNearRefused * radius_)) places.push_back(p);
   }
   if (places.empty())
     fail_input("", "the tool can be laid on no place of this body",
@@ -148,10 +150,14 @@ std::vector<Vec3> FieldSampling::draw(std::size_t count, std::uint64_t seed) con
 }
 
 bool FieldSampling::is_touchable(const Vec3& point) const {
+  return is_touchable(point, radius_);
+}
+
+bool FieldSampling::is_touchable(const Vec3& point, double reach) const {
   if (clearance(*bonded_, point) < radius_) return false;
   double refused = std::numeric_limits<double>::infinity(), taken = refused;
   for (const Vec3& p : refused_) refused = std::min(refused, (p - point).squaredNorm());
-  if (refused > radius_ * radius_) return true;
+  if (refused > reach * reach) return true;
   for (const Vec3& p : places_) taken = std::min(taken, (p - point).squaredNorm());
   return taken < refused;
 }

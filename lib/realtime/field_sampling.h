@@ -53,6 +53,7 @@ class FieldSampling {
   std::unique_ptr<PlaceModel> model_of(const SampledMaterial& material, std::size_t most) const;
 
  private:
+  bool is_touchable(const Vec3& point, double reach) const;  // of what was refused [m]
   void add(const std::vector<Vec3>& places);
   void fit();
   std::vector<Vec3> draw(std::size_t count, std::uint64_t seed) const;

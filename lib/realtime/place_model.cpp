@@ -23,9 +23,6 @@ constexpr double kMostFreedom = 0.7;
 constexpr double kBeyondSamples = 1;
 constexpr double kPrior = 4;  // samples that stand for the global variance where few are near
 
-// The ridge of products of features over that of the rest: few samples tell less of them.
-constexpr std::array<double, 4> kCurvedRidge{1, 10, 100, 1000};
-
 constexpr double kThin = 0.5;  // of a half-space's compliance may be missing, without more ado
 
 // Symmetric tensors as vectors of the same norm.
@@ -56,7 +53,7 @@ double positive_share(double x) {
   return x > -kThin ? 1 + x : (1 - kThin) * std::exp((x + kThin) / (1 - kThin));
 }
 
-// The trend with the ridges of the least generalised cross-validation (Golub, Heath and Wahba,
+// The trend with the ridge of the least generalised cross-validation (Golub, Heath and Wahba,
 // Technometrics 21, 1979): its weights, and by how much squared residuals of samples that are left
 // out are larger than those that are not.
 struct Ridge {
@@ -80,28 +77,22 @@ Ridge ridge_fit(const std::vector<StiffnessSample>& samples, const std::vector<P
   const VectorXd b = A.transpose() * y;
   const auto rows = static_cast<double>(6 * n);
   Ridge best;
-  double least = std::numeric_limits<double>::infinity();
-  VectorXd ridge;
-  const PlaceView& view = samples.front().view;
-  for (const double curved : kCurvedRidge)
-    for (double trial = 1e-6; trial < 2; trial *= 10) {  // the last serves where no other does
-      VectorXd tried = VectorXd::Constant(columns, trial * rows);
-      tried.segment(view.curved_from, view.curved_to - view.curved_from) *= curved;
-      MatrixXd regular = H;
-      regular.diagonal() += tried;
-      const Eigen::LLT<MatrixXd> factor(regular);
-      // tr((H + D)^-1 H) = columns - tr((H + D)^-1 D), from the factor's inverse.
-      MatrixXd inverse = MatrixXd::Identity(columns, columns);
-      factor.matrixL().solveInPlace(inverse);
-      const double freedom =
-          static_cast<double>(columns) - inverse.colwise().squaredNorm().dot(tried);
-      if (freedom > kMostFreedom * rows && trial < 0.9) continue;
-      const VectorXd w = factor.solve(b);
-      const double score = (y - A * w).squaredNorm() / std::pow(1 - freedom / rows, 2);
-      if (score < least) least = score, ridge = tried, best.weights = w;
-    }
+  double least = std::numeric_limits<double>::infinity(), lambda = 0;
+  for (double trial = 1e-6; trial < 2; trial *= 10) {  // the last serves where no other does
+    MatrixXd regular = H;
+    regular.diagonal().array() += trial * rows;
+    const Eigen::LLT<MatrixXd> factor(regular);
+    // tr((H + l I)^-1 H) = columns - l tr((H + l I)^-1), from the factor's inverse.
+    MatrixXd inverse = MatrixXd::Identity(columns, columns);
+    factor.matrixL().solveInPlace(inverse);
+    const double freedom = static_cast<double>(columns) - trial * rows * inverse.squaredNorm();
+    if (freedom > kMostFreedom * rows && trial < 0.9) continue;
+    const VectorXd w = factor.solve(b);
+    const double score = (y - A * w).squaredNorm() / std::pow(1 - freedom / rows, 2);
+    if (score < least) least = score, lambda = trial, best.weights = w;
+  }
   MatrixXd regular = H;
-  regular.diagonal() += ridge;
+  regular.diagonal().array() += lambda * rows;
   const Eigen::LLT<MatrixXd> factor(regular);
   double inside = 0, outside = 0;
   for (Index i = 0; i < n; ++i) {
@@ -196,8 +187,6 @@ PlaceView PlaceViews::at(const Vec3& point) const {
     basis.push_back(s * nn);
     basis.push_back(s * tt);
   }
-  view.curved_from = static_cast<Index>(2 * first.size());
-  view.curved_to = static_cast<Index>(2 * second.size());
   for (std::size_t k = 0; k < seen.size(); ++k) {
     const Vec3 m = across * seen[k].normal;
     const Matrix3d tilt = n * m.transpose(), square = m * m.transpose();

@@ -27,7 +27,6 @@ struct PlaceView {
   Vec3 point, normal;
   Eigen::VectorXd features;                        // scalars
   Eigen::Matrix<double, 6, Eigen::Dynamic> basis;  // tensors that turn with the body, packed
-  Eigen::Index curved_from = 0, curved_to = 0;     // columns of products of two features
   Eigen::Matrix3d reference;                       // root of the stiffness to be expected
   double turned = 0;  // what the surface within some two tool radii lacks of facing one way
 };
@@ -62,8 +61,7 @@ struct PlaceEstimate {
 };
 
 // L = log(R^-1 K R^-1), R the root of what is expected: a trend, linear in the views' tensors, with
-// the ridges that generalised cross-validation takes (one of products of features, one of the rest),
-// and what the trend leaves as a Gaussian
+// the ridge that generalised cross-validation takes, and what the trend leaves as a Gaussian
 // process over place, normal and features (universal kriging in two stages). Its variance is scaled
 // by the squared residuals of samples that are left out, those nearby most.
 class PlaceModel {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "base/error.h"
@@ -79,12 +80,13 @@ class Simulation {
     const bool goes_on = recording_.metadata.find("recovery").value_or("") == "none";
     std::vector<Vec3> before;
     int number = 0;
-    for (const Press& press : common_presses(recording_)) {
-      const ToolSteps steps = tool_steps(recording_, press);
+    for (const ToolSteps& steps : tool_steps(recording_)) {
       std::vector<Vec3> points;
-      for (const std::size_t row : steps.rows.front()) points.push_back(recording_.position[row]);
+      const std::vector<std::size_t> first = steps.first_rows();
+      for (const std::size_t row : first) points.push_back(recording_.position[row]);
+      const std::size_t begin = *std::min_element(first.begin(), first.end());
       const bool continues = goes_on && session_ && points == before && !recording_.t.empty() &&
-                             recording_.t[steps.rows.front().front()] >= session_->last_time;
+                             recording_.t[begin] >= session_->last_time;
       before = points;
       if (!continues) prepare(steps);
       solve(steps, continues, ++number);
@@ -117,7 +119,7 @@ class Simulation {
   void prepare(const ToolSteps& steps) {
     session_ = std::make_unique<Session>();
     Session& s = *session_;
-    const std::vector<std::size_t>& rows = steps.rows.front();
+    const std::vector<std::size_t> rows = steps.first_rows();
     if (rows.size() == 1 && !options_.own_mesh) {
       s.own =
           make_contact_mesh(base_, recording_.position[rows[0]], radius_,
@@ -132,6 +134,7 @@ class Simulation {
         fail_input(recording_line(recording_, row), "no free node of the body lies under the tool",
                    "mesh it with hs-tetmesh --contacts, or check the contact point");
       }
+      refuse_shared_nodes(rows);
     }
     std::vector<BodyTool> tools;
     for (const FullContact& c : s.contacts) {
@@ -150,6 +153,19 @@ class Simulation {
     const BodyModel model = body_model(*s.mesh, free_base);
     s.body = std::make_unique<ToolBody>(model, tools, relaxation_by_law(), free_base);
     result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
+  }
+
+  // A node moves with one tool.
+  void refuse_shared_nodes(const std::vector<std::size_t>& rows) const {
+    std::map<int, std::size_t> row_of;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (const int node : session_->contacts[k].nodes)
+        if (!row_of.try_emplace(node, rows[k]).second)
+          fail_input(recording_line(recording_, rows[k]),
+                     "this place overlaps one that a tool presses at another time, while a further "
+                     "tool never lets go of the body (" +
+                         recording_line(recording_, row_of[node]) + ")",
+                     "simulate these presses apart, or press exactly there again");
   }
 
   // One list a region, as the laws are.
@@ -204,12 +220,11 @@ class Simulation {
   }
 
   // The press of one tool as effects see it.
-  PressView view_of(const ToolSteps& steps, std::size_t tool, int number) const {
+  PressView view_of(const std::vector<std::size_t>& rows, std::size_t tool, int number) const {
     PressView view;
-    const double start = recording_.t.empty() ? 0 : recording_.t[steps.rows.front()[tool]];
+    const double start = recording_.t.empty() ? 0 : recording_.t[rows.front()];
     const double began = session_start(recording_);
-    for (const std::vector<std::size_t>& rows : steps.rows)
-      add_sample(view, recording_, rows[tool], start, began);
+    for (const std::size_t row : rows) add_sample(view, recording_, row, start, began);
     view.normal = session_->contacts[tool].normal;
     view.direction = -view.normal;
     view.number = number;
@@ -220,28 +235,36 @@ class Simulation {
 
   void solve(const ToolSteps& steps, bool continues, int number) {
     Session& s = *session_;
-    const std::size_t tools = steps.tools();
+    const std::size_t tools = steps.touches();
     std::vector<PressView> views;
+    std::vector<std::vector<std::size_t>> rows(tools);  // of each touch
     for (std::size_t k = 0; k < tools; ++k) {
-      views.push_back(view_of(steps, k, number));
+      for (const std::vector<std::size_t>& step : steps.rows)
+        if (step[k] != ToolSteps::kNoRow) rows[k].push_back(step[k]);
+      views.push_back(view_of(rows[k], k, number));
       Motion motion{views[k].u, {}, 0};
       for (const EffectInstance& i : around_) i.effect->move(views[k], i.values, motion);
       views[k].u = std::move(motion.u);
     }
+    const bool tip = spec_.curvature > 0 || std::isfinite(spec_.friction);
+    std::vector<std::size_t> next(tools, 0);  // row of each touch
     for (std::size_t i = 0; i < steps.rows.size(); ++i) {
-      const std::size_t row = steps.rows[i].front();
+      const std::vector<std::size_t>& step = steps.rows[i];
+      const std::size_t row = *std::min_element(step.begin(), step.end());
       const double time = recording_.t.empty() ? 0 : recording_.t[row];
       const double dt = i > 0 || continues ? time - s.last_time : 0;
       std::vector<ToolTarget> targets;
       for (std::size_t k = 0; k < tools; ++k) {
-        const bool tip = spec_.curvature > 0 || std::isfinite(spec_.friction);
-        if (views[k].in_air[i])  // a bonded tool lets go: it exerts nothing; a tip is away
+        const bool rests = step[k] == ToolSteps::kNoRow;
+        const std::size_t at = rests ? 0 : next[k]++;
+        // A bonded tool that is away lets go: it exerts nothing; a tip is away.
+        if (rests || views[k].in_air[at])
           targets.push_back(tip ? ToolTarget{radius_ * s.contacts[k].normal, false}
                                 : ToolTarget{Vec3::Zero(), true});
         else if (options_.force_control)
-          targets.push_back({recording_.f[steps.rows[i][k]], true});
+          targets.push_back({recording_.f[step[k]], true});
         else
-          targets.push_back({views[k].u[i], false});
+          targets.push_back({views[k].u[at], false});
       }
       const SolveReport report = s.body->step(targets, dt);
       result_.newton_steps += report.newton_steps;
@@ -251,24 +274,27 @@ class Simulation {
                       report.message.substr(split + 2));
       }
       s.last_time = time;
+      std::size_t done = 0;
       for (std::size_t k = 0; k < tools; ++k) {
+        if (step[k] == ToolSteps::kNoRow) continue;
         const int tool = static_cast<int>(k);
-        result_.force[steps.rows[i][k]] = s.body->force(tool);
-        if (options_.force_control) result_.motion[steps.rows[i][k]] = s.body->motion(tool);
+        result_.force[step[k]] = s.body->force(tool);
+        if (options_.force_control) result_.motion[step[k]] = s.body->motion(tool);
+        ++done;
       }
       if (options_.observe)
         options_.observe({row, s.mesh, &s.body->body().field(), s.body->body().element_fields()});
-      if (options_.step) options_.step(tools);
+      if (options_.step) options_.step(done);
     }
     for (std::size_t k = 0; k < tools; ++k) {
-      Signal signal{Eigen::VectorXd(3 * static_cast<Eigen::Index>(steps.rows.size())), {}};
+      Signal signal{Eigen::VectorXd(3 * static_cast<Eigen::Index>(rows[k].size())), {}};
       signal.df.resize(signal.f.size(), 0);
-      for (std::size_t i = 0; i < steps.rows.size(); ++i)
-        signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = result_.force[steps.rows[i][k]];
+      for (std::size_t i = 0; i < rows[k].size(); ++i)
+        signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = result_.force[rows[k][i]];
       for (const EffectInstance& i : around_)
         if (i.effect->card().stage == Stage::kSensor) i.effect->apply(views[k], i.values, signal);
-      for (std::size_t i = 0; i < steps.rows.size(); ++i)
-        result_.force[steps.rows[i][k]] = signal.f.segment<3>(3 * static_cast<Eigen::Index>(i));
+      for (std::size_t i = 0; i < rows[k].size(); ++i)
+        result_.force[rows[k][i]] = signal.f.segment<3>(3 * static_cast<Eigen::Index>(i));
     }
   }
 

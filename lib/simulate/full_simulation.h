@@ -41,12 +41,13 @@ struct FullResult {
 
 // Rows of one press are one body in time. Several tools: a column `tool_id`; rows that follow one
 // another with the same press and time and different tool_id are one step, the same tools in every
-// step of a press. Body, support and contact effects are solved (Effect::full()), effects on the
-// motion and of the sensor act before and after it, tool by tool. A flat tool is bonded; with
-// friction it is a flat punch that may part and slip; the tip is a whole ball of radius 1/kappa.
-// Error(kBadInput): an effect that has no such form. Error(kBadInput) with line: tools that change
-// within a press, no node under a tool. Error(kNoConvergence) with line: a step that does not
-// converge, and how far it came.
+// step of a press; tools that press at once in presses of their own are one body in time
+// (simulate/tool_steps.h). Body, support and contact effects are solved (Effect::full()), effects
+// on the motion and of the sensor act before and after it, tool by tool. A flat tool is bonded;
+// with friction it is a flat punch that may part and slip; the tip is a whole ball of radius
+// 1/kappa. Error(kBadInput): an effect that has no such form. Error(kBadInput) with line: tools
+// that change within a press, no node under a tool. Error(kNoConvergence) with line: a step that
+// does not converge, and how far it came.
 FullResult simulate_full(const TetMesh& body, const Model& model, const Recording& recording,
                          const FullOptions& options);
 

@@ -73,17 +73,18 @@ void ChangeTest::learn() {
   stated = x > 0 ? stated / x : 0;
   beside_ = std::max(0.0, slope - stated);
   // What the presses have shown, each in the air and in contact.
-  std::array<std::vector<double>, 2> values;
+  std::array<std::vector<PressValue>, 2> values;
   std::array<PressSum, 2> sums{PressSum(block_length_), PressSum(block_length_)};
   double presses = 1;
   const auto end_press = [&] {
     for (std::size_t k = 0; k < 2; ++k)
-      if (const double value = sums[k].end_press(); value >= 0) values[k].push_back(value);
+      if (const PressValue v = sums[k].end_press(); v.value >= 0) values[k].push_back(v);
   };
   for (std::size_t i = 0; i < usual_.size(); ++i) {
     const Usual& u = usual_[i];
     if (i > 0 && u.press != usual_[i - 1].press) end_press(), presses += 1;
-    sums[u.touches ? 1 : 0].add(u.residual / usual_square(u.force, u.uncertainty), 0, i);
+    const double usual = usual_square(u.force, u.uncertainty);
+    sums[u.touches ? 1 : 0].add(u.residual / usual, u.uncertainty * u.force / usual, i);
   }
   end_press();
   const double hours = n / options_.rate / 3600;

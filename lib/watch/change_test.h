@@ -25,10 +25,17 @@ struct TestedSample {
   std::int32_t press = 0;
 };
 
-// The limit h of a one-sided cumulative sum of independent unit normal values, less half a standard
-// deviation each, at which false alarms come every `run` values (Siegmund, Sequential Analysis,
-// 1985, 2.56).
-double change_limit(double run);
+// The limit h of a one-sided cumulative sum of independent values of unit variance, less half a
+// standard deviation each, at which false alarms come every `run` values (Siegmund, Sequential
+// Analysis, 1985, 2.56). `tail`: the t > 0 at which the mean of exp(t (value - 1/2)) is 1, which is
+// 1 for normal values and less where large ones are more frequent.
+double change_limit(double run, double tail = 1);
+
+// What a press has shown at most, and at most of its usual square by what the model states.
+struct PressValue {
+  double value = -1;  // < 0: too short
+  double stated = 0;
+};
 
 // Cumulative sum of what a press has shown at most, press by press: where it lies a model is as
 // wrong from the first sample to the last, so a press is one value, however long it lasts.
@@ -36,29 +43,33 @@ class PressSum {
  public:
   // Of so many samples each, the mean square of the standardised residuals makes a block.
   explicit PressSum(std::size_t block_length) : block_length_(block_length) {}
-  // Presses' values while nothing changes: mean and scatter, to the safe side; false alarms every
-  // `run` presses. Of one press the scatter is that of a stated error; of none nothing is ever
-  // told.
-  void learn(const std::vector<double>& values, double run);
+  // Presses' values while nothing changes: mean and scatter, to the safe side, and their tail;
+  // false alarms every `run` presses. Of one press the scatter is that of a stated error; of none
+  // nothing is ever told. From then on the presses that go by unchanged are learned from too, each
+  // time that they have doubled, so that the safe side costs less and less; but not where those
+  // that are new lie higher than chance allows.
+  void learn(std::vector<PressValue> values, double run);
   void restart();
   // The next sample, number `at` of the stream; true when a block has ended with it. `stated`: the
   // share of the usual square that the model states of its error there; presses may scatter as much
-  // as that.
+  // as what is stated of them beyond those that were learned from.
   bool add(double square, double stated, std::size_t at);
-  double end_press();                      // its value, < 0: none
+  PressValue end_press();
   double level() const;                    // of the sum, with this press so far
   double limit() const { return limit_; }  // after learning
   bool above() const { return learned_ && level() > limit_; }
   // The sample from which the error is most likely another one: of the presses since the sum was
-  // zero those from which on their excess over half its mean adds up to most (Hinkley, Biometrika
-  // 57, 1970), and in the first of them the block that has half of what it shows at most.
+  // zero those from which on their excess over half its size (its mean, or the last) adds up to
+  // most (Hinkley, Biometrika 57, 1970), and in the first of them the block that has half of what
+  // it shows at most.
   std::size_t since() const;
   // Times which the usual error must grow for the sum to grow.
   double least_growth() const { return std::pow((mean_ + kReference * deviation_) / seen_, 1.5); }
 
  private:
-  static constexpr double kReference = 0.5;  // standard deviations
-  static constexpr std::size_t kWindow = 8;  // blocks whose mean square makes a value
+  static constexpr double kReference = 0.5;          // standard deviations
+  static constexpr std::size_t kWindow = 8;          // blocks whose mean square makes a value
+  static constexpr std::size_t kMostLearned = 4096;  // presses
   struct Excess {
     std::size_t at;
     double value;  // over the usual mean, in standard deviations
@@ -66,6 +77,8 @@ class PressSum {
   double excess() const;      // of this press so far
   Excess this_press() const;  // with the sample at which it shows
   void begin_press();
+  void set_usual();  // from values_
+  void learn_from_later(const PressValue& value);
   std::size_t block_length_;
   std::array<double, kWindow> window_{};
   std::size_t blocks_ = 0, samples_ = 0;
@@ -74,8 +87,11 @@ class PressSum {
   // that ended since the sum was zero.
   std::vector<Excess> rises_, presses_;
   bool learned_ = false;
+  std::vector<PressValue> values_, later_;  // learned from; since then
+  double run_ = 0;                          // presses
   double mean_ = 1, deviation_ = 1, limit_ = 0;
-  double seen_ = 1;  // mean while learning
+  double seen_ = 1;          // mean while learning
+  double stated_usual_ = 0;  // mean of PressValue::stated there
 };
 
 // Residuals over their usual size: noise, a share of the force, learned at the start, and beside

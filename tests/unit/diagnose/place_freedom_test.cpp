@@ -18,12 +18,12 @@ constexpr double kNoise = 2e-3, kDepth = 2e-3;
 constexpr int kSteps = 6;
 
 // Where nothing of the approach is recorded, each press begins loaded.
-Recording presses_by_place(bool approach) {
+Recording presses_by_place(bool approach, int along) {
   Recording r;
   r.name = "places";
   r.metadata.set("tool_radius", "0.003");
   int press = 0;
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < along; ++i)
     for (int j = 0; j < 4; ++j, ++press)
       for (int k = approach ? -2 : 1; k <= kSteps; ++k) {
         r.line.push_back(static_cast<long>(r.line.size()) + 2);
@@ -44,7 +44,7 @@ Model elastic_of(double modulus) {
 
 // A stiffness that changes by a factor of four, with a power of the depth that changes too and
 // differs from one; the tool stands `late` deeper than is recorded, and the sensor has a zero.
-Experiment places(bool approach, double late, const Vec3& zero) {
+Experiment places(bool approach, double late, const Vec3& zero, int along = 5) {
   const auto on_block = [&](double rim_edge, int across, int down) {
     ExperimentOptions options;
     options.rim_edge = rim_edge;
@@ -52,7 +52,7 @@ Experiment places(bool approach, double late, const Vec3& zero) {
     options.floor = 0.02;
     options.nu_low = options.nu_high = 0.4;
     return make_experiment(test::block_mesh({0.06, 0.06, 0.03}, across, across, down, 1),
-                           presses_by_place(approach), options);
+                           presses_by_place(approach, along), options);
   };
   Experiment w = on_block(0.5, 4, 3);
   const Eigen::VectorXd f =
@@ -100,6 +100,16 @@ TEST(PlaceFreedom, APlaceMayHaveItsOwnLawAndFirstTouch) {
   for (const Finding& f : d.findings)
     EXPECT_EQ(is_named(d, f.effect), f.effect == "learned-place") << f.effect;
   EXPECT_LT(d.held_out_end.pooled, 0.5 * d.held_out.pooled);
+}
+
+// Sixteen places do not tell how they differ, but nothing that they share is to blame.
+TEST(PlaceFreedom, FewPlacesAreNotTheSensor) {
+  const Diagnosis d = diagnosed(places(false, 2e-4, Vec3::Zero(), 4));
+  for (const char* sensor :
+       {"sensor-bias", "sensor-curve", "sensor-gain", "sensor-rotation", "tare"})
+    EXPECT_FALSE(is_named(d, sensor)) << sensor;
+  EXPECT_TRUE(is_named(d, "regions"));
+  EXPECT_FALSE(d.left.noise_alone());
 }
 
 TEST(PlaceFreedom, WhatTheAirShowsIsNamedBesideIt) {

@@ -188,6 +188,52 @@ TEST(FullSimulation, SeveralToolsSuperpose) {
   EXPECT_NEAR(a[1].dot(v), b[0].dot(u), 1e-8 * std::abs(a[0].dot(u)));
 }
 
+// Presses of two tools that lie between each other's are one body: the same as one press whose
+// tools are away where they have no row.
+TEST(FullSimulation, PressesAtOnceAreOneBody) {
+  const Model model = model_of({{"elastic", {2e4, 0.4}}, {"viscoelastic", {1e4, 0.3}}});
+  struct Row {
+    int press;
+    double t;
+    bool left, touches;
+    Vec3 u;
+  };
+  const auto felt = [&](const std::vector<Row>& rows) {
+    Recording r;
+    r.name = "motion.csv";
+    r.metadata.set("tool_radius", "0.009");
+    r.extra_header = {"tool_id"};
+    r.extra.resize(1);
+    for (const Row& row : rows) {
+      r.line.push_back(static_cast<long>(r.line.size()) + 2);
+      r.press.push_back(row.press);
+      r.t.push_back(row.t);
+      r.position.emplace_back(row.left ? 0.02 : 0.04, 0.025, 0.03);
+      r.u.push_back(row.u);
+      r.contact.push_back(row.touches ? 1 : 0);
+      r.extra[0].push_back(row.left ? "left" : "right");
+    }
+    return simulate_full(block(), model, r, {}).force;
+  };
+  const Vec3 u(0, 1e-4, -1e-3), v(3e-4, 0, -5e-4), none = Vec3::Zero();
+  const auto apart = felt({{1, 0, true, true, u},
+                           {1, 0.1, true, true, u},
+                           {2, 0.1, false, true, v},
+                           {1, 0.2, true, false, none},
+                           {2, 0.2, false, true, v}});
+  const auto common = felt({{1, 0, true, true, u},
+                            {1, 0, false, false, none},
+                            {1, 0.1, true, true, u},
+                            {1, 0.1, false, true, v},
+                            {1, 0.2, true, false, none},
+                            {1, 0.2, false, true, v}});
+  const std::size_t same[] = {0, 2, 3, 4, 5};
+  for (std::size_t k = 0; k < 5; ++k)
+    EXPECT_LT((apart[k] - common[same[k]]).norm(), 1e-9 * apart[0].norm()) << k;
+  EXPECT_LT(apart[3].norm(), 1e-9 * apart[0].norm());  // away
+  EXPECT_GT(apart[4].norm(), 0.3 * apart[0].norm());
+}
+
 TEST(FullSimulation, SaysWhereItFails) {
   const Model finite = model_of({{"elastic", {2e4, 0.4}}, {"hyperelastic", {0, 1}}});
   const auto fails = [](const Model& model, const Recording& r, const FullOptions& options,
