@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "calibration_option.h"
 #include "cli/tool.h"
 #include "experiment/contact_radius.h"
 #include "experiment/experiment.h"
@@ -34,6 +35,7 @@ inline std::vector<Option> experiment_flags() {
        .group = "Input",
        .minimum = 1e-6,
        .maximum = 1},
+      calibration_option("Input"),
       {.flag = flag::noise,
        .value = "N",
        .help = "Standard deviation of the force noise per component [N]; otherwise the metadata "
@@ -79,7 +81,7 @@ inline void say_other_radius(const Arguments& arguments, const Metadata& metadat
 
 inline Recording load_recording(const Arguments& arguments, const std::string& path, bool forces) {
   Input input(path);
-  Recording recording = read_recording(input, forces);
+  Recording recording = read_measured(arguments, input, forces);
   if (arguments.given(flag::tool_radius)) {
     say_other_radius(arguments, recording.metadata, recording.name);
     recording.metadata.set("tool_radius", arguments.text(flag::tool_radius));

@@ -149,6 +149,7 @@ DiagnosedFiles files_of(const Arguments& arguments) {
   DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
   for (const AnyFlag& flag : AnyFlags{flag::tool_radius, flag::noise, flag::floor, flag::rim_edge})
     if (arguments.given(flag)) files.flags += " " + flag + " " + arguments.text(flag);
+  files.flags += calibration_words(arguments);
   if (arguments.output() != "-") files.output = arguments.output();
   return files;
 }
