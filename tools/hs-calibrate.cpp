@@ -12,6 +12,7 @@
 #include "calibrate/arm_fit.h"
 #include "calibrate/calibration_words.h"
 #include "calibrate/given_gravity.h"
+#include "calibrate/pose_doubt.h"
 #include "calibrate/pose_plan.h"
 #include "calibrate/sensor_fit.h"
 #include "calibrate/sensor_result.h"
@@ -213,6 +214,7 @@ int run(const Arguments& arguments) {
     sensor = fit_sensor(poses, asked);
     parts.poses = &poses;
     parts.sensor = &sensor;
+    parts.doubt = pose_doubt(sensor, poses, asked);
     if (sensor.determined) calibration = calibration_of(sensor, poses, asked);
   }
   calibration.name = arguments.output();
@@ -233,7 +235,7 @@ int run(const Arguments& arguments) {
   const bool calibrated = sensor.determined || (!poses_given && arguments.given(flag::rigid));
   if (poses_given && !calibrated && (parts.plan == nullptr || arguments.output() != "-")) {
     for (const auto& output : outputs) output->commit();
-    fail_input(poses.name, undetermined_words(sensor, poses),
+    fail_input(poses.name, undetermined_words(sensor, poses, parts.doubt),
                parts.plan == nullptr
                    ? "add poses: --plan FILE writes which"
                    : "record the poses of " + arguments.text(flag::plan) + " too");
@@ -257,7 +259,9 @@ int run(const Arguments& arguments) {
   for (const auto& output : outputs) output->commit();
   Summary summary = calibration_summary(calibration, parts);
   if (calibrated) summary.next = next_command(arguments);
-  if (parts.plan != nullptr) summary.details = "The poses: " + arguments.text(flag::plan);
+  // Where a terminal was not given the calibration, that is told instead.
+  if (parts.plan != nullptr && (!calibrated || result_is_wanted(arguments)))
+    summary.details = "The poses: " + arguments.text(flag::plan);
   tell_answer(arguments, summary);
   return 0;
 }

@@ -210,9 +210,11 @@ void add_plan(const PosePlan& plan, Summary& s) {
 
 }  // namespace
 
-std::string undetermined_words(const SensorFit& fit, const StaticPoses& poses) {
+std::string undetermined_words(const SensorFit& fit, const StaticPoses& poses,
+                               const std::string& doubt) {
   const std::string count =
       counted(static_cast<std::ptrdiff_t>(poses.poses.size()), "pose", "poses");
+  if (!doubt.empty()) return doubt;
   if (fit.blind.empty())
     return fmt::format("{} give {} numbers for {} unknowns: too few to know the errors by", count,
                        fit.residual.size(), fit.unknowns.names.size());
@@ -227,12 +229,16 @@ Summary calibration_summary(const Calibration& c, const CalibrationParts& parts)
         "noise {:.2g} N over {}", parts.sensor->force_noise,
         counted(static_cast<std::ptrdiff_t>(parts.poses->poses.size()), "pose", "poses"));
     add_sensor(c, *parts.sensor, s);
+    if (!parts.doubt.empty()) {
+      s.mark = Summary::Mark::kOpen;
+      s.notes.push_back(parts.doubt);
+    }
     add_sensor_notes(*parts.sensor, *parts.poses, s);
     if (!parts.sensor->left_out.empty()) s.mark = Summary::Mark::kOpen;
   } else if (parts.sensor != nullptr) {
     s.mark = Summary::Mark::kBad;
     s.verdict = parts.poses->name + ": the sensor is not calibrated yet";
-    s.notes.push_back(undetermined_words(*parts.sensor, *parts.poses));
+    s.notes.push_back(undetermined_words(*parts.sensor, *parts.poses, parts.doubt));
   } else if (parts.arm != nullptr) {
     s.verdict = parts.presses->name + ": the arm is calibrated";
   } else {

@@ -16,6 +16,7 @@ namespace hapsim {
 struct CalibrationParts {
   const StaticPoses* poses = nullptr;
   const SensorFit* sensor = nullptr;
+  std::string doubt;  // pose_doubt() of them
   const Recording* presses = nullptr;
   const ArmFit* arm = nullptr;
   const PosePlan* plan = nullptr;
@@ -25,7 +26,8 @@ struct CalibrationParts {
 // poses that do not fit, what a plan is expected to bring.
 Summary calibration_summary(const Calibration& calibration, const CalibrationParts& parts);
 
-// One sentence: what these poses do not determine.
-std::string undetermined_words(const SensorFit& fit, const StaticPoses& poses);
+// One sentence: what these poses do not determine, or their `doubt`, which comes first.
+std::string undetermined_words(const SensorFit& fit, const StaticPoses& poses,
+                               const std::string& doubt);
 
 }  // namespace hapsim

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "calibrate/calibration_words.h"
+#include "calibrate/pose_doubt.h"
 #include "calibrate/sensor_result.h"
 #include "calibrate/torque_test.h"
 #include "unit/calibrate/rig.h"
@@ -85,7 +86,8 @@ TEST(SensorFit, PosesThatTellNothingAreNotCalibrated) {
   }
   const SensorFit fit = fit_sensor(poses, {});
   EXPECT_FALSE(fit.determined);
-  EXPECT_NE(undetermined_words(fit, poses).find("do not determine the sensor"), std::string::npos);
+  EXPECT_NE(undetermined_words(fit, poses, "").find("do not determine the sensor"),
+            std::string::npos);
 }
 
 // A tool that leans to one side and the other of a plane: rotation, mass and offset, no cross-talk.
@@ -127,6 +129,20 @@ TEST(SensorFit, TheOutlierIsNamed) {
   for (const std::string& note : summary.notes)
     named = named || note.find("The pose of line 13 is") != std::string::npos;
   EXPECT_TRUE(named);
+}
+
+TEST(PoseDoubt, InverseOrientationsAndForgottenWeightsAreTold) {
+  const test::Rig rig;
+  Random random(10);
+  StaticPoses poses = test::recorded(rig, 20, random, true, false);
+  EXPECT_EQ(pose_doubt(fit_sensor(poses, {}), poses, {}), "");
+  StaticPoses inverse = poses;
+  for (StaticPose& p : inverse.poses) p.orientation.transposeInPlace();
+  EXPECT_NE(pose_doubt(fit_sensor(inverse, {}), inverse, {}).find("give those of the tool in the"),
+            std::string::npos);
+  for (StaticPose& p : poses.poses) p.load = 0;
+  EXPECT_NE(pose_doubt(fit_sensor(poses, {}), poses, {}).find("is a weight missing"),
+            std::string::npos);
 }
 
 TEST(TorqueTest, ForceInTheTorquesIsSeenAndNoiseIsNot) {
