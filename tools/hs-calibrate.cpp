@@ -165,7 +165,7 @@ ToolSpec specification() {
         {"load", "weight to add [kg], where the poses have one"},
         {"tells", "what it makes known better than anything else"}}}};
   spec.examples = {
-      {"hs-calibrate --plan poses.csv --plan-poses 12", "Poses for a first calibration."},
+      {"hs-calibrate --plan plan.csv --plan-poses 12", "Poses for a first calibration."},
       {"hs-calibrate poses.csv --plan more.csv -o cal.csv", "The sensor, and what to record next."},
       {"hs-calibrate poses.csv --rigid rigid.csv -o cal.csv", "And the arm."},
       {"hs-calibrate joints.csv --robot arm.urdf --tip-link sensor -o cal.csv",

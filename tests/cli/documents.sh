@@ -104,7 +104,7 @@ printf 'name,body,data,options\nliver-03,body.ply,data.csv,--folds 0 --fix nu=0.
 # A sensor that hangs straight, and presses that stand for a rigid block's.
 quiet hs-calibrate --plan turns.csv --plan-poses 12
 awk -F, -v OFS=, '$1 == "pose" { print "qw,qx,qy,qz,fx,fy,fz"; next } { print $2, $3, $4, $5, 4 * $6 + 0.0001 * ($1 % 3), 4 * $7, 4 * $8 }' turns.csv >poses.csv
-cp data.csv rigid.csv
+awk -F, -v OFS=, '/^[#p]/ { print; next } { for (k = 6; k <= 8; ++k) $k *= 0.01; print }' data.csv >rigid.csv
 quiet hs-calibrate poses.csv -o cal.csv
 # Tables of machines and robots.
 machine() { awk -v noise="$1" 'BEGIN { srand(5); print "Time [s],Travel [mm],Force [N]"; for (i = 0; i <= 80; ++i) printf "%g,%g,%.5f\n", i / 10, i / 40, i / 60 + noise * (rand() - 0.5) }'; }
