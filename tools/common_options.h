@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "calibration_option.h"
 #include "cli/shared_flags.h"
 #include "cli/tool.h"
 #include "experiment/contact_radius.h"
@@ -28,14 +29,15 @@ inline std::vector<Option> experiment_flags() {
        .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
                names_to_read(Content::kTetrahedra) + ".",
        .group = "Input",
-       .required = true}};
+       .required = true},
+      calibration_option("Input")};
   for (const Option& option : preparation_flags()) flags.push_back(option);
   return flags;
 }
 
 inline Recording load_recording(const Arguments& arguments, const std::string& path, bool forces) {
   Input input(path);
-  return as_asked(arguments, read_recording(input, forces), forces,
+  return as_asked(arguments, read_measured(arguments, input, forces), forces,
                   [&](const std::string& words) { say(arguments, words); });
 }
 

@@ -146,7 +146,7 @@ void write_plan(const Arguments& arguments, const Diagnosis& d, const Experiment
 
 DiagnosedFiles files_of(const Arguments& arguments) {
   DiagnosedFiles files{arguments.input(), arguments[flag::body], arguments[flag::model]};
-  files.flags = repeated_flags(arguments);
+  files.flags = repeated_flags(arguments) + calibration_words(arguments);
   if (arguments.output() != "-") files.output = arguments.output();
   return files;
 }

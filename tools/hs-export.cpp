@@ -68,6 +68,7 @@ ToolSpec specification() {
        .value = "FILE",
        .help =
            "Recording or motion whose press is exported; without it, body and materials alone."},
+      calibration_option(""),
       {.flag = flag::press, .value = "ID", .help = "Which press of it; otherwise the first."},
       {.flag = flag::tool_radius,
        .value = "M",
@@ -122,7 +123,7 @@ int run(const Arguments& arguments) {
   if (promised && end != kExtension.at(format))
     fail_usage(fmt::format("--output ends in .{}, and --format is {}", end, format),
                "end it in ." + kExtension.at(format));
-  for (const AnyFlag& flag : AnyFlags{flag::press, flag::tool_radius})
+  for (const AnyFlag& flag : AnyFlags{flag::press, flag::tool_radius, flag::calibration})
     if (arguments.given(flag) && !arguments.given(flag::data))
       fail_usage(flag + " is of a press, and there is none", "add --data FILE");
   Input model_input(arguments.input());

@@ -6,6 +6,7 @@
 #include "answer.h"
 #include "base/error.h"
 #include "base/shell_words.h"
+#include "calibration_option.h"
 #include "cli/shared_flags.h"
 #include "formats/format_table.h"
 #include "import/block.h"
@@ -132,6 +133,7 @@ std::vector<Option> options() {
        .help = "The body is a block of this size, as 120x80x40mm, on z = 0 around x = y = 0; two "
                "lengths, as 50x30mm: a cylinder of that diameter and height.",
        .group = "Tool and body"},
+      calibration_option("Tool and body"),
       {.flag = flag::surface,
        .value = "FILE",
        .help = "Writes the block as a closed surface for hs-tetmesh. Needs --block.",
@@ -245,6 +247,8 @@ ToolSpec specification() {
        "A testing machine that presses on the middle of a block."},
       {"hs-import foam.csv --block 50x30mm --tool platen --surface foam.ply -o data.csv",
        "A cylinder between platens."},
+      {"hs-import liver_region1.csv --calibration cal.csv --scan touched.csv -o data.csv",
+       "With the sensor, the tool's weight and the arm put right (hs-calibrate(1))."},
       {"cat run*.csv | hs-import --unit mm --tool-radius 4mm -o data.csv",
        "Files joined, one recording each."}};
   spec.see_also = {"hs-scan2ply(1)", "hs-tetmesh(1)", "hs-identify(1)"};
@@ -304,6 +308,7 @@ ImportOptions import_options(const Arguments& arguments, const std::optional<Blo
   options.force = arguments[flag::force];
   options.noise = arguments[flag::estimate_noise];
   if (arguments.given(flag::rate)) options.rate = arguments[flag::rate];
+  if (arguments.given(flag::calibration)) options.calibration = load_calibration(arguments);
   options.drop_air = arguments[flag::drop_air];
   options.specimen = maybe(flag::specimen);
   options.units.trusted = arguments[flag::yes];

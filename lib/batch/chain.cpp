@@ -18,6 +18,15 @@ std::string last_part(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 
+// What gives a flag its value: two words, one that joins them, or none.
+Words flag_words(const Words& words, const std::string& flag) {
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    if (words[w] == flag && w + 1 < words.size()) return {words[w], words[w + 1]};
+    if (words[w].rfind(flag + "=", 0) == 0) return {words[w]};
+  }
+  return {};
+}
+
 // Collects the steps of one row after the other.
 class Planner {
  public:
@@ -147,7 +156,11 @@ class Planner {
                                 {data, body, model}, true);
     Words compare{data_, "--simulated", path_of(forces), "--body", body_, "--title=" + row.name};
     if (diagnosis >= 0) compare.insert(compare.end(), {"--diagnosis", path_of(diagnosis)});
-    add_step("report", "report.html", compare, recorded, {data, body, forces, diagnosis}, false);
+    // The forces are of the recording as it was put right.
+    const Words calibration = flag_words(row.common, "--calibration");
+    compare.insert(compare.end(), calibration.begin(), calibration.end());
+    add_step("report", "report.html", compare, calibration.empty() ? recorded : given,
+             {data, body, forces, diagnosis}, false);
   }
 
   Batch& batch_;

@@ -9,9 +9,9 @@ namespace {
 
 // Of the tools of kBatchStages. Those that a tool writes are none: what it made would then seem to
 // have changed. A --library, which every fit reads and adds to, is left out for the same reason.
-constexpr std::array<std::string_view, 11> kReading{
-    "--body",  "--contacts", "--curved-to", "--data",      "--diagnosis", "--fixed",
-    "--model", "--region",   "--robot",     "--simulated", "--zone"};
+constexpr std::array<std::string_view, 12> kReading{
+    "--body",  "--calibration", "--contacts", "--curved-to", "--data",      "--diagnosis",
+    "--fixed", "--model",       "--region",   "--robot",     "--simulated", "--zone"};
 
 // Where in `value`, from `begin` on, the first path stands; its length 0: nowhere.
 struct Place {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "import/assemble.h"
+#include "import/calibrated_samples.h"
 #include "import/column_roles.h"
 #include "import/implausible.h"
 #include "import/press_track.h"
@@ -108,6 +109,7 @@ ImportResult import_recording(const RawTable& given, const ImportOptions& option
   Samples samples = load_samples(table, map, units, height, result.notes);
   if (samples.usable.empty()) fail_input(table.name, "no row can be used", "see --list");
   drop_standing_time(samples, result.notes);
+  if (options.calibration) calibrate_samples(table, *options.calibration, samples, result.notes);
   const TrackPlan plan = plan_tracks(samples, map, table.name);
   std::vector<PressTrack> tracks =
       make_tracks(samples, plan,
@@ -128,6 +130,7 @@ ImportResult import_recording(const RawTable& given, const ImportOptions& option
         "told "
         "(--column t=NAME)");
   assemble(table, map, samples, options, tracks, result);
+  if (options.calibration) calibrate_displacements(*options.calibration, result.recording);
   check_plausible(result.recording, samples, options, result.notes);
   note_recovery(tracks, samples, result);
   return result;

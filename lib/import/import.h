@@ -7,6 +7,7 @@
 
 #include "import/samples.h"
 #include "recording/recording.h"
+#include "rig/calibration.h"
 #include "tables/raw_table.h"
 
 namespace hapsim {
@@ -27,6 +28,8 @@ struct ImportOptions {
   bool drop_air = false;
   std::string specimen;        // of several side by side: its number from 1; "": all
   std::optional<double> rate;  // samples a second that are kept at most [Hz]
+  // Of the rig: forces are put right before anything is asked of them, displacements at the end.
+  std::optional<Calibration> calibration;
 };
 
 // A touched point of the undeformed surface; normal zero when it is not known.

@@ -28,10 +28,6 @@ struct Ray {
 };
 Ray ray_at(const Robot& robot, const Beam& beam, const Eigen::VectorXd& q);
 
-// The columns that hold the joints, in the robot's order: its joints' names, else q1..qN, or
-// joint1.., theta1.., alpha1.. (any case, "_" or space before the number).
-std::vector<std::string> joint_columns(const CsvTable& table, const Robot& robot);
-
 // p = origin + d direction, one point a row: column d (or distance, laser, range), or the bar's
 // length where the table has none. Columns zone and touch_force are taken along. Error(kBadInput):
 // a missing column, text or NaN in a joint, a distance that is none (unless `range` is given, which

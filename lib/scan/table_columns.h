@@ -5,12 +5,10 @@
 #include <vector>
 
 #include "io/csv.h"
+#include "io/find_column.h"
 #include "scan/scan.h"
 
 namespace hapsim {
-
-// The first of `names` (case ignored) that the table has, as the table writes it; "" for none.
-std::string find_column(const CsvTable& table, const std::vector<std::string>& names);
 
 // Takes the columns zone (or region, view, organ_zone) and touch_force (or force, f_touch), where
 // there are any, into the scan, for the rows `kept`.

@@ -22,6 +22,7 @@ excused() { # COMMAND
     hs-link\ --listen\ * | hs-link\ *--peer\ *) ;;       # link.sh
     share/examples/batch/machines.sh*) ;;                # machines.sh
     hs-scan2ply\ *--robot\ *) ;;                         # scan2ply.sh: a robot stands behind it
+    hs-calibrate\ *--robot\ *) ;;                        # calibrate.sh: so it does there
     make\ -k\ -C\ batch\ *) ;;                           # batch.sh: the target is a name of the manifest
     *) return 1 ;;
   esac
@@ -100,6 +101,11 @@ quiet hs-identify data.csv --body body.ply --acfm 1 -o acfm.csv
 quiet hs-fuse fast.csv --slow fe.csv --delay 0.05 --learn filter.csv -o fused.csv
 for n in 1 2 3 4; do quiet hs-identify data.csv --body body.ply --model m0.csv --folds 0 --library lab.db --material liver -o stored.csv; done
 printf 'name,body,data,options\nliver-03,body.ply,data.csv,--folds 0 --fix nu=0.4\n' >recordings.csv
+# A sensor that hangs straight, and presses that stand for a rigid block's.
+quiet hs-calibrate --plan turns.csv --plan-poses 12
+awk -F, -v OFS=, '$1 == "pose" { print "qw,qx,qy,qz,fx,fy,fz"; next } { print $2, $3, $4, $5, 4 * $6 + 0.0001 * ($1 % 3), 4 * $7, 4 * $8 }' turns.csv >poses.csv
+awk -F, -v OFS=, '/^[#p]/ { print; next } { for (k = 6; k <= 8; ++k) $k *= 0.01; print }' data.csv >rigid.csv
+quiet hs-calibrate poses.csv -o cal.csv
 # Tables of machines and robots.
 machine() { awk -v noise="$1" 'BEGIN { srand(5); print "Time [s],Travel [mm],Force [N]"; for (i = 0; i <= 80; ++i) printf "%g,%g,%.5f\n", i / 10, i / 40, i / 60 + noise * (rand() - 0.5) }'; }
 for name in zwick meat meat_1 meat_2 foam sample_1 sample_2 run1 run2 recording; do machine 0.002 >$name.csv; done

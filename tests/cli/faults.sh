@@ -18,6 +18,8 @@ cp data.csv forces.csv
 awk 'BEGIN { OFS = ","; print "x,y,z"; for (i = 0; i < 4000; ++i) print 0.06 * rand(), 0.05 * rand(), 0.04 }' >scan.csv
 awk 'BEGIN { print "time [s],force [N],displacement [mm]"; for (i = 0; i < 400; ++i) print i * 0.01 "," (i > 100 ? (i - 100) * 0.01 : 0) "," i * 0.02 }' >machine.csv
 hs-scan2ply -q scan.csv -o points.ply || exit 1
+hs-calibrate -q --plan turns.csv --plan-poses 12 || exit 1
+awk -F, -v OFS=, '$1 == "pose" { print "qw,qx,qy,qz,fx,fy,fz"; next } { print $2, $3, $4, $5, 4 * $6 + 0.001 * ($1 % 3), 4 * $7 + 0.2, 4 * $8 }' turns.csv >poses.csv
 printf 'name,body,data,options,common_options\na,body.ply,data.csv,--folds 0,--rim-edge 0.3\n' >manifest.csv
 awk 'BEGIN { srand(3); print "x,y,z,E,nu,E_std,nu_std,n"; for (i = 0; i < 20; ++i)
   printf "%.2f,%.2f,0.04,%.0f,%.3f,200,0.01,90\n", 0.01 * (i % 4), 0.01 * int(i / 4), (i < 10 ? 8000 : 16000) + 300 * rand(), 0.4 + 0.02 * rand() }' >samples.csv
@@ -26,6 +28,7 @@ declare -A command=(
   [hs-tetmesh]='hs-tetmesh box.off --max-volume 1e-8'
   [hs-scan2ply]='hs-scan2ply scan.csv'
   [hs-reconstruct]='hs-reconstruct points.ply'
+  [hs-calibrate]='hs-calibrate poses.csv'
   [hs-import]='hs-import machine.csv --block 60x50x40mm --tool-radius 4mm'
   [hs-simulate]='hs-simulate data.csv --body body.ply --model model.csv --rim-edge 0.3 --threads 1'
   [hs-identify]='hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1'
@@ -41,7 +44,7 @@ declare -A command=(
 tools=($(printf '%s\n' "${!command[@]}" | sort))
 declare -A input=([hs-tetmesh]=box.off [hs-scan2ply]=scan.csv [hs-reconstruct]=points.ply [hs-import]=machine.csv [hs-simulate]=data.csv
   [hs-identify]=data.csv [hs-diagnose]=data.csv [hs-compare]=data.csv [hs-check]=model.csv [hs-export]=model.csv
-  [hs-batch]=manifest.csv [hs-cluster]=samples.csv [hs-library]=lab.db [hs-fuse]=forces.csv)
+  [hs-batch]=manifest.csv [hs-calibrate]=poses.csv [hs-cluster]=samples.csv [hs-library]=lab.db [hs-fuse]=forces.csv)
 
 row() { printf '%-28s %-14s %s\n' "$1" "$2" "$3"; }
 temporaries() { find . -name '.hapsim-*.tmp' | wc -l; }

@@ -23,6 +23,8 @@ awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz,fx,fy,fz"
 awk -F, -v OFS=, '/^[#p]/ { print; next } $2 * 1000 % 40 < 0.5 { $11 *= 1.2; print }' fast.csv >slow.csv
 awk 'BEGIN { print "Time [s],Travel [mm],Force [N]"; for (i = 0; i <= 40; ++i) printf "%g,%g,%g\n", i / 10, i / 20, i / 30 }' >machine.csv
 printf 'name,body,data\none,block.ply,data.csv\n' >manifest.csv
+hs-calibrate -q --plan turns.csv --plan-poses 12 || exit 1
+awk -F, -v OFS=, '$1 == "pose" { print "qw,qx,qy,qz,fx,fy,fz"; next } { print $2, $3, $4, $5, 4 * $6 + 0.001 * ($1 % 3), 4 * $7 + 0.2, 4 * $8 }' turns.csv >poses.csv
 
 # TOOL, what its result begins with, its arguments; the tools of a line are tried in turn.
 commands() {
@@ -30,6 +32,8 @@ commands() {
 hs-scan2ply|ply|scan.csv --unit mm --ascii
 hs-reconstruct|ply|box.off --ascii
 hs-tetmesh|ply|box.off --ascii
+hs-calibrate|#|poses.csv --plan more.csv
+hs-calibrate|#|poses.csv --rigid data.csv
 hs-import|#|machine.csv --block 60x50x40mm --tool-radius 4mm
 hs-identify|#|data.csv --body block.ply --rim-edge 0.3 --folds 2
 hs-identify|#|data.csv --body block.ply --acfm 1

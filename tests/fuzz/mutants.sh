@@ -59,6 +59,10 @@ prepare() {
       printf "%.2f,%.2f,0.04,%.0f,%.3f,200,0.01,90\n", 0.01 * (i % 4), 0.01 * int(i / 4), (i < 6 ? 8000 : 16000) + 300 * rand(), 0.4 + 0.02 * rand() }' >samples.csv &&
     "$bin/hs-identify" -q data.csv --body body.ply --rim-edge 0.5 --folds 0 --library lab.db -o identified.csv &&
     "$bin/hs-identify" -q data.csv --body body.ply --acfm 1 -o acfm.csv &&
+    "$bin/hs-calibrate" -q --plan turns.csv --plan-poses 12 &&
+    awk -F, -v OFS=, '$1 == "pose" { print "qw,qx,qy,qz,fx,fy,fz,temp,load"; next } { m = 4 + ($1 % 3 ? 0 : 5)
+      print $2, $3, $4, $5, m * $6 + 0.001 * ($1 % 5), m * $7 + 0.2, m * $8, 20 + $1 % 7, $1 % 3 ? 0 : 0.5 }' turns.csv >poses.csv &&
+    "$bin/hs-calibrate" -q poses.csv --rigid data.csv -o cal.csv &&
     printf 'name,body,data,effects,options,common_options\na,body.ply,data.csv,elastic,--folds 0 --data data.csv,--rim-edge 0.5\nb,body.ply,data.csv,elastic viscoelastic,,\n' >manifest.csv &&
     awk 'BEGIN { print "q1,q2,q3,q4,q5,q6,d"
       for (i = 0; i < 20; ++i) printf "%.2f,%.2f,-0.3,0.1,0.2,0,%.3f\n", 0.02 * (i % 5), 0.1 + 0.02 * int(i / 5), 0.1 + 0.001 * (i % 3) }' >joints.csv &&
@@ -84,6 +88,9 @@ row hs-scan2ply-nifti small.nii hs-scan2ply @ --threshold 4.5
 row hs-scan2ply-joints joints.csv hs-scan2ply @ --robot arm.urdf --tip-link sensor
 row hs-scan2ply-urdf arm.urdf hs-scan2ply joints.csv --robot @ --tip-link sensor
 row hs-reconstruct-ply points.ply hs-reconstruct @
+row hs-calibrate-poses poses.csv hs-calibrate @ --rigid data.csv
+row hs-calibrate-rigid data.csv hs-calibrate --rigid @
+row hs-compare-calibration cal.csv hs-compare data.csv --simulated data.csv --calibration @
 row hs-import-machine machine.csv hs-import @ --block 60x50x40mm --tool-radius 4mm
 row hs-identify-data data.csv hs-identify @ --body body.ply --rim-edge 0.5 --folds 0 --tool-radius 0.004
 row hs-identify-model model.csv hs-identify data.csv --model @ --body body.ply --rim-edge 0.5 --folds 0

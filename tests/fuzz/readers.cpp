@@ -7,6 +7,7 @@
 #include "acfm/acfm.h"
 #include "base/error.h"
 #include "batch/manifest.h"
+#include "calibrate/static_poses.h"
 #include "containers/ply.h"
 #include "containers/stl.h"
 #include "containers/vtu.h"
@@ -26,6 +27,7 @@
 #include "realtime/motion_records.h"
 #include "recording/recording.h"
 #include "regions/location_file.h"
+#include "rig/calibration.h"
 #include "robot/robot.h"
 #include "scan/scan_file.h"
 #include "scan/sections.h"
@@ -81,6 +83,15 @@ void model(const std::string& bytes) {
     return model;
   };
   there_and_back(bytes, read, write_model);
+}
+
+void calibration(const std::string& bytes) {
+  there_and_back(bytes, read_calibration, write_calibration);
+}
+
+void poses(const std::string& bytes) {
+  Input input = input_of(bytes);
+  read_static_poses(input, nullptr);
 }
 
 void manifest(const std::string& bytes) {
@@ -225,7 +236,8 @@ const std::vector<Reader>& readers() {
                                        {"urdf", urdf},         {"off", off},
                                        {"volume", volume},     {"acfm", acfm},
                                        {"fusion", fusion},     {"sections", sections},
-                                       {"packets", packets},   {"datagrams", datagrams}};
+                                       {"packets", packets},   {"datagrams", datagrams},
+                                       {"poses", poses},       {"calibration", calibration}};
   return all;
 }
 

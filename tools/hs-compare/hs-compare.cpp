@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/shell_words.h"
+#include "calibration_option.h"
 #include "cli/tell.h"
 #include "compare/comparison_report.h"
 #include "compare/error_limit.h"
@@ -72,11 +73,16 @@ std::string next_command(const Arguments& arguments, const Comparison& c) {
   if (!arguments.given(flag::body) || !arguments.given(flag::model)) return "";
   return "hs-diagnose " + shell_quoted(arguments.input()) + " --body " +
          shell_quoted(arguments[flag::body]) + " --model " + shell_quoted(arguments[flag::model]) +
-         " -o effects.csv";
+         calibration_words(arguments) + " -o effects.csv";
 }
 
 int run(const Arguments& arguments) {
-  if (arguments[flag::follow]) return run_follow(arguments);
+  if (arguments[flag::follow]) {
+    if (arguments.given(flag::calibration))
+      fail_usage("--calibration is of recordings, and --follow reads a stream",
+                 "leave one of them out");
+    return run_follow(arguments);
+  }
   for (const Option& option : follow_flags())
     if (arguments.given(option.flag))
       fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
@@ -90,7 +96,7 @@ int run(const Arguments& arguments) {
   if (arguments.given(flag::ply) && !arguments.given(flag::body))
     fail_usage("--ply colours a surface, and none is given", "add --body body.ply");
   Input input(arguments.input());
-  const Recording measured = read_recording(input);
+  const Recording measured = read_measured(arguments, input);
   const std::vector<SimulatedVersion> versions = read_versions(arguments, measured);
   const Recording& simulated = versions.back().recording;
   const Comparison c = compare(measured, simulated);

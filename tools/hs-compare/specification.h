@@ -1,6 +1,7 @@
 // What hs-compare takes and gives, for --help and the man page.
 #pragma once
 
+#include "calibration_option.h"
 #include "cli/tool.h"
 #include "formats/format_table.h"
 #include "hs-compare/flags.h"
@@ -68,6 +69,7 @@ inline ToolSpec compare_specification() {
                "several times, the last is compared and the others are drawn beside it.",
        .group = "Input",
        .repeatable = true},
+      calibration_option("Input"),
       {.flag = flag::html,
        .value = "FILE",
        .help = "Writes the report: one file that needs no network.",

@@ -69,9 +69,10 @@ void refuse_other_flags(const Arguments& arguments) {
 std::string next_command(const Arguments& arguments, const FitRequest& plan) {
   if (arguments.output() == "-" || arguments.input() == "-" || arguments.given(flag::data))
     return "";
-  return fmt::format("{} {} --body {} --model {}{}", plan.automatic ? "hs-simulate" : "hs-diagnose",
+  return fmt::format("{} {} --body {} --model {}{}{}",
+                     plan.automatic ? "hs-simulate" : "hs-diagnose",
                      shell_quoted(arguments.input()), shell_quoted(arguments.list(flag::body)[0]),
-                     shell_quoted(arguments.output()),
+                     shell_quoted(arguments.output()), calibration_words(arguments),
                      plan.automatic ? " -o forces.csv" : " -o effects.csv");
 }
 

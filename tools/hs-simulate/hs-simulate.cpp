@@ -164,6 +164,9 @@ int run(const Arguments& arguments) {
     fail_usage("--json is of the batch mode", "leave out --live or --json");
   if (arguments[flag::own_mesh] && arguments[flag::live])
     fail_usage("--own-mesh is of the batch mode", "leave out --live or --own-mesh");
+  if (arguments.given(flag::calibration) && arguments[flag::live])
+    fail_usage("--calibration is of recordings, and --live reads a stream",
+               "leave out --live or --calibration");
   if (arguments[flag::full] && arguments[flag::live])
     fail_usage("--live and --full exclude each other", "leave one of them out");
   for (const AnyFlag& flag : AnyFlags{flag::vtu, flag::rows, flag::solver}) {

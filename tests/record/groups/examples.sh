@@ -1,8 +1,9 @@
 # share/examples that need neither network nor hardware nor a compiler (those of their own: phantom, tutorial and
-# thesis): robot, import, batch, ci, and of telepresence the body and its forces without the link. What the scripts
+# thesis): robot, calibrate, import, batch, ci, and of telepresence the body and its forces without the link. What the scripts
 # take from their users is made here by closed forms.
 use share "$examples"
 step robot 'mkdir -p robot && share/robot/robot.sh robot'
+step calibrate 'mkdir -p calibrate && share/calibrate/calibrate.sh calibrate'
 
 # An organ, half an ellipsoid of 45 x 35 x 25 mm, probed at 204 places, five depths each, as a robot records it.
 organ='BEGIN {
