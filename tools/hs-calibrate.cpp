@@ -17,9 +17,9 @@
 #include "calibrate/sensor_fit.h"
 #include "calibrate/sensor_result.h"
 #include "calibrate/static_poses.h"
+#include "cli/shared_flags.h"
 #include "rig/correct.h"
 #include "rig/orientation.h"
-#include "cli/shared_flags.h"
 
 namespace hapsim {
 namespace flag {

@@ -247,7 +247,8 @@ TEST(AcfmRecord, TellsErrorsAgainstForceAndNoise) {
   dataset.recording.metadata.set("tool_radius", "0.004");
   dataset.recording.press = {1, 1};
   dataset.recording.f = {Vec3(1, 1, 1), Vec3(1, -1, 1)};  // rms 1 N
-  const std::vector<std::string> lines = fit_lines(fit, dataset, {0.01, true, "measured from the data"});
+  const std::vector<std::string> lines =
+      fit_lines(fit, dataset, {0.01, true, "measured from the data"});
   EXPECT_EQ(
       lines,
       (std::vector<std::string>{
