@@ -119,7 +119,8 @@ inline ToolSpec simulate_specification() {
       "grows, friction on the contact itself, relaxation in every element; each press on a mesh "
       "graded to its tool's rim, or with --own-mesh on the body's. It takes seconds a step and is "
       "what the quick laws are judged by. Several tools press one body at once with a column "
-      "tool_id: rows of one press and time, one a tool, are one step."};
+      "tool_id: rows of one press and time, one a tool, are one step, and tools that press at once "
+      "in presses of their own, as live output has them, press one body too."};
   spec.options = experiment_flags();
   for (Option& option : spec.options)
     if (option.name() == flag::body.name) {
