@@ -235,6 +235,8 @@ StiffnessField::StiffnessField(const Surface& surface, const FieldSampling& samp
     if (now < 0) {
       now = static_cast<int>(entries_.size());
       entries_.push_back(table.entries()[static_cast<std::size_t>(entry)]);
+      double& doubt = entries_.back().uncertainty;  // half the worst between entries is usual there
+      doubt = std::hypot(doubt, straight_within / 2);
     }
     entry = now;
   }
