@@ -28,7 +28,7 @@ struct TestedSample {
 // The limit h of a one-sided cumulative sum of independent values of unit variance, less half a
 // standard deviation each, at which false alarms come every `run` values (Siegmund, Sequential
 // Analysis, 1985, 2.56). `tail`: the t > 0 at which the mean of exp(t (value - 1/2)) is 1, which is
-// 1 for normal values and less where large ones are more frequent.
+// 1 for normal values, less where large ones are more frequent, more where they are rarer.
 double change_limit(double run, double tail = 1);
 
 // What a press has shown at most, and at most of its usual square by what the model states.
@@ -91,7 +91,7 @@ class PressSum {
   double run_ = 0;                          // presses
   double mean_ = 1, deviation_ = 1, limit_ = 0;
   double seen_ = 1;          // mean while learning
-  double stated_usual_ = 0;  // mean of PressValue::stated there
+  double stated_usual_ = 0;  // largest PressValue::stated there
 };
 
 // Residuals over their usual size: noise, a share of the force, learned at the start, and beside

@@ -10,6 +10,7 @@ namespace {
 // Of the cube root of a squared error over what is stated of it, two of its components free: the
 // presses learned from may have met less of it than later ones.
 constexpr double kStatedMean = 0.89, kStatedDeviation = 1.0 / 3;
+constexpr std::size_t kTailSeen = 256;
 constexpr double kMostErrors = 3;  // of what was learned, to the safe side
 
 double mean_of(const std::vector<PressValue>& values) {
@@ -24,15 +25,15 @@ double squares_about(double mean, const std::vector<PressValue>& values) {
   return squares;
 }
 
-// The t of change_limit, at most that of normal values.
+// The t of change_limit; of few values at most that of normal ones, for their tail is not seen yet.
 double tail_of(const std::vector<PressValue>& values, double mean, double deviation) {
   const auto above_one = [&](double t) {
     double sum = 0;
     for (const PressValue& v : values) sum += std::exp(t * ((v.value - mean) / deviation - 0.5));
     return sum > static_cast<double>(values.size());
   };
-  if (!above_one(1)) return 1;
-  double low = 0.1, high = 1;
+  double low = 0.1, high = values.size() < kTailSeen ? 1 : 3;
+  if (!above_one(high)) return high;
   for (int i = 0; i < 20; ++i) {
     const double t = 0.5 * (low + high);
     (above_one(t) ? high : low) = t;
@@ -65,7 +66,7 @@ void PressSum::set_usual() {
   const auto count = static_cast<double>(values_.size());
   seen_ = mean_of(values_);
   stated_usual_ = 0;
-  for (const PressValue& v : values_) stated_usual_ += v.stated / count;
+  for (const PressValue& v : values_) stated_usual_ = std::max(stated_usual_, v.stated);
   limit_ = change_limit(run_);
   deviation_ = kStatedDeviation;
   mean_ = seen_ + 2 * deviation_;
