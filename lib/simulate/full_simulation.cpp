@@ -134,11 +134,11 @@ class Simulation {
         fail_input(recording_line(recording_, row), "no free node of the body lies under the tool",
                    "mesh it with hs-tetmesh --contacts, or check the contact point");
       }
-      refuse_shared_nodes(rows);
     }
+    const bool bonded = spec_.curvature == 0 && !std::isfinite(spec_.friction);
+    if (bonded) refuse_shared_nodes(rows);
     std::vector<BodyTool> tools;
     for (const FullContact& c : s.contacts) {
-      const bool bonded = spec_.curvature == 0 && !std::isfinite(spec_.friction);
       BodyTool tool;
       if (bonded)
         tool.nodes = c.nodes;
@@ -155,17 +155,16 @@ class Simulation {
     result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
   }
 
-  // A node moves with one tool.
+  // A node moves with one bonded tool.
   void refuse_shared_nodes(const std::vector<std::size_t>& rows) const {
     std::map<int, std::size_t> row_of;
     for (std::size_t k = 0; k < rows.size(); ++k)
       for (const int node : session_->contacts[k].nodes)
         if (!row_of.try_emplace(node, rows[k]).second)
           fail_input(recording_line(recording_, rows[k]),
-                     "this place overlaps one that a tool presses at another time, while a further "
-                     "tool never lets go of the body (" +
-                         recording_line(recording_, row_of[node]) + ")",
-                     "simulate these presses apart, or press exactly there again");
+                     "this place overlaps that of " + recording_line(recording_, row_of[node]) +
+                         ", which is pressed before this body comes to rest",
+                     "press two radii apart, or exactly there again");
   }
 
   // One list a region, as the laws are.

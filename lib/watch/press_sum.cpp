@@ -136,7 +136,6 @@ PressValue PressSum::end_press() {
       presses_.clear();
     else
       presses_.push_back(this_press());
-    begin_press();
     learn_from_later(value);
   }
   begin_press();

@@ -33,24 +33,9 @@ Vec3 vector_of(const Eigen::Matrix3d& R) {
   return a.angle() * a.axis();
 }
 
-Calibration true_numbers(const test::Rig& rig) {
-  SensorState s;
-  s.rotation = rig.R;
-  s.crosstalk = rig.C;
-  s.mass = rig.mass;
-  s.gravity = rig.gravity;
-  s.offset = rig.offset;
-  s.drift = rig.drift;
-  s.com = rig.com;
-  s.torque_offset = rig.torque_offset;
-  s.torque_drift = rig.torque_drift;
-  s.weight_at = rig.weight_at;
-  return calibration_of(s);
-}
-
 Figures draw(const test::Rig& rig, const test::Rig& told, int draws, bool loads) {
   Figures figures;
-  const Calibration truth = true_numbers(told);
+  const Calibration truth = calibration_of(test::state_of(told));
   std::vector<Counted> one(kCalibratedNumbers);
   for (int seed = 1; seed <= draws; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "calibrate/sensor_model.h"
 #include "calibrate/static_poses.h"
 
 namespace hapsim::test {
@@ -70,6 +71,23 @@ inline StaticPoses recorded(const Rig& rig, int count, Random& random, bool load
     poses.poses.push_back(p);
   }
   return poses;
+}
+
+// The same numbers as the code under test names them.
+inline SensorState state_of(const Rig& rig) {
+  SensorState s;
+  s.rotation = rig.R;
+  s.crosstalk = rig.C;
+  s.mass = rig.mass;
+  s.gravity = rig.gravity;
+  s.offset = rig.offset;
+  s.drift = rig.drift;
+  s.com = rig.com;
+  s.torque_offset = rig.torque_offset;
+  s.torque_drift = rig.torque_drift;
+  s.weight_at = rig.weight_at;
+  s.temp_ref = rig.temp_ref;
+  return s;
 }
 
 // The rig whose mean gain is 1, which no weight tells from this one.

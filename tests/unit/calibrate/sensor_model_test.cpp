@@ -7,29 +7,13 @@
 namespace hapsim {
 namespace {
 
-SensorState state_of(const test::Rig& rig) {
-  SensorState s;
-  s.rotation = rig.R;
-  s.crosstalk = rig.C;
-  s.mass = rig.mass;
-  s.gravity = Vec3(1, -2, -9);
-  s.offset = rig.offset;
-  s.drift = rig.drift;
-  s.com = rig.com;
-  s.torque_offset = rig.torque_offset;
-  s.torque_drift = rig.torque_drift;
-  s.weight_at = rig.weight_at;
-  s.temp_ref = rig.temp_ref;
-  return s;
-}
-
 TEST(SensorModel, ShowsWhatTheRigDoes) {
   test::Rig rig{.force_noise = 0, .torque_noise = 0};
   rig.gravity = Vec3(1, -2, -9);
   Random random(3);
   StaticPose pose{.orientation = test::any_orientation(random), .temp = 31, .load = 0.5};
   test::show(rig, random, pose);
-  const Wrench shown = shown_wrench(state_of(rig), pose);
+  const Wrench shown = shown_wrench(test::state_of(rig), pose);
   EXPECT_LT((shown.value.head<3>() - pose.force).norm(), 1e-12);
   EXPECT_LT((shown.value.tail<3>() - pose.torque).norm(), 1e-12);
 }
@@ -37,7 +21,8 @@ TEST(SensorModel, ShowsWhatTheRigDoes) {
 TEST(SensorModel, SlopesAgreeWithDifferences) {
   Random random(4);
   const StaticPose pose{.orientation = test::any_orientation(random), .temp = 31, .load = 0.5};
-  SensorState state = state_of({});
+  SensorState state = test::state_of({});
+  state.gravity = Vec3(1, -2, -9);
   for (const double sign : {1.0, -1.0}) {
     state.sign = sign;
     const Wrench at = shown_wrench(state, pose);

@@ -253,6 +253,14 @@ TEST(FullSimulation, SaysWhereItFails) {
   EXPECT_NE(fails(finite, motion({{0, 0, -1e-3}}, 0, {0.01, 0.01, 0.2}), own, ExitCode::kBadInput)
                 .find("motion.csv:2"),
             std::string::npos);
+  Recording near = motion({{0, 0, -1e-3}, {0, 0, -1e-3}}, 0);
+  near.metadata.set("tool_radius", "0.009");
+  near.position = {Vec3(0.02, 0.025, 0.03), Vec3(0.021, 0.025, 0.03)};
+  near.extra_header = {"tool_id"};
+  near.extra = {{"left", "right"}};
+  EXPECT_NE(fails(model_of({{"elastic", {2e4, 0.4}}}), near, {}, ExitCode::kBadInput)
+                .find("motion.csv:3: this place overlaps that of motion.csv:2"),
+            std::string::npos);
 }
 
 }  // namespace
