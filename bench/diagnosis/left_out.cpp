@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <sstream>
+
+#include "effects/catalogue.h"
 
 namespace hapsim::bench {
 namespace {
@@ -13,8 +17,9 @@ constexpr double kAtFloor = 1.1;  // errors over the floor below which nothing i
 // What may be said of each effect (LeftOver::kind), fixed before anything was diagnosed.
 const std::map<std::string, std::vector<std::string>>& kinds() {
   static const std::vector<std::string> set_up{"set-up", "direction"},
-      body{"body", "place", "position"}, zero{"offset", "drift"}, depth{"depth"},
-      time{"contact-time", "rate"}, session{"session-time", "drift", "cycle"};
+      body{"body", "place", "position", "learned-place"}, zero{"offset", "drift", "learned-drift"},
+      depth{"depth", "learned-depth"}, time{"contact-time", "rate", "learned-kernel"},
+      session{"session-time", "drift", "cycle", "learned-drift"};
   static const std::map<std::string, std::vector<std::string>> table{
       {"viscoelastic", time},
       {"damper", time},
@@ -37,22 +42,37 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"sensor-crosstalk", set_up},
       {"motion-scale", set_up},
       {"arm-compliance", set_up},
-      {"tool-radius", {"set-up", "body"}},
+      {"tool-radius", {"set-up", "body", "learned-place"}},
       {"regions", body},
       {"layer", body},
       {"inclusion", body},
-      {"anisotropic", {"set-up", "direction", "body"}},
+      {"anisotropic", {"set-up", "direction", "body", "learned-place"}},
       {"base", body}};
   return table;
 }
 
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+bool states_no_cause(const std::string& effect) {
+  const EffectCard& card = require_effect(effect).card();
+  return card.learned || card.is_field;
+}
+
 const char* judged(const Trial& t) {
   if (!t.rivals.empty()) return "set";
+  const auto& of = kinds().find(t.effects);
+  const auto is_kind = [&](const std::string& said) {
+    return of != kinds().end() && std::count(of->second.begin(), of->second.end(), said) > 0;
+  };
+  const std::vector<std::string> missing = words(t.missing);
+  if (!missing.empty() && std::all_of(missing.begin(), missing.end(), states_no_cause))
+    return std::any_of(missing.begin(), missing.end(), is_kind) ? "kind" : "open";
   if (!t.missing.empty()) return !t.left.empty() ? "hedged" : t.after <= kAtFloor ? "same" : "sure";
   if (t.verdict == "complete") return "unseen";
-  const auto& kind = kinds().find(t.effects);
-  if (kind == kinds().end()) return "open";
-  return std::count(kind->second.begin(), kind->second.end(), t.left) > 0 ? "kind" : "open";
+  return is_kind(t.left) ? "kind" : "open";
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace hapsim::bench {
 bool can_be_left_out(const Truth& truth);
 
 // To standard output: what was said of each, and how often
-//   kind    nothing is named, and its kind is said
-//   open    nothing is named, and no kind or another is said
+//   kind    no cause is named, and its kind is said or its curve learned
+//   open    no cause is named, and no kind or another is said
 //   set     effects that look alike
 //   hedged  something else is named, and it is said that more is left
 //   same    something else is named, and foretells unseen places to the floor: the same force

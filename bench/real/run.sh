@@ -21,6 +21,11 @@ column() { # FILE ROW NAME: of a CSV without quotes before that column; ROW coun
   [[ -e $1 ]] && awk -F, -v row="$2" -v name="$3" '/^#/ { next } !h { h = 1; for (i = 1; i <= NF; ++i) c[$i] = i; next }
     { v[++n] = $c[name] } END { print v[row < 0 ? n : row] }' "$1"
 }
+unseen() { # first or last: error of the models that were judged by what judged the last one
+  [[ -e steps.csv ]] && awk -F, -v which="$1" '!h { h = 1; for (i = 1; i <= NF; ++i) c[$i] = i; next }
+    { e[++n] = $c["heldout"]; by[n] = $c["heldout_by"] }
+    END { k = n; if (which == "first") while (k > 1 && by[k - 1] == by[n]) --k; if (n) printf "%.4g", e[k] }' steps.csv
+}
 named() { # what a diagnosis calls missing, and what it cannot tell apart
   [[ -e effects.csv ]] && awk -F, '$3 == "missing" { printf "%s ", $2 } $3 == "indistinguishable" { printf "%s? ", $2 }' effects.csv
 }
@@ -29,7 +34,7 @@ row() { # NAME SECONDS CODE: the set's row, from what its recipe left
   [[ -e data.csv ]] && presses=$(awk -F, '/^#/ { next } !h { h = 1; next } !s[$1]++ { ++n } END { print n + 0 }' data.csv)
   (($3 == 0)) || remark=$(tail -n 1 err)
   printf '%-20s | %5s | %-12s | %-28s | %8s | %8s | %-34s | %4d | %s\n' "$1" "$presses" \
-    "$(column effects.csv 1 verdict)" "$(named)" "$(column steps.csv 1 heldout)" "$(column steps.csv -1 heldout)" \
+    "$(column effects.csv 1 verdict)" "$(named)" "$(unseen first)" "$(unseen last)" \
     "$(column steps.csv -1 effects)" "$2" "$remark"
 }
 

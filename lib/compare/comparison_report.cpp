@@ -104,7 +104,8 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
   add_presses(measured, versions, c, report);
   add_residual_plots(measured, simulated, c, report);
   if (extras.model) {
-    add_learned_curve(*extras.model, report);
+    add_learned_curves(*extras.model, report);
+    add_learned_places(*extras.model, report);
     add_slices(map.surface, *extras.model, report);
   }
   add_tables(c, report);

@@ -12,6 +12,7 @@
 #include "contact/feature_zone.h"
 #include "effects/place_field.h"
 #include "experiment/forces.h"
+#include "experiment/learned_curves.h"
 #include "experiment/nearest_region.h"
 #include "io/number.h"
 #include "mesh/signed_distance.h"
@@ -70,7 +71,28 @@ Vec3 middle_of_strangest(const Eigen::AlignedBox3d& box,
 
 }  // namespace
 
-void add_learned_curve(const Model& model, Report& report) {
+void add_learned_curves(const Model& model, Report& report) {
+  for (const LearnedCurveBand& c : learned_curves(model)) {
+    const bool length = c.x_unit == "m";
+    ReportCurve curve{
+        .title = fmt::format("Learned: {}{} over {} ({})", c.y_name,
+                             c.name.empty() ? "" : " along " + c.name, c.x_name, c.effect),
+        .note =
+            "The curve that was learned and its 95 % band, of the values at its knots, taken "
+            "for independent.",
+        .x_label = fmt::format("{} [{}]", c.x_name, length ? "mm" : c.x_unit),
+        .y_label = c.y_unit == "1" ? c.y_name : fmt::format("{} [{}]", c.y_name, c.y_unit)};
+    for (std::size_t i = 0; i < c.x.size(); ++i) {
+      curve.x.push_back(length ? 1e3 * c.x[i] : c.x[i]);
+      curve.middle.push_back(c.y[i]);
+      curve.low.push_back(std::isnan(c.low[i]) ? c.y[i] : c.low[i]);
+      curve.high.push_back(std::isnan(c.high[i]) ? c.y[i] : c.high[i]);
+    }
+    report.learned.push_back(std::move(curve));
+  }
+}
+
+void add_learned_places(const Model& model, Report& report) {
   constexpr int kSteps = 40;
   constexpr double kLeast = 0.1, kMost = 1.5, kTail = 0.05;  // of the depth; of the places
   for (const EffectInstance& instance : effect_instances(model, false)) {

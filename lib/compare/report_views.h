@@ -14,9 +14,11 @@
 
 namespace hapsim {
 
+// The curves of effects with no law, with their bands.
+void add_learned_curves(const Model& model, Report& report);
 // How the force at the learned places goes with depth against that of the model without what was
 // learned: the middle and the range of nine in ten places.
-void add_learned_curve(const Model& model, Report& report);
+void add_learned_places(const Model& model, Report& report);
 
 // Three cuts through what differs most from the rest of the body, with the modulus of its regions,
 // inclusions and layers; none of a body that has one alone.

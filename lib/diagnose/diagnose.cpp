@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/error.h"
@@ -132,61 +133,15 @@ void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
   }
 }
 
-// Adds the best effect while one passes the gates.
-void search(Baseline& base, const TrialGround& g, const Folds& folds,
-            const DiagnoseOptions& options, Diagnosis& d) {
-  const bool can_hold_out = !folds.held_out.empty();
-  Random random(options.seed);
-  Round last;
-  for (int step = 0; step < options.gates.most_effects; ++step) {
-    Round round = try_all(base, g, folds, options, random);
-    const std::size_t best = best_of(round, options.gates, can_hold_out);
-    last = std::move(round);
-    if (best == last.findings.size()) break;
-    std::vector<std::size_t> rivals =
-        rivals_of(best, last, options.gates, can_hold_out, g.allowance.noise);
-    if (std::any_of(rivals.begin(), rivals.end(), [&](std::size_t k) {
-          return both_act(last.candidates[best], last.candidates[k], g);
-        }))
-      rivals.clear();  // the next rounds find the other
-    if (!rivals.empty()) {
-      rivals.insert(rivals.begin(), best);
-      d.left = left_over(last.candidates[best].fitted, g);
-      for (const std::size_t k : rivals) {
-        d.rivals.push_back(last.candidates[k].fitted.model);
-        Finding finding = last.findings[k];
-        finding.verdict = Verdict::kIndistinguishable;
-        for (const std::size_t other : rivals)
-          if (other != k) finding.confused_with.push_back(last.findings[other].effect);
-        d.findings.push_back(finding);
-      }
-      for (Finding& f : last.findings)
-        if (std::any_of(rivals.begin(), rivals.end(),
-                        [&](std::size_t k) { return last.findings[k].effect == f.effect; }))
-          f.effect.clear();
-      break;
-    }
-    Finding finding = last.findings[best];
-    finding.verdict = Verdict::kMissing;
-    for (std::size_t k = 0; k < last.findings.size(); ++k)
-      if (k != best && passes(last.findings[k], options.gates, can_hold_out))
-        finding.confused_with.push_back(last.findings[k].effect);
-    d.findings.push_back(finding);
-    base = make_baseline(last.candidates[best].fitted.model, g, folds);
-    last.findings[best].effect.clear();
-    drop_superfluous(base, g, folds, options, d);
-  }
-  for (Finding& f : d.findings)
-    std::erase_if(f.confused_with, [&](const std::string& other) {
-      return f.verdict == Verdict::kMissing && base.fitted.model.has(other);
-    });
+// What was tried on top of the model that the search ended with, and is not in it.
+void list_the_rest(const Round& last, const Gates& gates, Diagnosis& d) {
   for (const Finding& f : last.findings) {
     if (f.effect.empty()) continue;
     const bool known = std::any_of(d.findings.begin(), d.findings.end(),
                                    [&](const Finding& other) { return other.effect == f.effect; });
     if (known) continue;
     Finding finding = f;
-    const bool by_chance = !f.plain && f.p_value >= options.gates.p_value;
+    const bool by_chance = !f.plain && f.p_value >= gates.p_value;
     if (f.hidden) {
       finding.verdict = Verdict::kNotTestable;
       finding.evidence = finding.next_measurement =
@@ -195,15 +150,80 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
       d.findings.push_back(finding);
       continue;
     }
-    finding.verdict = f.criterion_gain > options.gates.criterion_gain && !by_chance &&
-                              f.share >= options.gates.share
-                          ? Verdict::kPossible
-                          : Verdict::kAbsent;
+    finding.verdict =
+        f.criterion_gain > gates.criterion_gain && !by_chance && f.share >= gates.share
+            ? Verdict::kPossible
+            : Verdict::kAbsent;
     d.findings.push_back(finding);
   }
+}
+
+// Whether the round ended in rivals that the data cannot tell apart; they then stand in `d`.
+bool ends_in_rivals(Round& round, std::size_t best, const TrialGround& g, const Gates& gates,
+                    bool can_hold_out, Diagnosis& d) {
+  std::vector<std::size_t> rivals = rivals_of(best, round, gates, can_hold_out, g.allowance.noise);
+  if (std::any_of(rivals.begin(), rivals.end(), [&](std::size_t k) {
+        return both_act(round.candidates[best], round.candidates[k], g);
+      }))
+    return false;  // the next rounds find the other
+  if (rivals.empty()) return false;
+  rivals.insert(rivals.begin(), best);
+  d.left = left_over(round.candidates[best].fitted, g);
+  for (const std::size_t k : rivals) {
+    d.rivals.push_back(round.candidates[k].fitted.model);
+    Finding finding = round.findings[k];
+    finding.verdict = Verdict::kIndistinguishable;
+    for (const std::size_t other : rivals)
+      if (other != k) finding.confused_with.push_back(round.findings[other].effect);
+    d.findings.push_back(finding);
+  }
+  for (Finding& f : round.findings)
+    if (std::any_of(rivals.begin(), rivals.end(),
+                    [&](std::size_t k) { return round.findings[k].effect == f.effect; }))
+      f.effect.clear();
+  return true;
+}
+
+// Adds the best effect while one passes the gates; where no effect that has a name does, and not
+// noise alone is left, the best curve of no law.
+void search(Baseline& base, const TrialGround& g, const Folds& folds,
+            const DiagnoseOptions& options, Diagnosis& d) {
+  const bool can_hold_out = !folds.held_out.empty();
+  Random random(options.seed);
+  std::array<Round, 2> last;  // by Kind
+  Kind kind = Kind::kNamed;
+  for (int added = 0; added < options.gates.most_effects;) {
+    Round& round = last[static_cast<std::size_t>(kind)];
+    round = try_all(kind, base, g, folds, options, random);
+    const std::size_t best = best_of(round, options.gates, can_hold_out);
+    if (best == round.findings.size()) {
+      if (kind == Kind::kLearned || left_over(base.fitted, g).noise_alone()) break;
+      kind = Kind::kLearned;
+      continue;
+    }
+    if (ends_in_rivals(round, best, g, options.gates, can_hold_out, d)) break;
+    Finding finding = round.findings[best];
+    finding.verdict = Verdict::kMissing;
+    for (std::size_t k = 0; k < round.findings.size(); ++k)
+      if (k != best && passes(round.findings[k], options.gates, can_hold_out))
+        finding.confused_with.push_back(round.findings[k].effect);
+    d.findings.push_back(finding);
+    base = make_baseline(round.candidates[best].fitted.model, g, folds);
+    round.findings[best].effect.clear();
+    drop_superfluous(base, g, folds, options, d);
+    kind = Kind::kNamed;
+    ++added;
+  }
+  for (Finding& f : d.findings)
+    std::erase_if(f.confused_with, [&](const std::string& other) {
+      return f.verdict == Verdict::kMissing && base.fitted.model.has(other);
+    });
+  for (const Round& round : last) list_the_rest(round, options.gates, d);
   put_in_order(d.findings);
-  d.findings.insert(d.findings.end(), last.ruled_out.begin(), last.ruled_out.end());
-  d.findings.insert(d.findings.end(), last.untestable.begin(), last.untestable.end());
+  for (const Round& round : last) {
+    d.findings.insert(d.findings.end(), round.ruled_out.begin(), round.ruled_out.end());
+    d.findings.insert(d.findings.end(), round.untestable.begin(), round.untestable.end());
+  }
 }
 
 void search_few(Baseline& base, const TrialGround& g, const DiagnoseOptions& options,

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "diagnose/departures.h"
-#include "diagnose/try_effects.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {
@@ -68,8 +67,8 @@ const EffectSet* EffectSets::find_below(EffectNames names) {
   return find({});
 }
 
-std::vector<const Effect*> EffectSets::growth(const EffectSet& from) const {
-  std::vector<const Effect*> effects = untried(from.fitted.model, options_.unknown);
+std::vector<const Effect*> EffectSets::growth(const EffectSet& from, Kind kind) const {
+  std::vector<const Effect*> effects = untried(from.fitted.model, kind, options_.unknown);
   std::erase_if(effects, [&](const Effect* e) {
     const EffectCard& card = e->card();
     return needs_many_presses(card) || (card.solved && !departs_) || lack_.count(card.name) > 0;

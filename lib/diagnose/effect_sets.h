@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnose/candidate.h"
+#include "diagnose/try_effects.h"
 
 namespace hapsim {
 
@@ -36,7 +37,7 @@ class EffectSets {
   // That set, or the largest below it that there is.
   const EffectSet* find_below(EffectNames names);
   // What could be added to a set here.
-  std::vector<const Effect*> growth(const EffectSet& from) const;
+  std::vector<const Effect*> growth(const EffectSet& from, Kind kind) const;
 
   // The set's chi-square plus log n a parameter; what the best set leaves is the unit of both.
   double criterion(const EffectSet& set) const;

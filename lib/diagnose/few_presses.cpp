@@ -26,7 +26,7 @@ std::vector<const EffectSet*> search_up(EffectSets& sets, Judge& judge, const Ga
   for (int level = 0; level < gates.most_effects && in_vain < 2; ++level) {
     std::vector<const EffectSet*> next;
     for (const EffectSet* set : beam)
-      for (const Effect* effect : sets.growth(*set))
+      for (const Effect* effect : sets.growth(*set, Kind::kNamed))
         if (const EffectSet* grown = sets.grown(*set, *effect);
             grown != nullptr && std::find(next.begin(), next.end(), grown) == next.end())
           next.push_back(grown);
@@ -137,11 +137,11 @@ const EffectSet* simplified(const EffectSet* set, EffectSets& sets, Judge& judge
 }
 
 // With what is unseen speaking for each addition, the one with the largest gain first.
-const EffectSet* grown_on(const EffectSet* set, EffectSets& sets, Judge& judge, const Gates& gates,
-                          const TrialGround& g) {
+const EffectSet* grown_on(const EffectSet* set, Kind kind, EffectSets& sets, Judge& judge,
+                          const Gates& gates, const TrialGround& g) {
   while (set->added.size() < static_cast<std::size_t>(gates.most_effects)) {
     const EffectSet* best = nullptr;
-    for (const Effect* effect : sets.growth(*set)) {
+    for (const Effect* effect : sets.growth(*set, kind)) {
       const EffectSet* more = sets.grown(*set, *effect);
       if (more == nullptr || (best != nullptr && sets.criterion(*more) >= sets.criterion(*best)))
         continue;
@@ -164,9 +164,10 @@ struct Rival {
 std::vector<Rival> rivals_of(const Member& member, const EffectSet& best, EffectSets& sets,
                              Judge& judge, const Gates& gates, const TrialGround& g) {
   const Effect& own = *member.effect;
+  const Kind kind = own.card().learned ? Kind::kLearned : Kind::kNamed;
   std::vector<Rival> rivals;
   if (member.rest->fitted.model.has(own.card().name)) return rivals;
-  for (const Effect* effect : sets.growth(*member.rest)) {
+  for (const Effect* effect : sets.growth(*member.rest, kind)) {
     if (effect == &own || contains(*effect, own.card().name) || contains(own, effect->card().name))
       continue;
     const EffectSet* other = sets.grown(*member.rest, *effect);
@@ -199,8 +200,10 @@ FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
         !judge.admits(judge.of(set->added, best->added)) && all_help(set))
       best = set;
   }
-  best = grown_on(simplified(best, sets, judge, gates, g), sets, judge, gates, g);
+  best = grown_on(simplified(best, sets, judge, gates, g), Kind::kNamed, sets, judge, gates, g);
   best = simplified(best, sets, judge, gates, g);
+  const bool learning = !left_over(best->fitted, g).noise_alone();
+  if (learning) best = grown_on(best, Kind::kLearned, sets, judge, gates, g);
   FewPresses result;
   result.end = best->fitted;
   result.held_out = judge.error({});
@@ -227,7 +230,10 @@ FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
       result.rivals.push_back(r.model);
     }
   }
-  for (const Effect* effect : sets.growth(*best)) {
+  std::vector<const Effect*> others = sets.growth(*best, Kind::kNamed);
+  if (learning)
+    for (const Effect* effect : sets.growth(*best, Kind::kLearned)) others.push_back(effect);
+  for (const Effect* effect : others) {
     if (std::find(settled.begin(), settled.end(), effect->card().name) != settled.end()) continue;
     const EffectSet* more = sets.grown(*best, *effect);
     if (more == nullptr) {
@@ -246,7 +252,7 @@ FewPresses diagnose_few_presses(const Baseline& base, const TrialGround& g,
                     : Verdict::kAbsent;
     result.findings.push_back(f);
   }
-  for (const Effect* effect : untried(base.fitted.model, options.unknown)) {
+  for (const Effect* effect : untried(base.fitted.model, Kind::kNamed, options.unknown)) {
     const EffectCard& card = effect->card();
     Finding f;
     f.effect = card.name;

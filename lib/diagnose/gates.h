@@ -101,7 +101,13 @@ inline std::vector<std::string> gates_in_words() {
           "set-up (sensor, robot, tool), those that differ by place from the body; the rest is "
           "told "
           "as hs-compare tells it.",
-          1 / kStrained)};
+          1 / kStrained),
+      "Where no effect that has a name passes (or none more) and what is left is more than noise, "
+      "curves that have no law are tried and judged in the same way: over the depth "
+      "(learned-depth), the time since the tool moved (learned-kernel) and the session "
+      "(learned-drift); learned-place stands beside the named ones. Such a name states no cause: "
+      "it says of what kind the cause is, what it does, and by how much the unseen error falls "
+      "with it."};
 }
 
 }  // namespace hapsim

@@ -100,11 +100,12 @@ void judge_by_presses(const Candidate& c, const Baseline& base, const TrialGroun
 
 }  // namespace
 
-std::vector<const Effect*> untried(const Model& model, const std::string& unknown) {
+std::vector<const Effect*> untried(const Model& model, Kind kind, const std::string& unknown) {
   std::vector<const Effect*> effects;
   for (const Effect* effect : catalogue()) {
     const EffectCard& card = effect->card();
     if (effect == &body_effect() || card.name == unknown) continue;
+    if (card.learned != (kind == Kind::kLearned)) continue;
     if (model.has(card.name) && (!card.terms || card.is_map)) continue;
     const bool included =
         std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
@@ -195,14 +196,14 @@ Finding ruled_out(const Effect& effect, const Baseline& base) {
   return finding;
 }
 
-Round try_all(const Baseline& base, const TrialGround& g, const Folds& folds,
+Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds& folds,
               const DiagnoseOptions& options, Random& random) {
   Round round;
   const Departures departures = stiffness_departures(base.fitted, g);
   const bool departs = departures.anywhere();
   double least = base.fitted.error.pooled;
   std::vector<const Effect*> at_some_first;
-  const std::vector<const Effect*> effects = untried(base.fitted.model, options.unknown);
+  const std::vector<const Effect*> effects = untried(base.fitted.model, kind, options.unknown);
   std::size_t tested = 0;
   const Counted count = [&](const Effect& effect) {
     options.tell("testing " + effect.card().name, ++tested, effects.size());

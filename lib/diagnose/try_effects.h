@@ -15,9 +15,11 @@ struct Round {
   std::vector<Finding> untestable;
 };
 
+// What a round tries: effects that have a name, or curves of no law (EffectCard::learned).
+enum class Kind { kNamed, kLearned };
 // Effects worth trying on top of a model: those it lacks, and one more term of those with terms;
 // never `unknown` (DiagnoseOptions).
-std::vector<const Effect*> untried(const Model& model, const std::string& unknown);
+std::vector<const Effect*> untried(const Model& model, Kind kind, const std::string& unknown);
 // Relative fall of the error on unseen positions.
 double held_out_fall(const Finding& finding);
 // Whether `effect` includes the effect `other` as a special case.
@@ -28,7 +30,7 @@ Finding ruled_out(const Effect& effect, const Baseline& base);
 
 // Estimates every effect, solves for the promising ones, and measures them all alike. Findings have
 // no verdict yet.
-Round try_all(const Baseline& base, const TrialGround& ground, const Folds& folds,
+Round try_all(Kind kind, const Baseline& base, const TrialGround& ground, const Folds& folds,
               const DiagnoseOptions& options, Random& random);
 
 }  // namespace hapsim

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
+#include "experiment/learned_curves.h"
 #include "fit/learned_field.h"
 #include "model/model_edit.h"
 
@@ -91,6 +92,13 @@ std::string map_words(const Candidate& candidate) {
                      *least, *most);
 }
 
+std::string curves_words(const Model& model, const std::string& effect) {
+  std::string text;
+  for (const LearnedCurveBand& curve : learned_curves(model))
+    if (curve.effect == effect) text += (text.empty() ? "" : "; ") + curve_words(curve);
+  return text;
+}
+
 double identity_of(const EffectCard& card, const std::string& parameter) {
   for (const ParameterCard& p : card.parameters)
     if (p.name == parameter) return p.identity;
@@ -137,7 +145,8 @@ void describe_fit(const Candidate& candidate, const Measured& measured, Finding&
   for (const Parameter& p : candidate.fitted.model.parameters)
     if (p.effect == card.name && p.state == shown)
       finding.values.push_back({p.name, p.unit, p.value, p.std_error, identity_of(card, p.name)});
-  finding.fitted = values_words(finding.values);
+  finding.fitted =
+      card.learned ? curves_words(candidate.fitted.model, card.name) : values_words(finding.values);
   if (!first.fixed && measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
     finding.smallest = {first.name, first.unit, measured.smallest_seen, std::nan(""),
                         first.identity};
@@ -172,6 +181,21 @@ std::string set_up_words(const Diagnosis& d) {
          "an arm that bends or a scale that is wrong: check these before the body.";
 }
 
+// A curve of no law is told as what it is; a named effect that it looks like has not its form.
+std::string learned_words(const Diagnosis& d) {
+  std::string text;
+  for (const Finding& f : d.findings) {
+    const EffectCard& card = require_effect(f.effect).card();
+    if (f.verdict != Verdict::kMissing || !card.learned) continue;
+    text += fmt::format(" {} names no cause: {} ({}).", f.effect, card.signature, f.fitted);
+    for (const Finding& other : d.findings)
+      if (other.verdict == Verdict::kMissing &&
+          std::count(card.confounders.begin(), card.confounders.end(), other.effect) > 0)
+        text += fmt::format(" {} by itself has not its form.", other.effect);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string describe_verdict(const Diagnosis& d) {
@@ -184,7 +208,7 @@ std::string describe_verdict(const Diagnosis& d) {
   const std::string left = d.left.noise_alone() ? "" : " Beside that " + d.left.words;
   switch (d.verdict) {
     case ModelVerdict::kIncomplete:
-      return "missing: " + missing + "." + set_up_words(d) + left;
+      return "missing: " + missing + "." + learned_words(d) + set_up_words(d) + left;
     case ModelVerdict::kAmbiguous:
       return (missing.empty() ? "" : "missing: " + missing + "; beyond that ") +
              "the data cannot tell " + rivals + " apart; see the next measurement." +

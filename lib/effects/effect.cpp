@@ -51,6 +51,10 @@ bool Effect::doubted(const DataSummary&) const {
   return false;
 }
 
+std::vector<EffectCurve> Effect::curves(const Values&) const {
+  return {};
+}
+
 std::vector<double> Effect::known(const DataSummary&) const {
   return {};
 }

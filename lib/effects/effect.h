@@ -64,6 +64,8 @@ struct EffectCard {
   // A smooth field over the body. Parameters whose names end in 1 are a set a place, learned in
   // every fit from what each place asks for; the others are common to all.
   bool is_field = false;
+  // A curve of no law over depth, time or the session: tried where no named effect explains.
+  bool learned = false;
   // The body itself, which every model has and which is neither tried nor removed: its parameters
   // that are Young's modulus (a row a region) and Poisson's ratio.
   std::string modulus, poissons_ratio;
@@ -198,6 +200,17 @@ struct FullSpec {
   double friction = std::numeric_limits<double>::infinity();  // infinite: what touches sticks
 };
 
+// A curve that an effect with no law has learned, and its derivatives by the effect's values.
+struct CurvePoint {
+  double x = 0, y = 0;
+  Eigen::VectorXd by;
+  double form = 0;  // by which y may err since the curve has few knots
+};
+struct EffectCurve {
+  std::string name, x, x_unit, y, y_unit;  // name: of the axis, "" where there is one curve only
+  std::vector<CurvePoint> points;          // ascending x, SI
+};
+
 class EffectStep;
 struct StepContext;
 
@@ -235,6 +248,8 @@ class Effect {
   // Whether such data leave it in doubt from the start: the effect is in the first model and
   // fitted, so that what it hides is in the others' uncertainties. Default: no.
   virtual bool doubted(const DataSummary& data) const;
+  // What it has learned. Default: nothing, it has a law.
+  virtual std::vector<EffectCurve> curves(const Values& values) const;
   // Bounds of one parameter set for a fit to such data, within the card's. Default: the card's.
   virtual std::vector<std::pair<double, double>> limits(const DataSummary& data) const;
 };

@@ -13,9 +13,9 @@ namespace hapsim {
   X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(hyperelastic) X(temperature) \
   X(softening) X(viscoelastic) X(damper) \
   X(base) X(shift) \
-  X(tool_radius) X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(arm_compliance) \
-  X(drag) X(sensor_rotation) X(sensor_crosstalk) X(sensor_gain) X(sensor_curve) X(sensor_lag) \
-  X(sensor_bias) X(sensor_drift) X(deadband) X(tare)
+  X(tool_radius) X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(learned_depth) \
+  X(learned_kernel) X(arm_compliance) X(drag) X(sensor_rotation) X(sensor_crosstalk) X(sensor_gain) X(sensor_curve) X(sensor_lag) \
+  X(sensor_bias) X(sensor_drift) X(learned_drift) X(deadband) X(tare)
 // clang-format on
 
 #define HAPSIM_DECLARE_EFFECT(name) const Effect& name##_effect();

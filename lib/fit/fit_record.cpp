@@ -26,12 +26,13 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
     model.metadata.remove("contact_radius");
 }
 
-HistoryRow history_row(const std::string& model, const Fit& fitted, double held_out, double noise,
-                       double force_rms) {
+HistoryRow history_row(const std::string& model, const Fit& fitted, double held_out,
+                       const std::string& by, double noise, double force_rms) {
   return {model,
           effects_label(fitted.model),
           fitted.error.told(),
           held_out,
+          by,
           noise,
           force_rms,
           static_cast<int>(fitted.model.free_parameters().size())};

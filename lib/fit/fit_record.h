@@ -12,8 +12,8 @@ namespace hapsim {
 // what was known of the start's own fit (held-out errors, marks) goes.
 void record_fit(Fit& fitted, const Metadata& start, const Experiment& experiment);
 
-// A version named `model`; `held_out` and `force_rms` [N].
-HistoryRow history_row(const std::string& model, const Fit& fitted, double held_out, double noise,
-                       double force_rms);
+// A version named `model`; `held_out`, of what `by` says, and `force_rms` [N].
+HistoryRow history_row(const std::string& model, const Fit& fitted, double held_out,
+                       const std::string& by, double noise, double force_rms);
 
 }  // namespace hapsim

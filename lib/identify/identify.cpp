@@ -37,7 +37,8 @@ Improvement improve_step_by_step(const IdentifyRequest& request, const TetMesh& 
   for (std::size_t k = 0; k < improvement.steps.size(); ++k) {
     const ImprovementStep& step = improvement.steps[k];
     if (request.say) request.say(step_words(step, w.noise.value));
-    if (request.step && k + 1 < improvement.steps.size()) request.step(step, force_rms);
+    if (request.step && k + 1 < improvement.steps.size())
+      request.step(step, improvement.unseen, force_rms);
   }
   return improvement;
 }

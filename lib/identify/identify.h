@@ -28,7 +28,7 @@ struct IdentifyRequest {
   std::function<void(std::vector<Model>&)> starts;  // may refuse them, or add one
   std::function<Fit(const Fit&)> refine;            // a better one of what was fitted
   // Of an improvement, all but the last; with Identification::force_rms.
-  std::function<void(const ImprovementStep&, double force_rms)> step;
+  std::function<void(const ImprovementStep&, const std::string& unseen_by, double force_rms)> step;
   std::function<bool()> interrupted;
   std::function<bool()> end;  // nothing is waited for any more; whether it was interrupted
 };

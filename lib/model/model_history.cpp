@@ -8,8 +8,8 @@
 namespace hapsim {
 
 void add_history(const std::string& path, const HistoryRow& row) {
-  const std::vector<std::string> header{"step", "model",   "effects", "parameters",
-                                        "rmse", "heldout", "noise",   "force_rms"};
+  const std::vector<std::string> header{"step",    "model", "effects",   "parameters", "rmse",
+                                        "heldout", "noise", "force_rms", "heldout_by"};
   std::vector<std::vector<std::string>> rows;
   if (std::filesystem::exists(path)) {
     Input input(path);
@@ -25,10 +25,10 @@ void add_history(const std::string& path, const HistoryRow& row) {
       rows.push_back(fields);
     }
   }
-  rows.push_back({"", row.model, row.effects, std::to_string(row.parameters),
-                  format_number(row.rmse),
-                  std::isnan(row.held_out) ? "" : format_number(row.held_out),
-                  format_number(row.noise), format_number(row.force_rms)});
+  rows.push_back(
+      {"", row.model, row.effects, std::to_string(row.parameters), format_number(row.rmse),
+       std::isnan(row.held_out) ? "" : format_number(row.held_out), format_number(row.noise),
+       format_number(row.force_rms), std::isnan(row.held_out) ? "" : row.held_out_by});
   Output output(path);
   CsvWriter writer(output.stream(), {}, header);
   for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -8,7 +8,8 @@ namespace hapsim {
 namespace flag {
 inline constexpr TimeFlag until{"--until"};
 inline constexpr FileFlag image{"--image"}, library{"--library"}, diagnosis{"--diagnosis"},
-    history{"--history"}, locations{"--locations"}, field{"--field"}, data{"--data"};
+    history{"--history"}, locations{"--locations"}, field{"--field"}, curves{"--curves"},
+    data{"--data"};
 inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"--effects"},
     add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, terms{"--terms"},
     regions{"--regions"};

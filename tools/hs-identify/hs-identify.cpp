@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/shell_words.h"
 #include "common_options.h"
+#include "experiment/learned_curves.h"
 #include "fit/fit_record.h"
 #include "fit/fit_request.h"
 #include "fit/fit_words.h"
@@ -132,16 +133,19 @@ int run(const Arguments& arguments) {
     const std::string& field = field_effect().card().name;
     if (arguments.given(flag::field) && !starts.front().has(field))
       fail_usage("--field is of " + field + ", which this model has not", "add --add " + field);
+    if (arguments.given(flag::curves) && learned_curves(starts.front()).empty())
+      fail_usage("--curves is of learned effects, and this model has none",
+                 "add --add learned-depth, learned-kernel or learned-drift");
   };
   if (arguments.given(flag::boundary))
     request.refine = [&](const Fit& fitted) {
       return with_refined_boundaries(arguments, fitted, w, body, each_fit(request, w));
     };
-  request.step = [&](const ImprovementStep& step, double force_rms) {
+  request.step = [&](const ImprovementStep& step, const std::string& by, double force_rms) {
     if (arguments.given(flag::history))
       add_history(arguments[flag::history],
                   history_row(arguments.output() + ": " + effects_label(step.fitted.model),
-                              step.fitted, step.held_out.told(), w.noise.value, force_rms));
+                              step.fitted, step.held_out.told(), by, w.noise.value, force_rms));
   };
   request.interrupted = [&] { return watch.interrupted(); };
   request.end = [&] { return watch.end(); };
@@ -166,6 +170,11 @@ int run(const Arguments& arguments) {
     write_field(field.stream(), place_field(model), w.places.setup(0)->surface());
     field.commit();
   }
+  if (arguments.given(flag::curves) && cut_short.empty() && !learned_curves(model).empty()) {
+    Output curves(arguments[flag::curves]);
+    write_curves(curves.stream(), model);
+    curves.commit();
+  }
   if (arguments.given(flag::image) && cut_short.empty())
     write_asked_image(arguments, result, w, body);
   if (library)
@@ -174,8 +183,9 @@ int run(const Arguments& arguments) {
     output.commit();
   saved.finish();
   if (arguments.given(flag::history))
-    add_history(arguments[flag::history], history_row(arguments.output(), result, found.unseen,
-                                                      w.noise.value, found.force_rms));
+    add_history(arguments[flag::history],
+                history_row(arguments.output(), result, found.unseen, found.unseen_by,
+                            w.noise.value, found.force_rms));
   if (cut_short.empty()) summary.next = next_command(arguments, plan);
   tell_answer(arguments, summary);
   if (!cut_short.empty())

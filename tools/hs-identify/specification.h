@@ -155,7 +155,8 @@ inline ToolSpec identify_specification() {
        .maximum = 1000},
       {.flag = flag::history,
        .value = "FILE",
-       .help = "CSV of model versions and their errors to which this one is added.",
+       .help = "CSV of model versions and their errors to which this one is added; heldout is of "
+               "what heldout_by says.",
        .group = "Output",
        .writes = kTableExtensions},
       {.flag = flag::locations,
@@ -169,6 +170,12 @@ inline ToolSpec identify_specification() {
        .value = "FILE",
        .help = "Writes the field of learned-place (CSV): the factor of the stiffness with its 95 % "
                "band and the power of the depth, at the pressed places and all over the body.",
+       .group = "Output",
+       .writes = kTableExtensions},
+      {.flag = flag::curves,
+       .value = "FILE",
+       .help = "Writes what learned-depth, learned-kernel and learned-drift have learned (CSV): "
+               "each curve with its 95 % band.",
        .group = "Output",
        .writes = kTableExtensions},
       image_flag(),

@@ -150,8 +150,11 @@ TEST_P(EveryEffect, DerivativesAreDifferences) {
     };
     const double scale = signal.f.norm();
     for (Eigen::Index k = 0; k < m; ++k) {
-      // Where a field's places lie and how it is smoothed is never fitted.
-      if (effect.card().is_field && cards[static_cast<std::size_t>(k)].fixed) continue;
+      // Where a field's places lie, how it is smoothed and where curves have their knots is never
+      // fitted.
+      if ((effect.card().is_field || effect.card().learned) &&
+          cards[static_cast<std::size_t>(k)].fixed)
+        continue;
       std::vector<double> up = point, down = point;
       const double step = 1e-5 * std::max(std::abs(point[k]), 1e-3 * cards[k].scale);
       up[k] += step;

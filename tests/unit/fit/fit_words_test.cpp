@@ -121,9 +121,10 @@ TEST(FitRecord, ForgetsWhatWasKnownOfTheStart) {
   EXPECT_EQ(metadata.find("tool_radius"), "0.004");
   EXPECT_EQ(metadata.find("note"), "kept");
   for (const char* key : {"heldout", "until", "converged"}) EXPECT_FALSE(metadata.find(key)) << key;
-  const HistoryRow row = history_row("m.csv", fitted, 0.03, 0.01, 0.5);
+  const HistoryRow row = history_row("m.csv", fitted, 0.03, "positions", 0.01, 0.5);
   EXPECT_EQ(row.effects, "elastic");
   EXPECT_EQ(row.parameters, 2);
+  EXPECT_EQ(row.held_out_by, "positions");
   EXPECT_EQ(row.rmse, 0.02);
 }
 
