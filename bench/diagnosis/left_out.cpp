@@ -20,6 +20,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"damper", time},
       {"sensor-lag", time},
       {"filter", time},
+      {"clock", time},
       {"sensor-hysteresis", {"rate", "direction", "depth"}},
       {"hyperelastic", depth},
       {"tip", depth},

@@ -191,6 +191,7 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("sensor-hysteresis", "sensor-hysteresis", 0.5, [](double s) {
     return std::vector<double>{s, 0.2};
   }));
+  t.push_back(own_form("clock", "clock", 1, [](double s) { return std::vector<double>{s, 0}; }));
   t.push_back(own_form("filter", "filter", 2, [](double s) {
     return std::vector<double>{1 / s, 0.7};
   }));

@@ -114,6 +114,30 @@ TEST(SensorHysteresis, TurnsBackAndIsTheSameForPulling) {
   for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR((f[i] + pulled[i]).norm(), 0, 1e-12) << i;
 }
 
+// A ramp and a hold, 0.125 s early.
+TEST(Clock, HasTheForceOfLater) {
+  PressView press = test::press_to({0, 1e-3, 2e-3, 2e-3, 2e-3});
+  press.t = {0, 0.1, 0.2, 0.3, 0.4};
+  press.session = press.t;
+  const auto f = forces_after(clock_effect(), press, {{0, "e0", 0.125}, {0, "r", 0}});
+  const double depths[] = {1.25e-3, 2e-3, 2e-3, 2e-3, 2e-3};
+  for (std::size_t i = 0; i < f.size(); ++i)
+    EXPECT_NEAR(f[i].z(), test::kStiffness * depths[i], 1e-12) << i;
+}
+
+// By the time of the session: 0.05 s early after 500 s, 0.05 s late with the opposite rate.
+TEST(Clock, RunsFastOrSlow) {
+  PressView press = test::press_to({0, 1e-3, 2e-3});
+  press.t = {0, 0.1, 0.2};
+  press.session = {500, 500.1, 500.2};
+  const auto fast = forces_after(clock_effect(), press, {{0, "e0", 0}, {0, "r", 1e-4}});
+  EXPECT_NEAR(fast[1].z(), 0.2 + 0.2 * 0.5001, 1e-12);
+  EXPECT_NEAR(fast[2].z(), 0.4, 1e-12);
+  const auto slow = forces_after(clock_effect(), press, {{0, "e0", 0}, {0, "r", -1e-4}});
+  EXPECT_NEAR(slow[1].z(), 0.2 - 0.2 * 0.5001, 1e-12);
+  EXPECT_NEAR(slow[0].z(), 0, 1e-12);
+}
+
 // The step response of two equal poles, 1 - (1 + w t) exp(-w t), after a step within 1 us.
 TEST(Filter, AnswersAStepAsItsEquationDoes) {
   PressView press = test::press_to({0, 2e-3, 2e-3, 2e-3, 2e-3});
