@@ -188,6 +188,7 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("sensor-delay", "sensor-lag", 1, [](double s) {
     return std::vector<double>{1e-5, s};
   }));
+  // Clipping is none of these: their noise comes after the sensor, and it cuts the noise off.
   t.push_back(own_form("sensor-hysteresis", "sensor-hysteresis", 0.5, [](double s) {
     return std::vector<double>{s, 0.2};
   }));

@@ -53,6 +53,7 @@ struct EffectCard {
   bool needs_rim = false;          // not testable between plates: acts under a part of the surface
   bool needs_flat = false;         // not testable with a ball
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
+  bool needs_ceiling = false;  // not testable unless readings are exactly the largest of their axis
   bool one_body = false;       // its parameters are of one body's shape or place
   bool one_tool = false;       // its parameters are of one tool
   bool per_press = false;      // a set of parameters a press, solved for exactly in every fit
@@ -177,7 +178,8 @@ struct DataSummary {
   double depth = 2e-3;        // deepest displacement [m]
   double tool_radius = 4e-3;  // [m]
   std::size_t presses = 1;
-  double ball_radius = 0;  // [m] of a tool that is declared a ball; 0: another
+  double ball_radius = 0;       // [m] of a tool that is declared a ball; 0: another
+  Vec3 ceiling = Vec3::Zero();  // readings of an axis that are exactly its largest [N]; 0: none
   std::vector<PlaceGain> places;
   Vec3 low = Vec3::Constant(-10), high = Vec3::Constant(10);  // the body's box [m]
   // The move that brings the contact points onto the scanned surface; zero where they lie on it.

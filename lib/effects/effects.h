@@ -16,7 +16,7 @@ namespace hapsim {
   X(tool_radius) X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(arm_compliance) \
   X(drag) X(sensor_rotation) X(sensor_crosstalk) X(sensor_gain) X(sensor_curve) X(sensor_hysteresis) \
   X(sensor_lag) X(filter) X(sensor_bias) X(sensor_drift) X(sensor_settling) X(deadband) X(clock) \
-  X(tare)
+  X(clipping) X(tare)
 // clang-format on
 
 #define HAPSIM_DECLARE_EFFECT(name) const Effect& name##_effect();

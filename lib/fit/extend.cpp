@@ -12,6 +12,7 @@
 #include "fit/learned_field.h"
 #include "model/body_parameters.h"
 #include "model/model_edit.h"
+#include "recording/ceiling.h"
 
 namespace hapsim {
 namespace {
@@ -216,6 +217,11 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
       return fmt::format("the temperature changes by {:.2g} K only: press the body warm and cold",
                          temperature_range(dataset));
   }
+  if (effect.needs_ceiling && ceiling_words(find_ceilings(dataset.recording.f)).empty())
+    return fmt::format(
+        "no axis has {} readings that are exactly its largest, so the sensor's end was not "
+        "reached: it would show in presses of larger forces",
+        kLeastAtCeiling);
   const auto some = [&](auto&& condition) {
     return std::any_of(dataset.episodes.begin(), dataset.episodes.end(),
                        [&](const Episode& e) { return condition(e.view); });

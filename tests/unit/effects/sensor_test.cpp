@@ -93,6 +93,26 @@ TEST(Deadband, IsBlindBelowAndTrueOrShortAbove) {
   }
 }
 
+TEST(Clipping, EndsEachAxisBothWays) {
+  const auto f =
+      forces_after(clipping_effect(), test::press_along({{-2e-3, 5e-3, -1e-3}, {1e-3, 1e-3, 4e-3}}),
+                   {{0, "Lx", 0.3}, {0, "Ly", 0.5}, {0, "Lz", 0.4}});
+  EXPECT_EQ(f[0], Vec3(0.3, -0.5, 0.2));
+  EXPECT_EQ(f[1], Vec3(-0.2, -0.2, -0.4));
+}
+
+// Ends that the readings show: along x and z exactly, along y nowhere.
+TEST(Clipping, StartsWhereReadingsEnd) {
+  DataSummary data;
+  data.ceiling = {0.25, 0, 0.7};
+  EXPECT_EQ(clipping_effect().starts(data, 1),
+            (std::vector<std::vector<double>>{{0.25, 1e6, 0.7}}));
+  const auto limits = clipping_effect().limits(data);
+  EXPECT_NEAR(limits[0].first, 0.2375, 1e-12);
+  EXPECT_NEAR(limits[2].second, 0.735, 1e-12);
+  EXPECT_EQ(limits[1].second, 1e6);
+}
+
 // In to 0.4 N, back to half of it and to nothing: 10 % too little while the force grows, turned
 // within a quarter of the largest force, then 10 % too much.
 TEST(SensorHysteresis, ReadsTooMuchOnTheWayBack) {
