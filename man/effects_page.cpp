@@ -40,6 +40,7 @@ std::vector<std::string> needs(const hapsim::EffectCard& card) {
   add(card.needs_rim, "a tool that covers a part of the body");
   add(card.needs_repeats, "a place pressed more than once");
   add(card.needs_ceiling, "readings that are exactly the largest of their axis");
+  add(card.needs_line, "a frequency that stands out of what the model leaves");
   return list;
 }
 

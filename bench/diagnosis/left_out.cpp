@@ -33,6 +33,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"softening", session},
       {"sensor-drift", session},
       {"sensor-settling", session},
+      {"breathing", {"session-time", "drift", "rate", "contact-time"}},
       {"sensor-bias", zero},
       {"tare", zero},
       {"drag", {"offset", "rate"}},

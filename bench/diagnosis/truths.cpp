@@ -196,6 +196,9 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("filter", "filter", 2, [](double s) {
     return std::vector<double>{1 / s, 0.7};
   }));
+  t.push_back(own_form("breathing", "breathing", 5e-3, [](double s) {
+    return std::vector<double>{0, 0.3 * s, s, 0.23, 1};
+  }));
   t.push_back(own_form("sensor-bias", "sensor-bias", 5, [](double s) {
     return std::vector<double>{s, -0.5 * s, s};
   }));

@@ -9,7 +9,7 @@ namespace hapsim {
 // In the order in which a force passes through them: motion, body, support, contact, sensor.
 // clang-format off
 #define HAPSIM_EFFECTS(X) \
-  X(motion_scale) X(backlash) X(touch) \
+  X(motion_scale) X(backlash) X(touch) X(breathing) \
   X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(hyperelastic) X(temperature) \
   X(softening) X(viscoelastic) X(damper) \
   X(base) X(shift) \
