@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "linalg/blas.h"
+#include "model/model_edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"
 #include "realtime/real_time.h"
@@ -69,8 +70,10 @@ void steps(const std::string& name, const std::string& difference, const Prepare
 }
 
 // Straight presses and bent ones; an effect that asks for what comes later is compared in straight
-// ones.
-double difference_of(const Model& model, const PreparedBody& body, bool looks_ahead) {
+// ones, and one of a recording with the model without it.
+double difference_of(Model model, const PreparedBody& body, const EffectCard* card) {
+  const bool looks_ahead = card == nullptr || card->looks_ahead;
+  if (card != nullptr && card->of_recording) remove_effect(model, card->name);
   double largest = 0;
   for (const bool straight : {true, false}) {
     if (looks_ahead && !straight) continue;
@@ -107,7 +110,7 @@ int main(int argc, char** argv) {
   Failures failures;
   const auto measure = [&](const std::string& name, const Model& model, const EffectCard* card) {
     const PreparedBody body(test::pressed_block(), model, options);
-    const double difference = difference_of(model, body, card == nullptr || card->looks_ahead);
+    const double difference = difference_of(model, body, card);
     failures.different += difference > kSame ? 1 : 0;
     for (const bool slides : {false, true})
       steps(name, fmt::format("{:.1e}", difference), body, slides, failures);
@@ -120,7 +123,7 @@ int main(int argc, char** argv) {
     Random random(7);
     const Model model = test::model_with(*effect, random, 4);
     if (asked_for(card.name, names)) measure(card.name, model, &card), ++count;
-    if (card.solved || card.moves_body || card.is_map) continue;
+    if (card.solved || card.moves_body || card.is_map || card.of_recording) continue;
     for (const Parameter& p : model.parameters)
       if (p.effect == card.name) all.parameters.push_back(p);
   }

@@ -39,6 +39,8 @@ std::vector<std::string> needs(const hapsim::EffectCard& card) {
   add(card.shows_at_starts, "presses recorded on their way out, or many");
   add(card.needs_rim, "a tool that covers a part of the body");
   add(card.needs_repeats, "a place pressed more than once");
+  add(card.needs_ceiling, "readings that are exactly the largest of their axis");
+  add(card.needs_line, "a frequency that stands out of what the model leaves");
   return list;
 }
 

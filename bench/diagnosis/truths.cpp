@@ -188,11 +188,25 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("sensor-delay", "sensor-lag", 1, [](double s) {
     return std::vector<double>{1e-5, s};
   }));
+  // Clipping is none of these: their noise comes after the sensor, and it cuts the noise off.
+  t.push_back(own_form("sensor-hysteresis", "sensor-hysteresis", 0.5, [](double s) {
+    return std::vector<double>{s, 0.2};
+  }));
+  t.push_back(own_form("clock", "clock", 1, [](double s) { return std::vector<double>{s, 0}; }));
+  t.push_back(own_form("filter", "filter", 2, [](double s) {
+    return std::vector<double>{1 / s, 0.7};
+  }));
+  t.push_back(own_form("breathing", "breathing", 5e-3, [](double s) {
+    return std::vector<double>{0, 0.3 * s, s, 0.23, 1};
+  }));
   t.push_back(own_form("sensor-bias", "sensor-bias", 5, [](double s) {
     return std::vector<double>{s, -0.5 * s, s};
   }));
   t.push_back(own_form("sensor-drift", "sensor-drift", 0.1, [](double s) {
     return std::vector<double>{0, 0, 0, 0.3 * s, -0.5 * s, s};
+  }));
+  t.push_back(own_form("sensor-settling", "sensor-settling", 5, [](double s) {
+    return std::vector<double>{0.3 * s, -0.5 * s, s, 60, 0, 0, 0};
   }));
   t.push_back(own_form("deadband-short", "deadband", 0.25, [](double s) {
     return std::vector<double>{s, 1};

@@ -15,7 +15,7 @@ import causes
 
 
 class Null:
-    """head: comment lines; press (n); t (n) [s] in the session; x, u, f (n, 3); noise [N]."""
+    """head: comment lines; press (n); t (n) [s] in the session; x, u, f (n, 3); K (n, 3, 3) [N/m], of other motions; noise [N]."""
 
     def __init__(self, path):
         lines = pathlib.Path(path).read_text().splitlines()
@@ -29,17 +29,22 @@ class Null:
         self.t = columns("t")[:, 0]
         self.x, self.u, f = columns("x", "y", "z"), columns("ux", "uy", "uz"), columns("fx", "fy", "fz")
         self.noise = next(float(h.split(":")[1]) for h in self.head if h.startswith("# force_noise:"))
-        self.f = np.zeros_like(f)
+        self.f, self.K = np.zeros_like(f), np.zeros((len(f), 3, 3))
         for place in np.unique(self.x, axis=0):
             here = (self.x == place).all(axis=1)
             self.f[here] = self.u[here] @ np.linalg.lstsq(self.u[here], f[here], rcond=1e-6)[0]
+            # Where nothing but rounding moves the tool, forces do not tell what it would do.
+            self.K[here] = np.linalg.lstsq(self.u[here], f[here], rcond=1e-3)[0].T
+
+    def forces(self, u):
+        """Of the body when it is moved by u, along directions in which the place was pressed."""
+        return np.einsum("nij,nj->ni", self.K, u)
 
 
 def write(null, body, cause, out):
     name = "%s-%s" % (body, cause.name)
     random = np.random.default_rng(zlib.crc32(name.encode()))
-    head, u, f, noise = cause.make(null, random)
-    f = f + noise
+    head, u, f = cause.make(null, random)
     lines = list(head) + ["press,t,x,y,z,ux,uy,uz,fx,fy,fz"]
     for p, t, x, v, g in zip(null.press, null.t, null.x, u, f):
         lines.append("%d,%.2f,%.6f,%.6f,%.6f,%.7f,%.7f,%.7f,%.4f,%.4f,%.4f" % (p, t, *x, *v, *g))

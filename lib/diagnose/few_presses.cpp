@@ -82,7 +82,7 @@ Finding judged(const Effect& effect, const EffectSet& with_it, const EffectSet& 
     f.p_value = foretold.chance();
     f.admitted = judge.admits(foretold);
   }
-  describe_fit(candidate, m, f);
+  describe_fit(candidate, m, g.dataset, f);
   f.next_measurement = effect.card().separated_by;
   return f;
 }

@@ -286,7 +286,7 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
     f.plain = f.share >= kMostOfIt && by_size < options.gates.p_value;
     f.within_form = by_laws > 0 && force_change(c.fitted, base.fitted, g) < by_laws;
     f.where = describe_where(c);
-    describe_fit(c, m, f);
+    describe_fit(c, m, g.dataset, f);
     if (f.within_form)
       f.evidence += fmt::format(
           "; changes the forces by less than the {:.2g} N that an approximate law in the model may "

@@ -9,6 +9,7 @@
 #include "experiment/learned_curves.h"
 #include "fit/learned_field.h"
 #include "model/model_edit.h"
+#include "recording/ceiling.h"
 
 namespace hapsim {
 namespace {
@@ -105,6 +106,18 @@ double identity_of(const EffectCard& card, const std::string& parameter) {
   return 0;  // of a further term
 }
 
+// That it would have to be infinite to do nothing: no size of it is small.
+bool ends_nowhere(const ParameterCard& p) {
+  return p.logarithmic && p.identity >= p.upper;
+}
+
+// Such a parameter where it does nothing, as the end of an axis that was never reached.
+bool does_nothing(const EffectCard& card, const Parameter& row) {
+  return std::any_of(card.parameters.begin(), card.parameters.end(), [&](const ParameterCard& p) {
+    return p.name == row.name && ends_nowhere(p) && row.value >= p.identity;
+  });
+}
+
 std::string values_words(const std::vector<FittedValue>& values) {
   constexpr std::size_t kMost = 6;
   std::string text;
@@ -131,11 +144,14 @@ std::string shows_words(const Finding& f) {
 
 }  // namespace
 
-void describe_fit(const Candidate& candidate, const Measured& measured, Finding& finding) {
+void describe_fit(const Candidate& candidate, const Measured& measured, const Dataset& dataset,
+                  Finding& finding) {
   finding.evidence =
       fmt::format("takes away {:.0f} % of the squared misfit beyond noise{}", 100 * finding.share,
                   finding.share > 0.005 && finding.p_value > kByChance ? ", as chance would" : "");
   const EffectCard& card = candidate.effect->card();
+  if (card.needs_ceiling)
+    finding.evidence += "; " + ceiling_words(find_ceilings(dataset.recording.f));
   if (card.is_map || card.is_field) {
     finding.fitted = map_words(candidate);
     return;
@@ -143,11 +159,12 @@ void describe_fit(const Candidate& candidate, const Measured& measured, Finding&
   const ParameterCard& first = card.parameters.front();
   const ParameterState shown = first.fixed ? ParameterState::kFixed : ParameterState::kFree;
   for (const Parameter& p : candidate.fitted.model.parameters)
-    if (p.effect == card.name && p.state == shown)
+    if (p.effect == card.name && p.state == shown && !does_nothing(card, p))
       finding.values.push_back({p.name, p.unit, p.value, p.std_error, identity_of(card, p.name)});
   finding.fitted =
       card.learned ? curves_words(candidate.fitted.model, card.name) : values_words(finding.values);
-  if (!first.fixed && measured.smallest_seen > 0 && std::isfinite(measured.smallest_seen))
+  if (!first.fixed && !ends_nowhere(first) && measured.smallest_seen > 0 &&
+      std::isfinite(measured.smallest_seen))
     finding.smallest = {first.name, first.unit, measured.smallest_seen, std::nan(""),
                         first.identity};
 }

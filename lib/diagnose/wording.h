@@ -12,7 +12,8 @@ namespace hapsim {
 std::string describe_where(const Candidate& candidate);
 // Sets what the fit says: the evidence (how much of the misfit it takes away), the values with
 // uncertainty, and the smallest size that would show.
-void describe_fit(const Candidate& candidate, const Measured& measured, Finding& finding);
+void describe_fit(const Candidate& candidate, const Measured& measured, const Dataset& dataset,
+                  Finding& finding);
 // The evidence with the values, or of an effect that is not there the size that would show alone:
 // what the data cannot show has no value.
 std::string evidence_words(const Finding& finding);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/vec3.h"
+#include "estimate/spectral_line.h"
 #include "material/body_features.h"
 
 namespace hapsim {
@@ -53,6 +54,8 @@ struct EffectCard {
   bool needs_rim = false;          // not testable between plates: acts under a part of the surface
   bool needs_flat = false;         // not testable with a ball
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
+  bool needs_ceiling = false;  // not testable unless readings are exactly the largest of their axis
+  bool needs_line = false;     // not testable unless a frequency stands out of what a model leaves
   bool one_body = false;       // its parameters are of one body's shape or place
   bool one_tool = false;       // its parameters are of one tool
   bool per_press = false;      // a set of parameters a press, solved for exactly in every fit
@@ -76,6 +79,7 @@ struct EffectCard {
   std::vector<std::string> confounders;
   std::string separated_by;           // the measurement that tells it from them
   std::vector<std::string> contains;  // effects that this one includes as a special case
+  bool of_recording = false;  // in how a recording was put together: a live loop does without it
   bool looks_ahead = false;  // asks for what comes later in the press: its step takes what has come
   // Where its step (Effect::step) is not what a whole press would have: why, and what it does
   // instead. "": sample by sample it is the same.
@@ -178,7 +182,9 @@ struct DataSummary {
   double depth = 2e-3;        // deepest displacement [m]
   double tool_radius = 4e-3;  // [m]
   std::size_t presses = 1;
-  double ball_radius = 0;  // [m] of a tool that is declared a ball; 0: another
+  double ball_radius = 0;       // [m] of a tool that is declared a ball; 0: another
+  Vec3 ceiling = Vec3::Zero();  // readings of an axis that are exactly its largest [N]; 0: none
+  SpectralLine line;            // of the forces that the model at hand leaves, for who needs one
   std::vector<PlaceGain> places;
   Vec3 low = Vec3::Constant(-10), high = Vec3::Constant(10);  // the body's box [m]
   // The move that brings the contact points onto the scanned surface; zero where they lie on it.

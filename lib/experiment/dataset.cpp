@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/median.h"
+#include "recording/ceiling.h"
 
 namespace hapsim {
 namespace {
@@ -155,6 +156,9 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   if (dataset.tools() == 1 && dataset.recording.has_ball())
     summary.ball_radius = dataset.recording.tool_radius();
   summary.peak_force = 1e-12;
+  const auto ceilings = find_ceilings(dataset.recording.f);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (ceilings[k].reached()) summary.ceiling[static_cast<Eigen::Index>(k)] = ceilings[k].force;
   const std::vector<double>& temp = dataset.recording.temp;
   if (!temp.empty())
     summary.temperature = dataset.recording.metadata.number("temp_ref", dataset.recording.name)

@@ -12,6 +12,7 @@
 #include "fit/learned_field.h"
 #include "model/body_parameters.h"
 #include "model/model_edit.h"
+#include "recording/ceiling.h"
 
 namespace hapsim {
 namespace {
@@ -153,6 +154,11 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
       summary.places.push_back(
           {s.point, experiment.places.contact(static_cast<std::size_t>(s.position)).normal,
            s.gain});
+  if (card.needs_line) {
+    summary.line = line_left(base_fit, experiment, selection);
+    if (summary.line.frequency == 0)
+      fail_input(dataset.recording.name, "the data cannot show " + name, kNoLine);
+  }
   const Surface& surface = experiment.places.setup(0)->surface();
   summary.low = summary.high = surface.vertices.front();
   for (const Vec3& p : surface.vertices) {
@@ -173,6 +179,24 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
     starts.push_back(model);
   }
   return starts;
+}
+
+SpectralLine line_left(const Fit& fitted, const Experiment& experiment,
+                       const Selection& selection) {
+  const Eigen::VectorXd left = measured_forces(experiment.dataset, selection) -
+                               model_forces(fitted, experiment, selection, false).f;
+  std::vector<double> t;
+  std::vector<Vec3> values;
+  Eigen::Index at = 0;
+  for (const int e : selection) {
+    const PressView& press = experiment.dataset.episodes[static_cast<std::size_t>(e)].view;
+    for (std::size_t i = 0; i < press.size(); ++i, at += 3) {
+      if (press.in_air[i] || press.session.empty()) continue;
+      t.push_back(press.session[i]);
+      values.emplace_back(left.segment<3>(at));
+    }
+  }
+  return find_line(t, values, selection.size());
 }
 
 std::string not_shared(const EffectCard& effect, const Dataset& dataset) {
@@ -216,6 +240,11 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
       return fmt::format("the temperature changes by {:.2g} K only: press the body warm and cold",
                          temperature_range(dataset));
   }
+  if (effect.needs_ceiling && ceiling_words(find_ceilings(dataset.recording.f)).empty())
+    return fmt::format(
+        "no axis has {} readings that are exactly its largest, so the sensor's end was not "
+        "reached: it would show in presses of larger forces",
+        kLeastAtCeiling);
   const auto some = [&](auto&& condition) {
     return std::any_of(dataset.episodes.begin(), dataset.episodes.end(),
                        [&](const Episode& e) { return condition(e.view); });

@@ -40,4 +40,12 @@ void require_shared(const std::vector<std::string>& effects, const Dataset& data
 // Empty when these data can test the effect, else what they lack, in words.
 std::string lacking_for(const EffectCard& effect, const Dataset& dataset);
 
+// The frequency that stands out of the forces that a fitted model leaves where the tool is in
+// contact, over the time of the session.
+SpectralLine line_left(const Fit& fitted, const Experiment& experiment, const Selection& selection);
+// Said where an effect needs one and there is none.
+inline constexpr const char* kNoLine =
+    "no frequency stands out of what the model leaves: hold the tool still on the body over ten "
+    "periods";
+
 }  // namespace hapsim

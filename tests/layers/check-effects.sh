@@ -12,6 +12,7 @@ mapfile -t names < <(sed -nE 's/^[ \t]*\.name = "([^"]+)".*/\1/p' "$root"/lib/ef
 export others="
 lib/tables/ tip
 lib/tables/ tare
+lib/tables/ clock
 lib/tables/ touch
 lib/import/ tip
 lib/import/ temperature

@@ -182,6 +182,35 @@ TEST(Touch, IsInDoubtUnderABall) {
 }
 
 // Springs in series: 1/k = 1/200 + c, along each axis.
+// Half a period of 2 s after the session began, and in the air not at all.
+TEST(Breathing, MovesTheBodyUnderTheTool) {
+  PressView press = test::press_to({1e-3, 1e-3, 1e-3, 0});
+  press.session = {0, 0.5, 1.5, 0.5};
+  press.in_air[3] = 1;
+  const Values values{
+      {0, "ax", 1e-4}, {0, "ay", 0}, {0, "az", 2e-4}, {0, "f", 0.5}, {0, "phase", 0}};
+  const auto f = forces_after(breathing_effect(), press, values);
+  const Vec3 still(0, 0, 0.2), moved(0.02, 0, 0.04);
+  EXPECT_NEAR((f[0] - still).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[1] - still - moved).norm(), 0, 1e-12);  // the body comes up
+  EXPECT_NEAR((f[2] - still + moved).norm(), 0, 1e-12);
+  EXPECT_EQ(f[3], Vec3::Zero());
+}
+
+// What a body of 200 N/m leaves of a wave: where the fit begins.
+TEST(Breathing, StartsFromTheLineThatIsLeft) {
+  DataSummary data;
+  data.peak_stiffness = test::kStiffness;
+  const Vec3 a(1e-4, 0, -3e-4);
+  data.line = {0.3, 1e-3, std::cos(0.7) * test::kStiffness * a,
+               std::sin(0.7) * test::kStiffness * a};
+  const std::vector<double> start = breathing_effect().starts(data, 1).front();
+  const double sign = start[2] * a.z() > 0 ? 1 : -1;  // the same wave by half a period
+  EXPECT_NEAR((sign * Vec3(start[0], start[1], start[2]) - a).norm(), 0, 1e-15);
+  EXPECT_EQ(start[3], 0.3);
+  EXPECT_NEAR(std::cos(start[4] - 0.7), sign, 1e-12);
+}
+
 TEST(ArmCompliance, IsASpringInSeries) {
   const auto f = forces_after(arm_compliance_effect(), test::press_along({{1e-3, 2e-3, -3e-3}}),
                               {{0, "cx", 0.005}, {0, "cy", 0}, {0, "cz", 0.015}});

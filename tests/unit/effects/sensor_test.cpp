@@ -93,6 +93,118 @@ TEST(Deadband, IsBlindBelowAndTrueOrShortAbove) {
   }
 }
 
+TEST(Clipping, EndsEachAxisBothWays) {
+  const auto f =
+      forces_after(clipping_effect(), test::press_along({{-2e-3, 5e-3, -1e-3}, {1e-3, 1e-3, 4e-3}}),
+                   {{0, "Lx", 0.3}, {0, "Ly", 0.5}, {0, "Lz", 0.4}});
+  EXPECT_EQ(f[0], Vec3(0.3, -0.5, 0.2));
+  EXPECT_EQ(f[1], Vec3(-0.2, -0.2, -0.4));
+}
+
+// Ends that the readings show: along x and z exactly, along y nowhere.
+TEST(Clipping, StartsWhereReadingsEnd) {
+  DataSummary data;
+  data.ceiling = {0.25, 0, 0.7};
+  EXPECT_EQ(clipping_effect().starts(data, 1),
+            (std::vector<std::vector<double>>{{0.25, 1e6, 0.7}}));
+  const auto limits = clipping_effect().limits(data);
+  EXPECT_NEAR(limits[0].first, 0.2375, 1e-12);
+  EXPECT_NEAR(limits[2].second, 0.735, 1e-12);
+  EXPECT_EQ(limits[1].second, 1e6);
+}
+
+// In to 0.4 N, back to half of it and to nothing: 10 % too little while the force grows, turned
+// within a quarter of the largest force, then 10 % too much.
+TEST(SensorHysteresis, ReadsTooMuchOnTheWayBack) {
+  const auto f =
+      forces_after(sensor_hysteresis_effect(), test::press_to({0, 1e-3, 2e-3, 1.8e-3, 1e-3, 0}),
+                   {{0, "h", 0.1}, {0, "r", 0.25}});
+  const double expected[] = {0, 0.2 * 0.9, 0.4 * 0.9, 0.36 * (1 - 0.1 * 0.6), 0.2 * 1.1, 0};
+  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i].z(), expected[i], 1e-12) << i;
+}
+
+// An inner loop begins to turn where it is; a force the other way reads too little in size as well.
+TEST(SensorHysteresis, TurnsBackAndIsTheSameForPulling) {
+  const Values values{{0, "h", 0.1}, {0, "r", 0.25}};
+  const auto f =
+      forces_after(sensor_hysteresis_effect(), test::press_to({0, 2e-3, 1.8e-3, 1.9e-3}), values);
+  EXPECT_NEAR(f[3].z(), 0.38 * (1 - 0.1 * 0.8), 1e-12);
+  const auto pulled = forces_after(sensor_hysteresis_effect(),
+                                   test::press_to({0, -2e-3, -1.8e-3, -1.9e-3}), values);
+  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR((f[i] + pulled[i]).norm(), 0, 1e-12) << i;
+}
+
+// A ramp and a hold, 0.125 s early.
+TEST(Clock, HasTheForceOfLater) {
+  PressView press = test::press_to({0, 1e-3, 2e-3, 2e-3, 2e-3});
+  press.t = {0, 0.1, 0.2, 0.3, 0.4};
+  press.session = press.t;
+  const auto f = forces_after(clock_effect(), press, {{0, "e0", 0.125}, {0, "r", 0}});
+  const double depths[] = {1.25e-3, 2e-3, 2e-3, 2e-3, 2e-3};
+  for (std::size_t i = 0; i < f.size(); ++i)
+    EXPECT_NEAR(f[i].z(), test::kStiffness * depths[i], 1e-12) << i;
+}
+
+// By the time of the session: 0.05 s early after 500 s, 0.05 s late with the opposite rate.
+TEST(Clock, RunsFastOrSlow) {
+  PressView press = test::press_to({0, 1e-3, 2e-3});
+  press.t = {0, 0.1, 0.2};
+  press.session = {500, 500.1, 500.2};
+  const auto fast = forces_after(clock_effect(), press, {{0, "e0", 0}, {0, "r", 1e-4}});
+  EXPECT_NEAR(fast[1].z(), 0.2 + 0.2 * 0.5001, 1e-12);
+  EXPECT_NEAR(fast[2].z(), 0.4, 1e-12);
+  const auto slow = forces_after(clock_effect(), press, {{0, "e0", 0}, {0, "r", -1e-4}});
+  EXPECT_NEAR(slow[1].z(), 0.2 - 0.2 * 0.5001, 1e-12);
+  EXPECT_NEAR(slow[0].z(), 0, 1e-12);
+}
+
+// The step response of two equal poles, 1 - (1 + w t) exp(-w t), after a step within 1 us.
+TEST(Filter, AnswersAStepAsItsEquationDoes) {
+  PressView press = test::press_to({0, 2e-3, 2e-3, 2e-3, 2e-3});
+  press.t = {0, 1e-6, 0.02, 0.07, 0.2};
+  const double w = 2 * M_PI * 3;
+  const auto equal = forces_after(filter_effect(), press, {{0, "f0", 3}, {0, "zeta", 1}});
+  const double zeta = 0.5, wd = w * std::sqrt(1 - zeta * zeta);
+  const auto swinging = forces_after(filter_effect(), press, {{0, "f0", 3}, {0, "zeta", zeta}});
+  for (std::size_t i = 2; i < press.t.size(); ++i) {
+    const double t = press.t[i];
+    EXPECT_NEAR(equal[i].z(), 0.4 * (1 - (1 + w * t) * std::exp(-w * t)), 1e-5) << i;
+    EXPECT_NEAR(
+        swinging[i].z(),
+        0.4 * (1 - std::exp(-zeta * w * t) * (std::cos(wd * t) + zeta * w / wd * std::sin(wd * t))),
+        1e-5)
+        << i;
+  }
+}
+
+// Long after a ramp began the reading is late by 2 zeta / w.
+TEST(Filter, IsLateByItsTime) {
+  std::vector<double> depths;
+  PressView press;
+  for (int i = 0; i <= 100; ++i) depths.push_back(1e-5 * i);
+  press = test::press_to(depths);
+  for (int i = 0; i <= 100; ++i) press.t.push_back(0.01 * i);
+  const auto f = forces_after(filter_effect(), press, {{0, "f0", 5}, {0, "zeta", 0.7}});
+  const double late = 2 * 0.7 / (2 * M_PI * 5);
+  EXPECT_NEAR(f[100].z(), test::kStiffness * 1e-3 * (1 - late), 1e-9);
+}
+
+TEST(SensorSettling, GoesToItsValueAndStays) {
+  PressView press = test::press_to({0, 0, 0});
+  press.session = {0, 100 * std::log(2.0), 1e5};
+  const auto f = forces_after(sensor_settling_effect(), press,
+                              {{0, "bx", 0.1},
+                               {0, "by", 0},
+                               {0, "bz", -0.2},
+                               {0, "cx", 0},
+                               {0, "cy", 0.4},
+                               {0, "cz", 1},
+                               {0, "tau", 100}});
+  EXPECT_NEAR((f[0] - Vec3(0.1, 0, -0.2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[1] - Vec3(0.1, 0.2, 0.3)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[2] - Vec3(0.1, 0.4, 0.8)).norm(), 0, 1e-12);
+}
+
 TEST(Tare, IsTheOffsetOfItsOwnPress) {
   PressView press = test::press_along(kPath);
   const Values values{{0, "bx1", 1}, {0, "by1", 2}, {0, "bz1", 3},

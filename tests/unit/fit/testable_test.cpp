@@ -91,6 +91,16 @@ TEST(Testable, SaysWhatTheDataLack) {
   EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
 }
 
+TEST(Testable, AnEndOfTheSensorIsInTheReadings) {
+  Recording r = two_presses();
+  for (std::size_t i = 0; i < r.rows(); ++i) r.f[i] = {0, 0, 0.1 * static_cast<double>(i)};
+  EXPECT_NE(lack("clipping", r).find("the sensor's end was not reached"), std::string::npos);
+  EXPECT_TRUE(summarise(dataset_of(r), 1).ceiling.isZero());
+  for (std::size_t i = 2; i < r.rows(); ++i) r.f[i].z() = 0.5;
+  EXPECT_EQ(lack("clipping", r), "");
+  EXPECT_EQ(summarise(dataset_of(r), 1).ceiling, Vec3(0, 0, 0.5));
+}
+
 TEST(Testable, ARadiusIsThatOfAFlatToolAtSeveralPlaces) {
   Recording r = two_presses();
   EXPECT_NE(lack("tool-radius", r).find("too few contact positions"), std::string::npos);
