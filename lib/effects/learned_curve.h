@@ -75,7 +75,7 @@ class LearnedCurve {
 
 // By how much the curve through these values may err about x for want of knots: of fourth order, so
 // that the curve through every second knot misses the one between by sixteen times that, at the
-// ends by eight.
+// ends by eight; a quarter is taken, for knots are not even.
 template <std::size_t N>
 double for_want_of_knots(const LearnedCurve<N>& curve, const std::array<double, N>& y, double x) {
   constexpr std::size_t kFewer = N / 2 + 1;
@@ -88,7 +88,7 @@ double for_want_of_knots(const LearnedCurve<N>& curve, const std::array<double, 
   Fewer(knots).at(curve.knots()[between], by, slopes);
   double missed = y[between];
   for (std::size_t k = 0; k < kFewer; ++k) missed -= by[k] * y[place(k)];
-  return std::abs(missed) / 7;
+  return std::abs(missed) / 4;
 }
 
 }  // namespace hapsim
