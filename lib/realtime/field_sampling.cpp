@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "mesh/between_plates.h"
+#include "realtime/direction_doubt.h"
 
 namespace hapsim {
 namespace {
@@ -104,7 +105,7 @@ FieldSampling::FieldSampling(std::shared_ptr<const ContactLibrary> library, doub
     const std::vector<PlaceView> views = views_of(pool);
     std::vector<double> squares;
     for (const PlaceEstimate& e : model_->at(views, true))
-      squares.push_back(e.uncertainty * e.uncertainty);
+      squares.push_back(std::pow(e.uncertainty * mean_direction_doubt(e.K), 2));
     double sum = 0;
     for (const double s : squares) sum += s;
     expected_ = std::sqrt(sum / static_cast<double>(squares.size()));

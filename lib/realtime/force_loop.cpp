@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "material/maxwell_memory.h"
+#include "realtime/direction_doubt.h"
 
 namespace hapsim {
 namespace {
@@ -138,6 +139,8 @@ Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {
   double* memory = state_.memory.data();
   for (const Running& s : steps_) s.step->move(sample, memory + s.memory);
   const Vec3 pressed = in_air ? Vec3(Vec3::Zero()) : sample.u;
+  set_quality(state_.uncertainty * direction_doubt(state_.place.contact.K, pressed),
+              state_.sampled);
   Vec3 f = -(state_.place.contact.K * pressed);
   if (body_.is_regional()) f += regional_memory(sample, pressed);
   auto s = steps_.begin();

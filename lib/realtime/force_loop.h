@@ -16,7 +16,7 @@ struct ForceLoopState {
   ToolState tool;
   StepPlace place;         // contact point on the surface, and what is known of the body there
   bool placed = false;     // there was one
-  double uncertainty = 0;  // ToolLoop::uncertainty()
+  double uncertainty = 0;  // FieldEntry::uncertainty
   bool sampled = true;     // not kBeyondPlaces
   double t = 0;            // of the last sample [s]
   double press = 0, session = 0;  // when this press and the whole began [s]

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "realtime/direction_doubt.h"
+
 namespace hapsim {
 namespace {
 
@@ -298,7 +300,10 @@ std::vector<std::size_t> PlaceModel::most_wanted(const std::vector<PlaceView>& p
                                                  std::size_t count) const {
   const MatrixXd where = rows(pool);
   MatrixXd C = residual_->posterior_covariance(where);
-  const VectorXd scale = inflation(residual_->covariance(where)).cwiseSqrt();
+  VectorXd scale = inflation(residual_->covariance(where)).cwiseSqrt();
+  const std::vector<PlaceEstimate> stiffness = at(pool, false);
+  for (Index i = 0; i < scale.size(); ++i)
+    scale[i] *= mean_direction_doubt(stiffness[static_cast<std::size_t>(i)].K);
   C = scale.asDiagonal() * C * scale.asDiagonal();
   // Each choice takes its share of the variance of all others: Cholesky with pivots.
   std::vector<std::size_t> chosen;

@@ -56,8 +56,10 @@ struct StiffnessSample {
 };
 
 struct PlaceEstimate {
-  Eigen::Matrix3d K;       // [N/m], positive definite
-  double uncertainty = 0;  // relative standard uncertainty of the force
+  Eigen::Matrix3d K;  // [N/m], positive definite
+  // Relative standard uncertainty of the force, where all directions are as stiff (else times
+  // direction_doubt()).
+  double uncertainty = 0;
 };
 
 // L = log(R^-1 K R^-1), R the root of what is expected: a trend, linear in the views' tensors, with

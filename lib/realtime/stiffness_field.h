@@ -20,7 +20,7 @@ struct KnownStiffness {
 struct FieldEntry {
   Vec3 point = Vec3::Zero();
   Eigen::Matrix3d K = Eigen::Matrix3d::Zero();  // [N/m]
-  double uncertainty = 0;                       // relative standard uncertainty of the force
+  double uncertainty = 0;                       // as PlaceEstimate has it
   bool sampled = true;  // false: where contact meshes cannot be made, beside the support
 };
 

@@ -54,7 +54,7 @@ class ToolLoop {
   // nothing is known of the way through it.
   int beyond() const { return beyond_; }
   const Vec3& pressed() const { return pressed_; }
-  // Relative standard uncertainty of the force that the place leaves; 0 where it is not known.
+  // Relative standard uncertainty of the last force that the place leaves; 0 where it is not known.
   double uncertainty() const { return uncertainty_; }
 
  protected:
