@@ -20,7 +20,7 @@ EffectNames without(EffectNames names, const std::string& name) {
 }
 
 bool needs_many_presses(const EffectCard& card) {
-  return card.per_press || card.is_map;
+  return card.per_press || card.is_map || card.among_presses;
 }
 
 EffectSets::EffectSets(const Baseline& base, const TrialGround& g, const DiagnoseOptions& options)

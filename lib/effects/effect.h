@@ -56,6 +56,7 @@ struct EffectCard {
   bool needs_repeats = false;  // not testable unless a place is pressed again, or time has passed
   bool needs_ceiling = false;  // not testable unless readings are exactly the largest of their axis
   bool needs_line = false;     // not testable unless a frequency stands out of what a model leaves
+  bool among_presses = false;  // told by comparing presses: of few it is not tested
   bool one_body = false;       // its parameters are of one body's shape or place
   bool one_tool = false;       // its parameters are of one tool
   bool per_press = false;      // a set of parameters a press, solved for exactly in every fit

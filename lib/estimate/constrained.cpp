@@ -2,7 +2,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <mutex>
 
 #include "estimate/coordinates.h"
 #include "estimate/ipopt.h"
@@ -64,8 +63,6 @@ ConstrainedResult minimise_constrained(const std::vector<Unknown>& start,
                                        const std::vector<LinearConstraint>& constraints,
                                        const ResidualFunction& residuals,
                                        const LeastSquaresOptions& options) {
-  static std::mutex one_at_a_time;  // MUMPS keeps a state of its own
-  const std::lock_guard lock(one_at_a_time);
   const auto m = static_cast<Eigen::Index>(start.size());
   Problem problem(start, constraints, residuals);
   const IpoptEnd end = minimise_by_ipopt(problem, options.max_iterations);

@@ -27,6 +27,10 @@ class Coordinates {
     if (has_limit(i)) return u_[i].log_limit - x;
     return u_[i].logarithmic ? x : u_[i].scale;
   }
+  double bend(std::size_t i, double x) const {  // d2x/dy2
+    if (has_limit(i)) return x - u_[i].log_limit;
+    return u_[i].logarithmic ? x : 0;
+  }
   bool is_log(std::size_t i) const { return u_[i].logarithmic || has_limit(i); }
   double low(std::size_t i) const { return u_[i].lower <= -1e299 ? -1e300 : inner(i, u_[i].lower); }
   double high(std::size_t i) const { return u_[i].upper >= 1e299 ? 1e300 : inner(i, u_[i].upper); }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <type_traits>
 
 #include "base/error.h"
@@ -67,17 +68,20 @@ Bool gradient(Index n, Number* y, Bool, Number* g, UserDataPtr data) {
 }
 
 Bool constraints(Index n, Number* y, Bool, Index m, Number* g, UserDataPtr data) {
-  const auto& A = run_of(data).problem.A;
-  for (Index c = 0; c < m; ++c) g[c] = A.row(c).dot(Eigen::Map<const Eigen::RowVectorXd>(y, n));
-  return TRUE;
+  IpoptProblemOf& p = run_of(data).problem;
+  p.constrain(Eigen::Map<const Eigen::VectorXd>(y, n));
+  Eigen::Map<Eigen::VectorXd>(g, m) = p.g;
+  return p.g.allFinite() ? TRUE : FALSE;
 }
 
-Bool constraint_slopes(Index n, Number*, Bool, Index m, Index, Index* row, Index* column,
+Bool constraint_slopes(Index n, Number* y, Bool, Index m, Index, Index* row, Index* column,
                        Number* values, UserDataPtr data) {
+  IpoptProblemOf& p = run_of(data).problem;
+  if (values != nullptr && p.curves()) p.constrain(Eigen::Map<const Eigen::VectorXd>(y, n));
   for (Index c = 0, k = 0; c < m; ++c)
     for (Index i = 0; i < n; ++i, ++k) {
       if (values != nullptr) {
-        values[k] = run_of(data).problem.A(c, i);
+        values[k] = p.A(c, i);
       } else {
         row[k] = c;
         column[k] = i;
@@ -86,12 +90,15 @@ Bool constraint_slopes(Index n, Number*, Bool, Index m, Index, Index* row, Index
   return TRUE;
 }
 
-Bool curvature(Index n, Number* y, Bool, Number factor, Index, Number*, Bool, Index, Index* row,
-               Index* column, Number* values, UserDataPtr data) {
+Bool curvature(Index n, Number* y, Bool, Number factor, Index m, Number* multipliers, Bool, Index,
+               Index* row, Index* column, Number* values, UserDataPtr data) {
   Eigen::MatrixXd H;
   if (values != nullptr) {
-    const Eigen::MatrixXd& J = run_of(data).at(n, y).J;
-    H = 2 * factor * J.transpose() * J;
+    IpoptProblemOf& p = run_of(data).at(n, y);
+    H = 2 * factor * p.J.transpose() * p.J;
+    if (p.curves())
+      p.bend(Eigen::Map<const Eigen::VectorXd>(y, n),
+             Eigen::Map<const Eigen::VectorXd>(multipliers, m), H);
   }
   for (Index i = 0, k = 0; i < n; ++i)
     for (Index j = 0; j <= i; ++j, ++k) {
@@ -133,6 +140,8 @@ std::string message_of(ApplicationReturnStatus status) {
 }  // namespace
 
 IpoptEnd minimise_by_ipopt(IpoptProblemOf& problem, int max_iterations) {
+  static std::mutex one_at_a_time;  // MUMPS keeps a state of its own
+  const std::lock_guard lock(one_at_a_time);
   static const Calls calls = load();
   // No other method in its stead: the same fit must not depend on what is installed.
   if (!calls.complete)
@@ -140,7 +149,7 @@ IpoptEnd minimise_by_ipopt(IpoptProblemOf& problem, int max_iterations) {
             "install it (Debian: coinor-libipopt1v5)");
   IpoptEnd end;
   const auto n = static_cast<Index>(problem.y.size());
-  const auto m = static_cast<Index>(problem.A.rows());
+  const auto m = static_cast<Index>(problem.least.size());
   constexpr double kNone = 1e20;  // Ipopt's infinity is 1e19
   Eigen::VectorXd low = problem.low.cwiseMax(-kNone), high = problem.high.cwiseMin(kNone),
                   least = problem.least.cwiseMax(-kNone), most = problem.most.cwiseMin(kNone);
@@ -162,12 +171,17 @@ IpoptEnd minimise_by_ipopt(IpoptProblemOf& problem, int max_iterations) {
   set_number("tol", 1e-9);
   // Bounds are kept exactly, so that logarithms stay defined.
   set_number("bound_relax_factor", 0);
-  set("jac_c_constant", "yes");
-  set("jac_d_constant", "yes");
+  if (!problem.curves()) {
+    set("jac_c_constant", "yes");
+    set("jac_d_constant", "yes");
+  }
   calls.tell(ipopt, count);
   Run run{problem};
+  end.of_constraints = Eigen::VectorXd::Zero(m);
+  end.of_low = end.of_high = Eigen::VectorXd::Zero(n);
   const ApplicationReturnStatus status =
-      calls.solve(ipopt, problem.y.data(), nullptr, nullptr, nullptr, nullptr, nullptr, &run);
+      calls.solve(ipopt, problem.y.data(), nullptr, nullptr, end.of_constraints.data(),
+                  end.of_low.data(), end.of_high.data(), &run);
   calls.free(ipopt);
   end.began = true;
   end.message = message_of(status);

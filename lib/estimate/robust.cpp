@@ -44,7 +44,8 @@ double robust_weight(RobustLoss loss, double size) {
 }
 
 RobustResult minimise_robustly(const std::vector<Unknown>& start, const ResidualFunction& residuals,
-                               RobustLoss loss, const LeastSquaresOptions& options) {
+                               RobustLoss loss, const LeastSquaresOptions& options,
+                               const Minimiser& minimiser) {
   RobustResult result;
   std::vector<Unknown> unknowns = start;
   const auto solve = [&](RobustLoss now) {
@@ -58,7 +59,7 @@ RobustResult minimise_robustly(const std::vector<Unknown>& start, const Residual
     };
     for (int round = 0; round < kMostRounds; ++round) {
       ++result.rounds;
-      result.fit = minimise(unknowns, weighted, options);
+      result.fit = minimiser(unknowns, weighted, options);
       if (!result.fit.converged) return;
       for (std::size_t i = 0; i < unknowns.size(); ++i)
         unknowns[i].value = result.fit.x[static_cast<Eigen::Index>(i)];
@@ -104,6 +105,7 @@ RobustResult minimise_robustly(const std::vector<Unknown>& start, const Residual
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     if (!result.fit.at_bound[i]) open.push_back(static_cast<int>(i));
   result.fit.covariance.setZero();
+  result.spread = factor * result.scale * result.scale;
   if (open.empty()) return result;
   result.fit.covariance(open, open) =
       factor * result.scale * result.scale * normal_inverse(J(Eigen::all, open));

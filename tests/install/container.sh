@@ -1,59 +1,64 @@
 #!/usr/bin/env bash
-# container.sh: the Dockerfile, where nothing can build it: every instruction is one that there is, in an order that
-# works; what is copied from the sources is there and not ignored; commands parse, and name presets, scripts and
-# packages that there are. BuildKit's own check runs where it is installed.
-set -uo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/../.." || exit 1
-file=share/container/Dockerfile failures=0
-complain() { printf 'FAILED: %s\n' "$*"; failures=$((failures + 1)); }
-# Instructions in one line each, without comments.
-lines=$(awk '/^[ \t]*(#|$)/ && !more { next } { more = sub(/\\$/, " "); printf "%s%s", $0, more ? "" : "\n" }' "$file")
-[[ ${lines%%[[:space:]]*} == FROM ]] || complain 'it begins with FROM'
-stages=' '
-while read -r instruction rest; do
-  case $instruction in
-    FROM)
-      read -r image as name <<<"$rest"
-      [[ $image == debian:12 || $image == debian:12-slim ]] || complain "FROM $image: built and tried on Debian 12"
-      [[ -z $as || (${as^^} == AS && -n $name) ]] || complain "FROM $rest"
-      stages+="${name:--} "
-      ;;
-    COPY)
-      read -r -a words <<<"$rest"
-      ((${#words[@]} >= 2)) || complain "COPY $rest"
-      if [[ ${words[0]} == --from=* ]]; then
-        [[ $stages == *" ${words[0]#--from=} "* ]] || complain "COPY $rest: no such stage"
-      else
-        for source in "${words[@]:0:${#words[@]}-1}"; do
-          [[ -e $source ]] || complain "COPY $source: is not in the sources"
-          grep -qx "${source%%/*}" "$file.dockerignore" && complain "COPY $source: is ignored"
+# container.sh ROOT BUILD: what can be known of share/container/Dockerfile without building it: its instructions are
+# ones, what it copies is there and not left out of the context, the stages that it names came before, its shell
+# commands parse, its presets are there, and the packages that it installs are those that cpack makes.
+set -euo pipefail
+root=$1 build=$2 file=$root/share/container/Dockerfile failures=0
+complain() { echo "FAILED: $*"; failures=$((failures + 1)); }
+cd "$root"
+
+[[ $(head -n 1 "$file") == '# syntax=docker/dockerfile:1' ]] || complain 'the first line names no syntax (for --mount)'
+read_stages() { # FILE: complains of its lines
+  local line word rest stage source stages=' ' first=yes
+  while IFS= read -r line; do
+    read -r word rest <<<"$line"
+    case $first$word in
+      yesFROM | yesARG) [[ $word == ARG ]] || first=no ;;
+      yes*) complain "$word stands before FROM" ;;
+    esac
+    for stage in $(grep -oE '(--from=|from=)[a-z]+' <<<"$rest" | sed 's/.*=//'); do
+      [[ $stages == *" $stage "* ]] || complain "no stage $stage before: $line"
+    done
+    case $word in
+      FROM)
+        [[ $rest =~ ^debian:bookworm(-slim)?( AS ([a-z]+))?$ ]] || complain "of what: $line"
+        stages+="${BASH_REMATCH[3]:-} "
+        ;;
+      COPY)
+        [[ $rest == *' '* ]] || complain "nowhere to: $line"
+        [[ $rest == --from=* ]] || for source in ${rest% *}; do
+          [[ -e $source ]] || complain "$source is not there: $line"
+          ! grep -qxF "${source%%/*}" "$file.dockerignore" || complain "$source is left out of the context"
         done
-      fi
-      ;;
-    RUN)
-      sh -n -c "$rest" || complain "RUN $rest: does not parse"
-      for preset in $(grep -o -- '--preset [a-z]*' <<<"$rest" | cut -d' ' -f2); do
-        grep -q "\"name\": \"$preset\"" CMakePresets.json || complain "no preset $preset"
-      done
-      for script in $(grep -o 'share/[a-z-]*\.sh' <<<"$rest"); do
-        [[ -x $script ]] || complain "$script cannot be run"
-      done
-      ;;
-    USER | WORKDIR) [[ -n $rest ]] || complain "$instruction without a name" ;;
-    CMD) python3 -c 'import json, sys; assert all(isinstance(w, str) for w in json.loads(sys.argv[1]))' "$rest" ||
-      complain "CMD $rest: no list of words" ;;
-    *) complain "no instruction: $instruction" ;;
-  esac
-done <<<"$lines"
-# What CMake reads of the sources is not ignored.
-while read -r ignored; do
-  [[ $ignored == \#* ]] || ! grep -qE "^ *add_subdirectory\($ignored\)" CMakeLists.txt ||
-    grep -B3 "add_subdirectory($ignored)" CMakeLists.txt | grep -q 'if(' || complain "$ignored is ignored, and built"
-done <"$file.dockerignore"
-for package in hapsim libhapsim0 python3-hapsim libhapsim-dev; do
-  grep -q "PACKAGE_NAME $package)" cmake/HapsimPackage.cmake || complain "no package $package"
+        ;;
+      RUN)
+        while [[ $rest == --* ]]; do rest=${rest#* }; done
+        bash -n <<<"$rest" || complain "the shell does not read: $rest"
+        ;;
+      WORKDIR) [[ $rest == /* ]] || complain "$line" ;;
+      ENV | ARG) [[ $rest =~ ^[A-Z_]+= ]] || complain "$line" ;;
+      CMD | ENTRYPOINT) python3 -c 'import json, sys; assert all(isinstance(w, str) for w in json.loads(sys.argv[1]))' "$rest" || complain "$line" ;;
+      *) complain "no instruction: $line" ;;
+    esac
+  done < <(sed -e '/^#/d' -e ':a' -e '/\\$/{N;s/\\\n/ /;ba' -e '}' "$1" | grep -v '^ *$')
+}
+read_stages "$file"
+
+for preset in $(grep -oE -- '--preset [a-z]+' "$file" | cut -d' ' -f2 | sort -u); do
+  grep -q "\"name\": \"$preset\"" CMakePresets.json || complain "no preset $preset"
 done
-if docker buildx version >/dev/null 2>&1 && docker build --help 2>&1 | grep -q -- --check; then
-  docker build --check -f "$file" . || complain 'docker build --check'
-fi
-((failures == 0))
+made=$(sed -nE 's/^set\(CPACK_DEBIAN_[A-Z]+_PACKAGE_NAME "(.*)"\)/\1/p' "$build/CPackConfig.cmake")
+for package in $(grep -oE '/packages/[a-z0-9-]+_' "$file" | sed 's|.*/||; s/_$//'); do
+  grep -qxF "$package" <<<"$made" || complain "cpack makes no $package"
+done
+
+# The reading finds what is wrong.
+wrong=$(mktemp)
+trap 'rm -f "$wrong"' EXIT
+printf '%s\n' 'FROM debian:bookworm' 'COPY no-such-file /' 'RUN if then' 'COPY --from=none a b' 'RUNS x' >"$wrong"
+found=$(file=/dev/null read_stages "$wrong" 2>&1 || true)
+for words in 'no-such-file is not there' 'the shell does not read' 'no stage none' 'no instruction: RUNS x'; do
+  [[ $found == *"$words"* ]] || complain "'$words' is not found"
+done
+((failures == 0)) && echo 'the recipe of the container is one'
+exit $((failures > 0))

@@ -1,0 +1,157 @@
+#include "estimate/under_constraints.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "estimate/feasible.h"
+
+using namespace hapsim;
+
+namespace {
+
+// Formulas in a, b, c: the unknowns in their order.
+std::vector<SmoothConstraint> among(const std::string& text, Eigen::Index n) {
+  std::vector<SmoothConstraint> result;
+  for (const Relation& one : parse_relations(text, "--constrain")) {
+    std::vector<Eigen::Index> columns;
+    for (const std::string& name : one.difference.names()) columns.push_back(name[0] - 'a');
+    result.push_back(
+        {[f = one.difference, columns, n](const Eigen::VectorXd& x) {
+           const Taylor small = f.at(x(columns));
+           Taylor all{small.value, Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+           all.slope(columns) = small.slope;
+           all.curvature(columns, columns) = small.curvature;
+           return all;
+         },
+         one.equality});
+  }
+  return result;
+}
+
+// r = x - target
+ResidualFunction towards(const Eigen::VectorXd& target) {
+  return [target](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+    r = x - target;
+    if (J != nullptr) *J = Eigen::MatrixXd::Identity(x.size(), x.size());
+  };
+}
+
+}  // namespace
+
+TEST(UnderConstraints, NearestPointOfALine) {
+  const auto found =
+      minimise_under({{3}, {1}}, among("a + b = 1; a <= 5", 2), towards(Eigen::Vector2d(3, 1)));
+  ASSERT_TRUE(found.fit.converged) << found.fit.message;
+  EXPECT_NEAR(found.fit.x[0], 1.5, 1e-12);
+  EXPECT_NEAR(found.fit.x[1], -0.5, 1e-12);
+  EXPECT_EQ(found.active, (std::vector<bool>{true, false}));
+  // |r|^2 = (a + b - 4)^2 / 2 along the line: its slope by a + b is -3; without it |r| is 0.
+  EXPECT_NEAR(found.multiplier[0], -3, 1e-9);
+  EXPECT_NEAR(found.worth[0], found.fit.sum_of_squares, 1e-9);
+  // Only a - b is free: variance 1/2 of each, and they go against each other.
+  EXPECT_NEAR(found.fit.covariance(0, 0), 0.5, 1e-12);
+  EXPECT_NEAR(found.fit.covariance(0, 1), -0.5, 1e-12);
+  EXPECT_EQ(found.directions.cols(), 1);
+}
+
+TEST(UnderConstraints, NearestPointOfACircleAndOfAHyperbola) {
+  const auto circle =
+      minimise_under({{3}, {4}}, among("a^2 + b^2 <= 1", 2), towards(Eigen::Vector2d(3, 4)));
+  ASSERT_TRUE(circle.fit.converged) << circle.fit.message;
+  EXPECT_NEAR(circle.fit.x[0], 0.6, 1e-9);
+  EXPECT_NEAR(circle.fit.x[1], 0.8, 1e-9);
+  // Logarithmic unknowns: (t, 1/t) next to (2, 1) has t^4 - 2 t^3 + t - 1 = 0.
+  const auto hyperbola = minimise_under({{2, 1e-6, 1e6, 1, true}, {1, 1e-6, 1e6, 1, true}},
+                                        among("a*b = 1", 2), towards(Eigen::Vector2d(2, 1)));
+  ASSERT_TRUE(hyperbola.fit.converged) << hyperbola.fit.message;
+  const double t = hyperbola.fit.x[0];
+  EXPECT_NEAR(std::pow(t, 4) - 2 * std::pow(t, 3) + t - 1, 0, 1e-6);
+  EXPECT_NEAR(hyperbola.fit.x[1], 1 / t, 1e-12);
+}
+
+TEST(UnderConstraints, KeepsBoundsToo) {
+  const auto found =
+      minimise_under({{3, -10, 1.2}, {1}}, among("a + b <= 1", 2), towards(Eigen::Vector2d(3, 1)));
+  ASSERT_TRUE(found.fit.converged);
+  EXPECT_NEAR(found.fit.x[0], 1.2, 1e-12);
+  EXPECT_NEAR(found.fit.x[1], -0.2, 1e-12);
+  EXPECT_TRUE(found.fit.at_bound[0]);
+  EXPECT_EQ(found.directions.cols(), 0);
+  EXPECT_EQ(found.fit.covariance.norm(), 0);
+}
+
+// What the data hardly see decides as exactly what binds as what they see well.
+TEST(UnderConstraints, BadlyScaledProblem) {
+  const ResidualFunction bad = [](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                  Eigen::MatrixXd* J) {
+    const Eigen::Vector3d weight(1e4, 1, 1e-3);
+    r = weight.cwiseProduct(x - Eigen::Vector3d(1, 2, 3));
+    if (J != nullptr) *J = weight.asDiagonal();
+  };
+  const auto found = minimise_under({{1}, {2}, {3}}, among("c <= b; a >= 0", 3), bad);
+  ASSERT_TRUE(found.fit.converged);
+  // c gives way, b by its share: weights 1 and 1e-6.
+  EXPECT_NEAR(found.fit.x[0], 1, 1e-9);
+  EXPECT_NEAR(found.fit.x[1], 2 + 1e-6 / (1 + 1e-6), 1e-8);
+  EXPECT_NEAR(found.fit.x[2], found.fit.x[1], 1e-9);
+}
+
+// Far from linear, and much is left: exp(-b t) through what no exponential is.
+TEST(UnderConstraints, ResidualsThatBend) {
+  const ResidualFunction decay = [](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                    Eigen::MatrixXd* J) {
+    constexpr int n = 20;
+    r.resize(n);
+    if (J != nullptr) J->resize(n, 2);
+    for (int i = 0; i < n; ++i) {
+      const double t = 0.2 * i, e = std::exp(-x[1] * t);
+      r[i] = x[0] * e - 1 / (1 + t);
+      if (J != nullptr) J->row(i) << e, -x[0] * t * e;
+    }
+  };
+  const auto found =
+      minimise_under({{1, 0, 10}, {0.5, 1e-3, 10, 1, true}}, among("a = 2*b", 2), decay);
+  ASSERT_TRUE(found.fit.converged);
+  // Along a = 2 b by golden section.
+  double low = 0.1, high = 2;
+  const auto value = [&](double b) {
+    Eigen::VectorXd r;
+    decay(Eigen::Vector2d(2 * b, b), r, nullptr);
+    return r.squaredNorm();
+  };
+  for (int k = 0; k < 200; ++k) {
+    const double g = (std::sqrt(5.0) - 1) / 2, p = high - g * (high - low),
+                 q = low + g * (high - low);
+    (value(p) < value(q) ? high : low) = value(p) < value(q) ? q : p;
+  }
+  EXPECT_NEAR(found.fit.x[1], low, 1e-6);
+}
+
+TEST(UnderConstraints, SaysWhereNothingKeepsThem) {
+  const std::vector<Unknown> start{{3, 0, 4}, {1}, {1}};
+  const auto constraints = among("c >= 7; a >= b + 2; b >= 3; c <= 9", 3);
+  const auto found = minimise_under(start, constraints, towards(Eigen::Vector3d(1, 1, 1)));
+  EXPECT_FALSE(found.fit.converged);
+  EXPECT_EQ(found.fit.message, "no point keeps all constraints");
+  const Conflict conflict = find_conflict(start, constraints);
+  EXPECT_EQ(conflict.constraints, (std::vector<std::size_t>{1, 2}));
+  EXPECT_TRUE(conflict.lower.empty());
+  EXPECT_EQ(conflict.upper, (std::vector<std::size_t>{0}));
+}
+
+TEST(UnderConstraints, FindsAPointFarFromTheStart) {
+  const std::vector<Unknown> start{{1, 1e-3, 1e9, 1, true}, {1, 1e-3, 1e9, 1, true}};
+  const auto point = feasible_point(start, among("a*b = 1e6; a = 100*b", 2));
+  ASSERT_TRUE(point.has_value());
+  EXPECT_NEAR((*point)[0], 1e4, 1e-3);
+  EXPECT_NEAR((*point)[1], 1e2, 1e-5);
+}
+
+TEST(UnderConstraints, AsManyEqualitiesAsUnknowns) {
+  const auto found =
+      minimise_under({{3}, {1}}, among("a = 2*b; a + b = 6", 2), towards(Eigen::Vector2d(0, 0)));
+  ASSERT_TRUE(found.fit.converged);
+  EXPECT_NEAR(found.fit.x[0], 4, 1e-9);
+  EXPECT_NEAR(found.fit.x[1], 2, 1e-9);
+}
