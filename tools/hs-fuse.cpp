@@ -48,7 +48,10 @@ ToolSpec specification() {
       "and "
       "the slow source's noise grows, so that the fast source gains weight in fast motion. A "
       "correction is let in over a short time, so that no step is felt.",
-      "--learn finds the filter's parameters under which the slow forces, as they differ from what "
+      "--learn finds first what the slow forces teach by law: a polynomial of the displacement and "
+      "its memories, kept where it foretells presses left out (of four or more), added to the fast "
+      "force at the places of these presses and nowhere else. Then it finds the filter's "
+      "parameters under which the slow forces, as they differ from what "
       "was predicted, are most likely. The consistency of the filter is told as NIS, the mean of "
       "those differences squared over their variances: 1 when the filter knows its own error, with "
       "the band that it should lie in.",

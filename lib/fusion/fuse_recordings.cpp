@@ -92,7 +92,8 @@ class Run {
       const std::vector<SlowRow>& rows = slow[press.id];
       std::size_t next = 0;
       const SlowRow *last = nullptr, *before = nullptr;  // by their own times
-      fusion_.begin(fast_.t[static_cast<std::size_t>(press.rows.front())]);
+      const auto start = static_cast<std::size_t>(press.rows.front());
+      fusion_.begin(fast_.t[start], fast_.position[start]);
       for (const int row : press.rows) {
         const auto i = static_cast<std::size_t>(row);
         const double t = fast_.t[i];
@@ -151,6 +152,47 @@ const std::array<Entry, 9>& entries() {
 }
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
+std::vector<LessonPress> lessons_of(const Recording& fast,
+                                    const std::map<int, std::vector<SlowRow>>& slow) {
+  std::vector<LessonPress> lessons;
+  for (const Press& press : fast.presses()) {
+    LessonPress lesson;
+    lesson.contact = fast.position[static_cast<std::size_t>(press.rows.front())];
+    for (const int row : press.rows) {
+      const auto i = static_cast<std::size_t>(row);
+      lesson.t.push_back(fast.t[i]);
+      lesson.u.push_back(fast.u[i]);
+      lesson.fast.push_back(fast.f[i]);
+    }
+    for (const SlowRow& row : slow.at(press.id)) {
+      lesson.slow_t.push_back(row.t);
+      lesson.slow.push_back(row.force);
+    }
+    lessons.push_back(std::move(lesson));
+  }
+  return lessons;
+}
+
+// What was taught, in the table: its scale and times, then the weights.
+struct TaughtEntry {
+  std::string name, axis, unit;
+  double* value;
+};
+std::vector<TaughtEntry> taught_entries(TaughtCorrection& taught) {
+  std::vector<TaughtEntry> entries;
+  for (std::size_t a = 0; a < 3; ++a)
+    entries.push_back({"taught_scale", kAxes[a], "m", &taught.scale[static_cast<int>(a)]});
+  for (std::size_t a = 0; a < 3; ++a)
+    entries.push_back({"taught_place", kAxes[a], "m", &taught.place[static_cast<int>(a)]});
+  entries.push_back({"taught_reach", "", "m", &taught.reach});
+  for (std::size_t m = 0; m < TaughtCorrection::kTimes; ++m)
+    entries.push_back({fmt::format("taught_time{}", m + 1), "", "s", &taught.time[m]});
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t k = 0; k < TaughtCorrection::kWeights; ++k)
+      entries.push_back({fmt::format("taught{}", k + 1), kAxes[a], "N", &taught.weight[a][k]});
+  return entries;
+}
+
 }  // namespace
 
 FusedForces fuse(const Recording& fast, const SlowSource& slow,
@@ -158,9 +200,9 @@ FusedForces fuse(const Recording& fast, const SlowSource& slow,
   return Run(fast, parameters)(slow_rows(fast, slow));
 }
 
-LearnedFusion learn_fusion(const Recording& fast, const SlowSource& slow,
+LearnedFusion learn_fusion(const Recording& source, const SlowSource& slow,
                            const FusionParameters& start) {
-  std::map<int, std::vector<SlowRow>> rows = slow_rows(fast, slow);
+  std::map<int, std::vector<SlowRow>> rows = slow_rows(source, slow);
   std::size_t count = 0;
   for (const auto& [press, list] : rows) count += list.size();
   if (count < 20)
@@ -169,6 +211,16 @@ LearnedFusion learn_fusion(const Recording& fast, const SlowSource& slow,
   LearnedFusion result;
   result.converged = true;
   result.parameters = start;
+  // What is left of a press is learned with what the others teach of it.
+  const Taught taught = teach(lessons_of(source, rows), source.tool_radius());
+  result.parameters.taught = {};
+  Recording fast = source;
+  std::size_t lesson = 0;
+  for (const Press& press : source.presses()) {
+    for (std::size_t k = 0; k < press.rows.size(); ++k)
+      fast.f[static_cast<std::size_t>(press.rows[k])] += taught.by_others[lesson][k];
+    ++lesson;
+  }
   for (int a = 0; a < 3; ++a) {  // the components do not know of each other
     AxisFusion& axis = result.parameters.axis[static_cast<std::size_t>(a)];
     axis.force_scale = 1e-6;
@@ -207,6 +259,7 @@ LearnedFusion learn_fusion(const Recording& fast, const SlowSource& slow,
     result.converged = result.converged && found.converged;
     result.runs += found.evaluations;
   }
+  result.parameters.taught = taught.correction;
   return result;
 }
 
@@ -234,6 +287,7 @@ ForceQuality force_quality(const Recording& motion, const std::vector<Vec3>& for
 FusionParameters read_fusion(Input& input) {
   const CsvTable csv = read_csv(input);
   FusionParameters parameters;
+  const std::vector<TaughtEntry> taught = taught_entries(parameters.taught);
   const std::vector<double> value = csv.numbers("value");
   const int column = csv.find("parameter"), axes = csv.find("axis");
   for (const auto& [found, name] : {std::pair{column, "parameter"}, std::pair{axes, "axis"}})
@@ -250,6 +304,15 @@ FusionParameters read_fusion(Input& input) {
     };
     if (name == "blend") {
       parameters.blend = bounded(0, 10);
+      continue;
+    }
+    const auto lesson = std::find_if(taught.begin(), taught.end(), [&](const TaughtEntry& e) {
+      return e.name == name && e.axis == axis;
+    });
+    if (lesson != taught.end()) {
+      *lesson->value = lesson->unit == "N"   ? bounded(-1e9, 1e9)
+                       : lesson->unit == "s" ? bounded(1e-9, 1e6)
+                                             : bounded(-1e3, 1e3);
       continue;
     }
     const auto found = std::find_if(entries().begin(), entries().end(),
@@ -270,6 +333,10 @@ void write_fusion(std::ostream& out, const FusionParameters& parameters) {
     for (const Entry& e : entries())
       csv.row({e.name, kAxes[a], format_number(parameters.axis[a].*(e.value)), e.unit});
   csv.row({"blend", "", format_number(parameters.blend), "s"});
+  TaughtCorrection taught = parameters.taught;
+  if (!taught.taught()) return;
+  for (const TaughtEntry& e : taught_entries(taught))
+    csv.row({e.name, e.axis, format_number(*e.value), e.unit});
 }
 
 }  // namespace hapsim

@@ -42,7 +42,7 @@ void FusedLoop::take_place(const Place& place) noexcept {
 }
 
 Vec3 FusedLoop::advance(double t, const Vec3& u) noexcept {
-  if (begins_) fusion_.begin(t);
+  if (begins_) fusion_.begin(t, point_);
   begins_ = false;
   const Vec3 fast = fast_.press(t, u);
   const Vec3 fused = fusion_.step(t, u, fast);

@@ -42,12 +42,13 @@ std::array<double, 2> FusionReport::band() const {
 
 Fusion::Fusion(const FusionParameters& parameters, std::size_t history)
     : parameters_(parameters),
+      taught_(parameters.taught),
       filter_{Filter(history), Filter(history), Filter(history)},
       ring_(history) {
   scale_.fill(1);
   agreed_.fill(kShareStart * kShareKnown);
   added_.fill(kShareKnown);
-  begin(0);
+  begin(0, parameters.taught.place);
 }
 
 // Up to 1 mm/s, 2 mm/s, 4 mm/s, ...
@@ -62,7 +63,7 @@ Fusion::Filter::Vector Fusion::features(int axis, double force) const noexcept {
           0};
 }
 
-void Fusion::begin(double t) noexcept {
+void Fusion::begin(double t, const Vec3& contact) noexcept {
   for (std::size_t a = 0; a < 3; ++a) {
     Filter& filter = filter_[a];
     Filter::Vector x = Filter::Vector::Zero();
@@ -75,6 +76,8 @@ void Fusion::begin(double t) noexcept {
     filter.restart(t, x, P);
   }
   known_ = true;
+  taught_.begin();
+  taught_here_ = parameters_.taught.taught() && parameters_.taught.holds_at(contact);
   first_ = 0;
   next_ = 0;
   ring_[next_++] = {};
@@ -86,9 +89,11 @@ void Fusion::begin(double t) noexcept {
   last_.setZero();
 }
 
-Vec3 Fusion::step(double t, const Vec3& u, const Vec3& fast) noexcept {
+Vec3 Fusion::step(double t, const Vec3& u, const Vec3& source) noexcept {
   const Sample& before = sample(next_ - 1);
   const double dt = std::max(t - before.t, 0.0);
+  Vec3 fast = source;
+  if (taught_here_) fast += taught_.step(dt, u);
   const double rate = dt > 0 ? (u - u_).norm() / dt : before.rate;
   for (int a = 0; a < 3; ++a) {
     const AxisFusion& p = parameters_.axis[static_cast<std::size_t>(a)];

@@ -6,6 +6,7 @@
 
 #include "base/vec3.h"
 #include "estimate/delayed_filter.h"
+#include "fusion/taught_correction.h"
 
 namespace hapsim {
 
@@ -27,8 +28,9 @@ struct AxisFusion {
 };
 struct FusionParameters {
   std::array<AxisFusion, 3> axis;
-  double blend = 0.01;  // time over which a correction is let in [s]; 0: at once
-  bool weighs = true;   // false: all that the filter adds is let in, whatever it has been worth
+  double blend = 0.01;      // time over which a correction is let in [s]; 0: at once
+  bool weighs = true;       // false: all that the filter adds is let in, whatever it has been worth
+  TaughtCorrection taught;  // added to the fast force before all else
 };
 
 struct FusionReport {
@@ -49,7 +51,8 @@ struct FusionReport {
   std::array<double, 2> band() const;
 };
 
-// A Kalman filter whose input is the fast force (thesis 4.4, its errata put right).
+// A Kalman filter whose input is the fast force (thesis 4.4, its errata put right), after what it
+// was taught to miss.
 //
 // Weights. The magnitude of the tool's rate decides: the faster the motion, the less b may walk and
 // the noisier the slow source counts, so the fast source gains weight. The noise includes what half
@@ -76,7 +79,9 @@ class Fusion {
   // `history`: steps that a slow force may be late.
   explicit Fusion(const FusionParameters& parameters, std::size_t history = 4096);
 
-  void begin(double t) noexcept;  // a new contact
+  // A new contact, where it is [m]: away from the lessons' places nothing that they taught is
+  // added.
+  void begin(double t, const Vec3& contact) noexcept;
   // The next sample: displacement u [m] and fast force [N] at t [s]. The fused force now [N].
   Vec3 step(double t, const Vec3& u, const Vec3& fast) noexcept;
   // A slow force of time t that has just come. Taken: whether it was of use.
@@ -105,6 +110,7 @@ class Fusion {
   Vec3 variance() const noexcept;  // of it
 
   FusionParameters parameters_;
+  TaughtForce taught_;
   std::array<Filter, 3> filter_;
   std::vector<Sample> ring_;
   std::size_t first_ = 0, next_ = 0;
@@ -115,7 +121,7 @@ class Fusion {
   double share_ = 1;                      // of the filter's in what is given out
   Vec3 u_ = Vec3::Zero(), pending_ = Vec3::Zero(), last_ = Vec3::Zero();
   FusionReport report_;
-  bool known_ = false;
+  bool known_ = false, taught_here_ = false;
 };
 
 }  // namespace hapsim

@@ -103,7 +103,7 @@ double weight(double rate) {
   p.blend = 0;
   for (AxisFusion& axis : p.axis) axis.walk_rate = 0.1;
   Fusion fusion(p);
-  fusion.begin(0);
+  fusion.begin(0, Vec3::Zero());
   double before = 0;
   for (int i = 1; i <= 200; ++i) {
     before = fusion.step(1e-3 * i, {0, 0, -1e-3 * rate * i}, {0, 0, 1}).z();
@@ -129,7 +129,7 @@ TEST(Fusion, KnowsNothingBeforeItIsThere) {
 
 TEST(Fusion, RefusesWhatBelongsToNoSample) {
   Fusion fusion({}, 64);
-  fusion.begin(1);
+  fusion.begin(1, Vec3::Zero());
   for (int i = 1; i <= 200; ++i) fusion.step(1 + 1e-3 * i, Vec3::Zero(), {0, 0, 1});
   EXPECT_FALSE(fusion.observe(0.5, {0, 0, 1}));    // before the contact
   EXPECT_FALSE(fusion.observe(1.001, {0, 0, 1}));  // forgotten
