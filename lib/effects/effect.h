@@ -46,6 +46,7 @@ struct EffectCard {
   std::vector<ParameterCard> parameters;
   bool terms = false;              // may be repeated: E1, tau1, E2, tau2, ...
   bool needs_time = false;         // not testable without a t column
+  bool needs_session = false;      // not testable if the time begins anew with each press
   bool needs_positions = false;    // not testable with a single contact position
   bool needs_temperature = false;  // not testable unless the column temp varies
   bool needs_sideways = false;     // not testable without tangential displacement
@@ -67,6 +68,9 @@ struct EffectCard {
   // A smooth field over the body. Parameters whose names end in 1 are a set a place, learned in
   // every fit from what each place asks for; the others are common to all.
   bool is_field = false;
+  // Fitted only where what it changes about its starts takes something away, to first order: for
+  // what is smooth in its parameters and what most recordings have nothing of.
+  bool screened = false;
   // The body itself, which every model has and which is neither tried nor removed: its parameters
   // that are Young's modulus (a row a region) and Poisson's ratio.
   std::string modulus, poissons_ratio;
