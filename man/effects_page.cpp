@@ -32,6 +32,7 @@ std::vector<std::string> needs(const hapsim::EffectCard& card) {
     if (needed) list.emplace_back(what);
   };
   add(card.needs_time, "the column t");
+  add(card.needs_session, "one clock for all presses");
   add(card.needs_positions, "four places or more");
   add(card.needs_temperature, "the column temp, warm and cold presses");
   add(card.needs_sideways, "presses that move sideways");

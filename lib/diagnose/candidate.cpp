@@ -176,6 +176,35 @@ Baseline make_baseline(const Model& model, const TrialGround& g, const Folds& fo
   return base;
 }
 
+bool worth_a_fit(const Effect& effect, const Baseline& base, const TrialGround& g) {
+  constexpr double kShare = 0.5;  // of the price
+  const EffectCard& card = effect.card();
+  if (!card.screened || !lacking_for(card, g.dataset).empty()) return true;
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd f = model_forces(base.fitted, g.experiment, all, false).f;
+  const Weights weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor);
+  Eigen::VectorXd left = measured_forces(g.dataset, all) - f;
+  weights.whiten(left);
+  const double price =
+      static_cast<double>(card.parameters.size()) * std::log(static_cast<double>(left.size()));
+  for (const Model& start :
+       with_effect(base.fitted, card.name, g.experiment, all, trial_extend_options(g))) {
+    Signal signal;
+    try {
+      signal = model_forces(start, g.experiment, base.fitted.about, all, true);
+    } catch (const Error& error) {  // the fit tells of it
+      if (error.code() != ExitCode::kNoConvergence) throw;
+      return true;
+    }
+    Eigen::MatrixXd columns(signal.df.rows(), signal.df.cols() + 1);
+    columns << signal.df, signal.f - f;
+    weights.whiten(columns);
+    const Eigen::VectorXd beside = left - columns * columns.colPivHouseholderQr().solve(left);
+    if (left.squaredNorm() - beside.squaredNorm() > kShare * price) return true;
+  }
+  return false;
+}
+
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
                                     const TrialGround& g, std::string& lack) {
   const EffectCard& card = effect.card();

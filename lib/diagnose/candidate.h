@@ -63,6 +63,13 @@ struct Measured {
 };
 
 Baseline make_baseline(const Model& model, const TrialGround& ground, const Folds& folds);
+// Whether an effect is worth a fit: of one that is `screened`, whether what its starts change and
+// their derivatives, in any proportion, take away half of what its parameters cost (the information
+// criterion's log n each) from the residual. Costs one evaluation a start; chance takes some 1 a
+// parameter.
+bool worth_a_fit(const Effect& effect, const Baseline& baseline, const TrialGround& ground);
+inline constexpr const char* kTakesNothing =
+    "nothing like what it would change is in what the model leaves";
 // Fitted from all its starts; nothing when the data cannot test it (`lack` says why).
 std::optional<Candidate> try_effect(const Effect& effect, const Baseline& baseline,
                                     const TrialGround& ground, std::string& lack);

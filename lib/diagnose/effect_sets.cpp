@@ -33,6 +33,10 @@ const EffectSet* EffectSets::grown(const EffectSet& from, const Effect& effect) 
   if (const auto known = all_.find(names); known != all_.end()) return &known->second;
   if (refused_.count(names) > 0) return nullptr;
   options_.tell("testing " + effect.card().name);
+  if (!worth_a_fit(effect, {from.fitted, {}, {}}, ground_)) {
+    refused_[names] = kTakesNothing;
+    return nullptr;
+  }
   std::string lack;
   auto candidate = try_effect(effect, {from.fitted, {}, {}}, ground_, lack);
   if (candidate) {

@@ -220,6 +220,11 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
       continue;
     }
     count(*effect);
+    if (!worth_a_fit(*effect, base, g)) {
+      round.ruled_out.push_back(ruled_out(*effect, base));
+      round.ruled_out.back().evidence = kTakesNothing;
+      continue;
+    }
     std::string lack;
     auto candidate = try_effect(*effect, base, g, lack);
     if (!candidate) {

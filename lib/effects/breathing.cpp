@@ -46,6 +46,7 @@ class Breathing : public Effect {
                        {"phase", "rad", "phase when the session begins", 0, 0, -20, 20, 0.1,
                         false}},
         .needs_time = true,
+        .needs_session = true,
         .needs_line = true,
         .signature =
             "a force that goes up and down at one frequency through all presses, whatever "

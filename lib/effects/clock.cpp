@@ -42,6 +42,7 @@ class Clock : public Effect {
                        {"r", "1", "how much earlier by the time of the session", 0, 0, -0.1, 0.1,
                         1e-4, false}},
         .needs_time = true,
+        .screened = true,
         .signature =
             "forces that rise before the tool moves and stand still before it does, which no "
             "material can; with a rate, more so from press to press",

@@ -46,6 +46,7 @@ struct EffectCard {
   std::vector<ParameterCard> parameters;
   bool terms = false;              // may be repeated: E1, tau1, E2, tau2, ...
   bool needs_time = false;         // not testable without a t column
+  bool needs_session = false;      // not testable if the time begins anew with each press
   bool needs_positions = false;    // not testable with a single contact position
   bool needs_temperature = false;  // not testable unless the column temp varies
   bool needs_sideways = false;     // not testable without tangential displacement
@@ -70,6 +71,9 @@ struct EffectCard {
   bool is_field = false;
   // A curve of no law over depth, time or the session: tried where no named effect explains.
   bool learned = false;
+  // Fitted only where what it changes about its starts takes something away, to first order: for
+  // what is smooth in its parameters and what most recordings have nothing of.
+  bool screened = false;
   // The body itself, which every model has and which is neither tried nor removed: its parameters
   // that are Young's modulus (a row a region) and Poisson's ratio.
   std::string modulus, poissons_ratio;

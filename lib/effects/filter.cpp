@@ -90,6 +90,7 @@ class Filter : public Effect {
                         kOpen, 5, 1e-3, kOpen, 1, true},
                        {"zeta", "1", "damping", 0.7071, 0.7071, 0.05, 1, 0.1, false}},
         .needs_time = true,
+        .screened = true,
         .signature =
             "late and rounded after each change of speed, not at once too soft as behind a lag of "
             "first order; below a damping of 0.7 it swings over",

@@ -60,6 +60,7 @@ class LearnedDrift : public Effect {
             "session",
         .parameters = parameters(),
         .needs_time = true,
+        .needs_session = true,
         .among_presses = true,
         .form_error = 0.05,
         .learned = true,

@@ -59,6 +59,7 @@ class SensorHysteresis : public Effect {
                        {"r", "1", "share of the largest force within which it turns", 0.2, 0.2,
                         0.02, 2, 0.2, true}},
         .needs_return = true,
+        .screened = true,
         .signature =
             "too large a force on the way out, in proportion to the force and at any speed, and "
             "none too large at its ends",

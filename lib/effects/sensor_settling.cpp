@@ -29,7 +29,9 @@ class SensorSettling : public Effect {
                        {"by", "N", "offset along y at the start", 0, 0, -1e6, 1e6, 0.1, false},
                        {"bz", "N", "offset along z at the start", 0, 0, -1e6, 1e6, 0.1, false}},
         .needs_time = true,
+        .needs_session = true,
         .among_presses = true,
+        .screened = true,
         .signature =
             "an error that changes fast in the first presses and then no more, in the air "
             "as well",

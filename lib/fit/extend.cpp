@@ -45,6 +45,13 @@ double temperature_range(const Dataset& dataset) {
   return high - low;
 }
 
+bool begins_anew(const Dataset& dataset) {
+  for (std::size_t e = 1; e < dataset.episodes.size(); ++e)
+    if (dataset.episodes[e].view.session.front() < dataset.episodes[e - 1].view.session.back())
+      return true;
+  return false;
+}
+
 bool moves_sideways(const PressView& view) {
   double along = 0, across = 0;
   for (std::size_t i = 0; i < view.size(); ++i) {
@@ -222,6 +229,8 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
     for (const Episode& e : dataset.episodes) longest = std::max(longest, e.view.t.back());
     if (longest <= 0) return "all samples have the same time: record the time of every sample";
   }
+  if (effect.needs_session && begins_anew(dataset))
+    return "the time begins anew with a press: record one clock that runs through all of them";
   if (effect.needs_positions && dataset.positions.size() < 4)
     return "too few contact positions: press at four places or more";
   if (effect.is_field && dataset.positions.size() < kLeastPlaces)

@@ -101,6 +101,15 @@ TEST(Testable, AnEndOfTheSensorIsInTheReadings) {
   EXPECT_EQ(summarise(dataset_of(r), 1).ceiling, Vec3(0, 0, 0.5));
 }
 
+TEST(Testable, ASessionHasOneClock) {
+  Recording r = two_presses();
+  EXPECT_EQ(lack("sensor-settling", r), "");
+  r.t[5] = 0.1;
+  r.t[6] = 0.2;
+  EXPECT_NE(lack("sensor-settling", r).find("begins anew"), std::string::npos);
+  EXPECT_EQ(lack("clock", r), "");
+}
+
 TEST(Testable, ARadiusIsThatOfAFlatToolAtSeveralPlaces) {
   Recording r = two_presses();
   EXPECT_NE(lack("tool-radius", r).find("too few contact positions"), std::string::npos);
