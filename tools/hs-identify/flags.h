@@ -10,8 +10,8 @@ inline constexpr TimeFlag until{"--until"};
 inline constexpr FileFlag image{"--image"}, library{"--library"}, diagnosis{"--diagnosis"},
     history{"--history"}, locations{"--locations"}, field{"--field"}, data{"--data"};
 inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"--effects"},
-    add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, terms{"--terms"},
-    regions{"--regions"};
+    add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, constrain{"--constrain"},
+    terms{"--terms"}, regions{"--regions"};
 inline constexpr TimesFlag windows{"--windows"};
 inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"}, memory{"--memory"},
     boundary{"--refine-boundary"}, starts{"--starts"}, seed{"--seed"};

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/shell_words.h"
 #include "common_options.h"
+#include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_request.h"
 #include "fit/fit_words.h"
@@ -91,6 +92,8 @@ int run(const Arguments& arguments) {
   IdentifyRequest request;
   request.fit = plan;
   request.regions = parse_regions(arguments[flag::regions], flag::regions.name);
+  const std::vector<Relation> constraints =
+      parse_constraints(arguments.list(flag::constrain), flag::constrain.name);
   const SearchState search = search_asked(arguments, plan.start);
   GivenRecordings given = load_recordings(arguments, plan.start);
   require_fit_for(arguments, plan, given.dataset);
@@ -112,6 +115,7 @@ int run(const Arguments& arguments) {
   fit_options.skip = search.done;
   fit_options.robust = robust_loss(arguments[flag::robust]);
   fit_options.profile = arguments[flag::profile];
+  fit_options.constraints = constraints;
   request.folds = static_cast<int>(arguments[flag::folds]);
 
   SearchWatch watch(arguments);
