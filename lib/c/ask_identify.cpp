@@ -7,6 +7,7 @@
 #include "effects/catalogue.h"
 #include "experiment/plausible.h"
 #include "experiment/preparation_flags.h"
+#include "fit/constraints.h"
 #include "fit/fit_words.h"
 #include "identify/identify.h"
 #include "recording/tools_together.h"
@@ -21,7 +22,7 @@ using namespace hapsim;
 namespace {
 
 constexpr TextFlag kEffects{"--effects"}, kAdd{"--add"}, kRemove{"--remove"}, kFix{"--fix"},
-    kFree{"--free"}, kTerms{"--terms"}, kRegions{"--regions"};
+    kFree{"--free"}, kConstrain{"--constrain"}, kTerms{"--terms"}, kRegions{"--regions"};
 constexpr TimesFlag kWindows{"--windows"};
 constexpr IntegerFlag kIdentifyFolds{"--folds"}, kStarts{"--starts"}, kIdentifySeed{"--seed"};
 constexpr ChoiceFlag kRobust{"--robust"};
@@ -38,6 +39,7 @@ std::vector<Option> known_to_identify() {
       {.flag = kRemove, .value = "LIST", .repeatable = true},
       {.flag = kFix, .value = "LIST", .repeatable = true},
       {.flag = kFree, .value = "LIST", .repeatable = true},
+      {.flag = kConstrain, .value = "FORMULA", .repeatable = true},
       {.flag = kTerms, .value = "N"},
       {.flag = kWindows, .value = "LIST", .repeatable = true},
       {.flag = kRegions, .value = "N", .default_text = "auto"},
@@ -78,6 +80,7 @@ IdentifyRequest request_of(const Asked& asked, const hs_model* start) {
   request.options.seed = static_cast<std::uint64_t>(arguments[kIdentifySeed]);
   request.options.robust = robust_loss(arguments[kRobust]);
   request.options.profile = arguments[kProfile];
+  request.options.constraints = parse_constraints(arguments.list(kConstrain), kConstrain.name);
   request.options.watch = [stop = asked.stop()](const FitProgress&) { return !stop(); };
   return request;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "estimate/ipopt.h"
 
@@ -27,6 +28,11 @@ class Subproblem : public IpoptProblemOf {
     most = least;
     for (std::size_t c = 0; c < constraints.size(); ++c)
       if (!constraints[c].equality) most[static_cast<Index>(c)] = 1e300;
+    // Of one size, whatever their units.
+    for (const SmoothConstraint& c : constraints) {
+      const double slope = in_steps(c, coordinates_, all_).slope.norm();
+      weight_.push_back(std::isfinite(slope) && slope > 0 ? 1 / slope : 1);
+    }
   }
   VectorXd inner() const {
     VectorXd at(static_cast<Index>(open_.size()));
@@ -47,8 +53,10 @@ class Subproblem : public IpoptProblemOf {
   // Of one constraint, by the unknowns that can move.
   Taylor constraint(std::size_t c, const VectorXd& at) const {
     const Taylor one = in_steps(constraints_[c], coordinates_, outer(at));
-    return {one.value, one.slope(open_), one.curvature(open_, open_)};
+    const double w = weight_[c];
+    return {w * one.value, w * one.slope(open_), w * one.curvature(open_, open_)};
   }
+  double value(const VectorXd& at) const { return (R * (at - about) + q).squaredNorm(); }
   void evaluate(const VectorXd& at) override {
     r = R * (at - about) + q;
     J = R;
@@ -76,42 +84,53 @@ class Subproblem : public IpoptProblemOf {
   const Coordinates& coordinates_;
   std::vector<Index> open_;
   VectorXd all_;
+  std::vector<double> weight_;
 };
 
-// The exact end of a subproblem near the point where Ipopt ended: Newton's method on the conditions
-// of Karush, Kuhn and Tucker with what binds there, to which is added what that breaks and from
-// which is taken what it pulls at.
-class Polish {
+// The exact end of a subproblem: Newton's method on the conditions of Karush, Kuhn and Tucker with
+// what is taken to bind, to which is added what that breaks and from which is taken what it pulls
+// at.
+class ActiveSet {
  public:
-  Polish(Subproblem& p, const IpoptEnd& end)
-      : p_(p), binds_(static_cast<std::size_t>(p.least.size())), held_(p.y.size()) {
+  ActiveSet(Subproblem& p, std::vector<bool> binds)
+      : p_(p),
+        binds_(std::move(binds)),
+        held_(Eigen::VectorXi::Zero(p.y.size())),
+        factor_(VectorXd::Zero(p.least.size())) {
+    for (std::size_t c = 0; c < binds_.size(); ++c)
+      binds_[c] = binds_[c] || is_equality(static_cast<Index>(c));
+  }
+  // Near the point where Ipopt ended.
+  ActiveSet(Subproblem& p, const IpoptEnd& end)
+      : ActiveSet(p, std::vector<bool>(static_cast<std::size_t>(p.least.size()))) {
     p.constrain(p.y);
     for (Index c = 0; c < p.g.size(); ++c) {
       const double slope = std::max(p.A.row(c).norm(), 1e-300);
-      binds_[static_cast<std::size_t>(c)] =
-          is_equality(c) || std::abs(end.of_constraints[c]) * slope > p.g[c] / slope;
+      if (std::abs(end.of_constraints[c]) * slope > p.g[c] / slope)
+        binds_[static_cast<std::size_t>(c)] = true;
     }
     for (Index i = 0; i < p.y.size(); ++i)
       held_[i] = end.of_low[i] > p.y[i] - p.low[i] ? -1 : end.of_high[i] > p.high[i] - p.y[i];
     factor_ = -end.of_constraints;
   }
-  // Sets the subproblem's y where it comes to an end that is no worse; else the interior point
-  // stays.
-  void run() {
-    const auto most = 4 + 2 * (p_.least.size() + p_.y.size());
-    for (Index pass = 0; pass < most; ++pass) {
-      if (!solve()) return;
+  // Sets the subproblem's y, and true, where it comes to a minimum that is no worse than `most`.
+  bool run(double most) {
+    const auto passes = 4 + 2 * (p_.least.size() + p_.y.size());
+    for (Index pass = 0; pass < passes; ++pass) {
+      if (!solve()) return false;
       if (add_broken() || release()) continue;
-      if (value(y_) <= value(p_.y) * (1 + 1e-9) + 1e-15)
-        p_.y = y_.cwiseMax(p_.low).cwiseMin(p_.high);
-      return;
+      if (!is_minimum() || !(value(y_) <= most * (1 + 1e-9) + 1e-15)) return false;
+      p_.y = y_.cwiseMax(p_.low).cwiseMin(p_.high);
+      return true;
     }
+    return false;
   }
+  const std::vector<bool>& binds() const { return binds_; }
 
  private:
   static constexpr double kRounding = 1e-11;
   bool is_equality(Index c) const { return p_.most[c] == 0; }
-  double value(const VectorXd& y) const { return (p_.R * (y - p_.about) + p_.q).squaredNorm(); }
+  double value(const VectorXd& y) const { return p_.value(y); }
 
   bool solve() {
     const Index n = p_.y.size();
@@ -144,6 +163,8 @@ class Polish {
       }
       const VectorXd step = K.completeOrthogonalDecomposition().solve(right);
       if (!step.allFinite()) return false;
+      curvature_ = K.topLeftCorner(n, n);
+      across_ = K.bottomLeftCorner(rows + kept, n).transpose();
       y_ += step.head(n);
       factor = step.segment(n, rows);
       of_bounds_ = step.tail(kept);
@@ -153,6 +174,19 @@ class Polish {
       return true;
     }
     return false;
+  }
+  // Whether the curvature along what nothing binds is that of a minimum.
+  bool is_minimum() const {
+    const Index n = y_.size();
+    MatrixXd free = MatrixXd::Identity(n, n);
+    if (across_.cols() > 0) {
+      const Eigen::ColPivHouseholderQR<MatrixXd> qr(across_);
+      free = (qr.householderQ() * free).rightCols(n - qr.rank()).eval();
+    }
+    if (free.cols() == 0) return true;
+    const MatrixXd bend = free.transpose() * curvature_ * free;
+    return Eigen::SelfAdjointEigenSolver<MatrixXd>(bend, Eigen::EigenvaluesOnly).eigenvalues()[0] >
+           -1e-12;
   }
   // Whether something is broken that did not bind.
   bool add_broken() {
@@ -200,7 +234,8 @@ class Polish {
   Subproblem& p_;
   std::vector<bool> binds_;
   Eigen::VectorXi held_;  // -1: at its lower bound; 1: at its upper one
-  VectorXd y_, factor_, of_bounds_;
+  VectorXd factor_, y_, of_bounds_;
+  MatrixXd curvature_, across_;
   std::vector<Index> of_, bounds_;
 };
 
@@ -209,7 +244,8 @@ class Polish {
 std::optional<VectorXd> constrained_step(const std::vector<SmoothConstraint>& constraints,
                                          const Coordinates& coordinates,
                                          const std::vector<Index>& open, const VectorXd& x,
-                                         const MatrixXd& J, const VectorXd& r, const StepBox& box) {
+                                         const MatrixXd& J, const VectorXd& r, const StepBox& box,
+                                         std::vector<bool>& binds) {
   Subproblem p(constraints, coordinates, open, x);
   p.about = p.inner();
   p.y = p.about;
@@ -230,9 +266,31 @@ std::optional<VectorXd> constrained_step(const std::vector<SmoothConstraint>& co
   p.R.bottomRows(n).diagonal().setConstant(1e-7);
   p.q = VectorXd::Zero(2 * n);
   p.q.head(n) = turned.head(n) / size;
+  // What bound before mostly does again, and a few of Newton's steps find that out.
+  const VectorXd from = p.y;
+  binds.resize(constraints.size());
+  p.constrain(from);
+  bool kept = p.g.allFinite();
+  for (Index c = 0; c < p.g.size(); ++c) {
+    const bool broken = p.g[c] < 0;
+    kept = kept && !broken && p.most[c] != 0;
+    if (broken) binds[static_cast<std::size_t>(c)] = true;
+  }
+  ActiveSet near(p, binds);
+  if (near.run(kept ? p.value(from) : std::numeric_limits<double>::infinity())) {
+    binds = near.binds();
+    return p.outer(p.y);
+  }
+  p.y = from;
   const IpoptEnd end = minimise_by_ipopt(p, 500);
   if (!end.converged || !p.y.allFinite()) return std::nullopt;
-  Polish(p, end).run();
+  ActiveSet exact(p, end);
+  if (exact.run(p.value(p.y))) {
+    binds = exact.binds();
+    return p.outer(p.y);
+  }
+  for (std::size_t c = 0; c < constraints.size(); ++c)
+    if (broken_by(constraints[c], p.constraint(c, p.y)) > kKept) return std::nullopt;
   return p.outer(p.y);
 }
 

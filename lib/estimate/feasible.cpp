@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/random.h"
+#include "estimate/stepped_constraint.h"
 
 namespace hapsim {
 namespace {
@@ -21,6 +22,13 @@ double worst(const std::vector<SmoothConstraint>& constraints, const Coordinates
 }
 
 }  // namespace
+
+bool keeps(const std::vector<Unknown>& at, const std::vector<SmoothConstraint>& constraints,
+           double near) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(at.size()));
+  for (std::size_t i = 0; i < at.size(); ++i) x[static_cast<Eigen::Index>(i)] = at[i].value;
+  return worst(constraints, Coordinates(at), x) <= near;
+}
 
 std::optional<Eigen::VectorXd> feasible_point(const std::vector<Unknown>& start,
                                               const std::vector<SmoothConstraint>& constraints) {

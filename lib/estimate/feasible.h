@@ -4,9 +4,14 @@
 #include <optional>
 #include <vector>
 
+#include "estimate/least_squares.h"
 #include "estimate/smooth_constraint.h"
 
 namespace hapsim {
+
+// Whether the values of the unknowns keep all constraints, to `near` of their steps.
+bool keeps(const std::vector<Unknown>& at, const std::vector<SmoothConstraint>& constraints,
+           double near = 1e-9);
 
 // A point within the bounds that keeps all constraints, near the start: the least sum of squares of
 // what each is broken by (elastic slacks), from the start and then from 24 points within the bounds

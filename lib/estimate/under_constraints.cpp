@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "estimate/constrained_step.h"
 #include "estimate/feasible.h"
 #include "estimate/normal_inverse.h"
@@ -47,9 +48,8 @@ class Search {
     result_.active.assign(constraints_.size(), false);
     result_.fit.at_bound.assign(start_.size(), false);
     result_.fit.undetermined.assign(start_.size(), false);
-    look(x_);
     LeastSquaresResult& fit = result_.fit;
-    if (!std::isfinite(r_.squaredNorm())) {
+    if (!look(x_)) {
       fit.message = "the start gives no finite forces";
       fit.x = x_;
       return std::move(result_);
@@ -76,17 +76,24 @@ class Search {
       return broken_by(c, in_steps(c, coordinates_, x)) <= kKept;
     });
   }
-  // r and J by y at x.
-  void look(const VectorXd& x) {
-    residuals_(x, r_, &J_);
+  // r and J by y at x; false where there are none. J is asked for at once: nearly all steps are
+  // good.
+  bool look(const VectorXd& x) {
+    try {
+      residuals_(x, r_, &J_);
+    } catch (const Error& error) {  // a law without an equilibrium there
+      if (error.code() != ExitCode::kNoConvergence) throw;
+      return false;
+    }
     for (Index i = 0; i < x.size(); ++i)
       J_.col(i) *= coordinates_.slope(static_cast<std::size_t>(i), x[i]);
     x_ = x;
+    return std::isfinite(r_.squaredNorm());
   }
   // No further than `box` away; false where there is none.
-  bool step(double box, VectorXd& best) const {
+  bool step(double box, VectorXd& best) {
     const auto found = constrained_step(moving_, coordinates_, open_, x_, J_(Eigen::all, open_), r_,
-                                        {low_(open_), high_(open_), box});
+                                        {low_(open_), high_(open_), box}, binds_);
     if (found) best = *found;
     return found.has_value();
   }
@@ -96,20 +103,15 @@ class Search {
     if (keeps(x_)) return true;
     VectorXd best;
     if (!open_.empty() && enough_freedom() && step(1e300, best) && keeps(best)) {
-      VectorXd r;
-      residuals_(best, r, nullptr);
-      if (std::isfinite(r.squaredNorm())) {
-        look(best);
-        return true;
-      }
+      if (look(best)) return true;
     }
     const std::optional<VectorXd> point = feasible_point(start_, constraints_);
     if (!point) {
       result_.fit.message = "no point keeps all constraints";
       return false;
     }
-    look(*point);
-    return true;
+    if (!look(*point)) result_.fit.message = "the start gives no finite forces";
+    return result_.fit.message.empty();
   }
   bool enough_freedom() const {
     const auto equal = std::count_if(moving_.begin(), moving_.end(),
@@ -119,6 +121,7 @@ class Search {
 
   void descend() {
     LeastSquaresResult& fit = result_.fit;
+    constexpr double kTiny = 1e-5, kRounding = 1e-13;
     double sum = r_.squaredNorm(), box = 2, before = 0;
     if (open_.empty() || !enough_freedom()) {
       fit.converged = true;
@@ -134,24 +137,33 @@ class Search {
         continue;
       }
       const double length = (inner(best) - inner(x_)).cwiseAbs().maxCoeff();
-      VectorXd r;
-      residuals_(best, r, nullptr);
-      const double trial = r.squaredNorm();
-      const bool better = trial <= sum * (1 + 1e-13);
       // Steps shrink by a constant factor where much is left: so far the end is still away.
-      const double shrink = before > 0 ? std::min(0.999, length / before) : 0.5;
+      const double shrink = before > 0 ? std::min(0.9, length / before) : 0.5;
       if (length * std::max(1.0, shrink / (1 - shrink)) < options_.step_tolerance) {
-        if (better) look(best);
         fit.converged = true;
         fit.message = "converged";
         return;
       }
-      if (!better) {
+      const VectorXd last = x_, last_r = r_;
+      const MatrixXd last_J = J_;
+      if (!look(best) || r_.squaredNorm() > sum * (1 + 1e-13)) {
+        x_ = last;
+        r_ = last_r;
+        J_ = last_J;
         box = length / 4;
-        continue;
+        // A refused tiny step is the floor of rounding.
+        if (length > kTiny) continue;
+        fit.converged = true;
+        fit.message = "converged";
+        return;
       }
-      look(best);
-      sum = trial;
+      const double fall = sum - r_.squaredNorm();
+      sum = r_.squaredNorm();
+      if (length < kTiny && fall <= kRounding * sum) {
+        fit.converged = true;
+        fit.message = "converged";
+        return;
+      }
       before = length;
       if (length > 0.9 * box) box *= 2;
       if (options_.watch && !options_.watch(sum)) {
@@ -211,6 +223,8 @@ class Search {
     }
     VectorXd slope(m);
     for (Index i = 0; i < m; ++i) slope[i] = coordinates_.slope(static_cast<std::size_t>(i), x_[i]);
+    const auto active = std::count(result_.active.begin(), result_.active.end(), true);
+    result_.settled = A.leftCols(active).transpose() * slope.cwiseInverse().asDiagonal();
     const MatrixXd free = free_of(A);
     result_.directions = slope.asDiagonal() * free;
     fit.covariance = MatrixXd::Zero(m, m);
@@ -250,6 +264,7 @@ class Search {
   std::vector<Index> open_;
   std::vector<SmoothConstraint> moving_;
   std::vector<std::size_t> number_;
+  std::vector<bool> binds_;  // of `moving_`, at the last step
   UnderConstraints result_;
 };
 

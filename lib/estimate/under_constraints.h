@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "estimate/least_squares.h"
 #include "estimate/smooth_constraint.h"
 
 namespace hapsim {
@@ -15,12 +16,14 @@ struct UnderConstraints {
   Eigen::VectorXd worth;       // fall of |r|^2 if that active constraint alone were left out, to
                                // second order: r'P r, P onto what J can then do besides
   Eigen::MatrixXd directions;  // m x k: what bounds and active constraints leave of the unknowns
+  Eigen::MatrixXd settled;     // one row an active constraint: its slope by the unknowns, of length
+                               // one in their steps
 };
 
 // Minimises |r|^2 within the bounds and constraints: a step minimises |r + J d|^2 under the
 // constraints themselves (constrained_step()), so that all but the first keep them (constrained
 // Gauss-Newton: Bock, Bonner Math. Schriften 183, 1987). A box about the last point, smaller where
-// |r|^2 rises, keeps steps short. A step costs the residuals twice and J once. Ends when a step,
+// |r|^2 rises, keeps steps short. A step costs the residuals and J once. Ends when a step,
 // and what such steps have still to go, is below `options.step_tolerance`. max_iterations 0: tells
 // of the start alone. No feasible point is found: not converged, and fit.message says so. Threads
 // take turns at Ipopt.

@@ -6,8 +6,11 @@
 
 #include "base/error.h"
 #include "effects/catalogue.h"
+#include "estimate/feasible.h"
 #include "estimate/least_squares.h"
 #include "estimate/multi_start.h"
+#include "estimate/under_constraints.h"
+#include "fit/constraints.h"
 #include "fit/extend.h"
 #include "fit/fit_uncertainty.h"
 #include "fit/learned_field.h"
@@ -61,11 +64,13 @@ constexpr double kLeastReach = 0.02;  // a trust region so small has found what 
 class Fitting {
  public:
   Fitting(const Model& start, const Experiment& experiment, const Selection& selection,
-          const FitOptions& options, const Linearisation& known)
+          const FitOptions& options, const Linearisation& known,
+          const std::vector<SmoothConstraint>& constraints = {})
       : experiment_(experiment),
         dataset_(experiment.dataset),
         selection_(selection),
         options_(options),
+        constraints_(constraints),
         measured_(measured_forces(dataset_, selection)),
         has_offsets_(offset_effect(start) != nullptr),
         learns_field_(learns_field(start)),
@@ -80,15 +85,33 @@ class Fitting {
     is_linearised_ = is_linearised(asked, options.exact_regions) &&
                      (options.rounds > 0 || result_.about.is_solved_for(asked));
     if (options.watch) search_.watch = [this](double sum) { return go_on(sum); };
+    // Steps of a linearised body have a reach, within which the constraints are to have a point.
+    if (constraints_.empty() || !is_linearised_) return;
+    if (const auto point = feasible_point(unknowns(result_.model), constraints_))
+      set_values(result_.model, *point);
   }
 
-  Fit run() {
+  void search() {
     if (learns_field_)
       minimise_with_field();
     else
       minimise_all();
+  }
+  // What is told of where the search has ended.
+  Fit end() {
     finish();
     return std::move(result_);
+  }
+
+  // Where it has ended, before that.
+  const Model& model() const { return result_.model; }
+  const Linearisation& about() const { return result_.about; }
+  bool stopped() const { return result_.stopped; }
+  bool converged() const { return solution_.converged && !result_.stopped; }
+  double told_error() const {
+    Eigen::VectorXd residual = measured_ - model_forces(result_, experiment_, selection_, false).f;
+    if (has_offsets_) take_out_press_means(dataset_, selection_, residual);
+    return force_error(dataset_, residual).told();
   }
 
  private:
@@ -188,6 +211,14 @@ class Fitting {
     from_many_ = false;
   }
 
+  // Within the bounds, and the constraints where there are any.
+  LeastSquaresResult solve(const std::vector<Unknown>& open, const ResidualFunction& residuals,
+                           const LeastSquaresOptions& search = {}) {
+    if (constraints_.empty()) return minimise(open, residuals, search);
+    under_ = minimise_under(open, constraints_, residuals, search);
+    return under_.fit;
+  }
+
   // All unknowns; those that the body is linear in by no more than `reach` (within_reach()).
   void minimise_within(double reach) {
     if (from_many_) search_valleys();
@@ -195,13 +226,30 @@ class Fitting {
     const ResidualFunction residuals = residuals_of(result_.model);
     std::vector<Unknown> open = open_within(reach);
     if (options_.robust != RobustLoss::kNone) {
-      RobustResult robust = minimise_robustly(open, residuals, options_.robust, search_);
+      RobustResult robust = minimise_robustly(
+          open, residuals, options_.robust, search_,
+          [this](const auto& from, const auto& of, const auto& by) { return solve(from, of, by); });
       result_.discounted = robust.discounted;
+      if (!constraints_.empty() && robust.fit.converged) {
+        LeastSquaresOptions look;
+        look.max_iterations = 0;
+        for (std::size_t i = 0; i < open.size(); ++i)
+          open[i].value = robust.fit.x[static_cast<Eigen::Index>(i)];
+        robust.fit.covariance =
+            robust.spread * minimise_under(open, constraints_, residuals, look).fit.covariance;
+      }
       take(std::move(robust.fit));
       return;
     }
-    take(minimise(open, residuals, search_));
+    take(solve(open, residuals, search_));
     if (result_.stopped) return;
+    if (!constraints_.empty()) {
+      Model sorted = result_.model;
+      if (!sort_terms(sorted) || !keeps(unknowns(sorted), constraints_)) return;
+      result_.model = std::move(sorted);
+      take(solve(open_within(reach), residuals, search_));
+      return;
+    }
     if (sort_terms(result_.model)) {
       open = open_within(reach);
       take(minimise(open, residuals, search_));
@@ -220,7 +268,7 @@ class Fitting {
     const ResidualFunction residuals = residuals_of(result_.model);
     const std::vector<Unknown> open = unknowns(result_.model);
     if (material.modulus.size() == 1) {
-      const LeastSquaresResult rest = minimise(within_reach(open, result_.model, 0), residuals);
+      const LeastSquaresResult rest = solve(within_reach(open, result_.model, 0), residuals);
       set_values(result_.model, rest.x);
       return rest.sum_of_squares;
     }
@@ -255,10 +303,10 @@ class Fitting {
     }
     // Bounds and covariance without the limits of the steps.
     LeastSquaresOptions once;
-    once.max_iterations = 1;
+    once.max_iterations = constraints_.empty() ? 1 : 0;
     const bool converged = solution_.converged && settled;
     const std::string message = solution_.message;
-    solution_ = minimise(unknowns(result_.model), residuals_of(result_.model), once);
+    solution_ = solve(unknowns(result_.model), residuals_of(result_.model), once);
     solution_.converged = converged || options_.rounds < kFullRounds;
     solution_.message = converged ? message : "the body does not settle";
     solution_.sum_of_squares = sum;
@@ -277,21 +325,57 @@ class Fitting {
     }
     result_.error = force_error(dataset_, residual);
     result_.residuals = residual.size();
-    result_.converged = solution_.converged && !result_.stopped;
+    result_.converged = converged();
     result_.message = result_.stopped ? "interrupted" : solution_.message;
-    const auto free = static_cast<double>(result_.model.free_parameters().size());
+    const auto free = static_cast<double>(constraints_.empty()
+                                              ? result_.model.free_parameters().size()
+                                              : static_cast<std::size_t>(under_.directions.cols()));
     const double freedom = std::max(1.0, static_cast<double>(result_.residuals) - free);
     const double variance = std::max(1.0, solution_.sum_of_squares / freedom);
     set_standard_errors(result_, solution_, signal, experiment_, selection_, options_, variance);
-    tell_what_is_not_seen(result_, signal.df / options_.noise, std::sqrt(variance));
+    if (constraints_.empty())
+      tell_what_is_not_seen(result_, signal.df / options_.noise, std::sqrt(variance));
+    else
+      tell_constraints(signal.df / options_.noise, variance);
     if (options_.profile && result_.converged)
       tell_intervals(result_, residuals_of(result_.model), solution_, variance);
+  }
+
+  // What the active ones cost, and what they leave to be known.
+  void tell_constraints(const Eigen::MatrixXd& J, double variance) {
+    const double count = static_cast<double>(result_.residuals);
+    const double told = options_.noise * std::sqrt(3.0 / result_.error.axes / count);
+    const double sum = solution_.sum_of_squares;
+    for (std::size_t c = 0; c < constraints_.size(); ++c) {
+      KeptConstraint kept;
+      kept.active = under_.active[c];
+      const double worth = std::min(sum, under_.worth[static_cast<Eigen::Index>(c)]);
+      if (kept.active) kept.cost = told * (std::sqrt(sum) - std::sqrt(sum - worth));
+      if (kept.active) kept.doubt = std::sqrt(worth / variance);
+      result_.constraints.push_back(kept);
+    }
+    const std::vector<int> free = result_.model.free_parameters();
+    for (std::size_t i = 0; i < free.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      Parameter& p = result_.model.parameters[static_cast<std::size_t>(free[i])];
+      constexpr double kNothing = 1e-9;  // of the unknown's own steps
+      const double size = std::max(std::abs(p.value), 1e-300);
+      if (solution_.at_bound[i] || under_.directions.row(row).norm() > kNothing * size) continue;
+      p.std_error = std::numeric_limits<double>::quiet_NaN();
+      result_.held.push_back(parameter_name(p));
+    }
+    // What a constraint settles is seen as well as any reading could.
+    constexpr double kSettled = 1e6;
+    Eigen::MatrixXd seen(J.rows() + under_.settled.rows(), J.cols());
+    seen << J, kSettled * under_.settled;
+    tell_what_is_not_seen(result_, seen, std::sqrt(variance));
   }
 
   const Experiment& experiment_;
   const Dataset& dataset_;
   const Selection& selection_;
   const FitOptions& options_;
+  const std::vector<SmoothConstraint> constraints_;
   const Eigen::VectorXd measured_;
   const bool has_offsets_, learns_field_;
   bool is_linearised_ = false;
@@ -299,6 +383,7 @@ class Fitting {
   LeastSquaresOptions search_;
   bool from_many_;
   LeastSquaresResult solution_;
+  UnderConstraints under_;  // of the last search, where there are constraints
   Fit result_;
 };
 
@@ -318,7 +403,42 @@ Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selec
 
 Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
         const FitOptions& options, const Linearisation& known) {
-  return Fitting(start, experiment, selection, options, known).run();
+  Fitting without(start, experiment, selection, options, known);
+  without.search();
+  const BoundConstraints own = bind_constraints(without.model(), options.constraints);
+  if (own.among.empty() || without.stopped()) return without.end();
+  const auto named = [&](Fit fitted, double error) {
+    fitted.constraints.resize(own.number.size());
+    for (std::size_t k = 0; k < own.number.size(); ++k)
+      fitted.constraints[k].text = options.constraints[own.number[k]].text;
+    fitted.unconstrained = error;
+    fitted.starts_done = options.starts;
+    return fitted;
+  };
+  if (without.converged() && keeps(without.model(), own)) {
+    Fit kept = without.end();
+    const double error = kept.error.told();
+    return named(std::move(kept), error);
+  }
+  if (!feasible_point(unknowns(without.model()), own.among)) {
+    Fit broken = without.end();
+    broken.converged = false;
+    broken.message = conflict_words(broken.model, options.constraints) + " contradict each other";
+    return named(std::move(broken), std::nan(""));
+  }
+  FitOptions more = options;
+  more.starts = 1;
+  more.skip = 0;
+  more.after_start = nullptr;
+  Fitting under(without.model(), experiment, selection, more, without.about(), own.among);
+  under.search();
+  Fit kept = under.end();
+  constexpr double kNear = 1e-7;
+  if (kept.converged && !keeps(unknowns(kept.model), own.among, kNear)) {
+    kept.converged = false;
+    kept.message = "the constraints are not kept";
+  }
+  return named(std::move(kept), without.converged() ? without.told_error() : std::nan(""));
 }
 
 }  // namespace hapsim

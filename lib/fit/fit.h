@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "estimate/expression.h"
 #include "estimate/robust.h"
 #include "experiment/weights.h"
 
@@ -37,6 +38,9 @@ struct FitOptions {
   bool keep_apart = true;  // relaxation times that coincide are moved apart (keep_terms_apart())
   // The lengths and nuggets of a field that the start has learned hold; false: learned anew.
   bool keep_scales = false;
+  // Kept by the fit where the model has all their names (fit/constraints.h); the others are not
+  // asked. Relaxation times are then sorted where that keeps them, and not moved apart.
+  std::vector<Relation> constraints;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
   // Asked again and again; false ends the fit with what there is. May be empty.
   std::function<bool(const FitProgress&)> watch;
@@ -46,6 +50,19 @@ struct FitOptions {
   // Between two of several starts: the best so far, and how many of `starts` are done. May be
   // empty.
   std::function<void(const Model& best, int starts_done)> after_start;
+};
+
+// A constraint of a fit, and what it does to it.
+struct KeptConstraint {
+  std::string text;
+  bool active = false;  // it holds with equality, and the fit would leave it
+  // Of an active one: by how much the error (ForceError::told(), after the weights of a robust
+  // loss) would fall if this one alone were left out, the others and the bounds staying, to second
+  // order (UnderConstraints::worth) [N]; and the square root of that fall of the sum of squares
+  // over its variance: by so many standard errors the data contradict it (Wald, 1943). Exact where
+  // forces and constraint are linear. NaN where not known.
+  double cost = std::numeric_limits<double>::quiet_NaN();
+  double doubt = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct Fit {
@@ -61,7 +78,10 @@ struct Fit {
   std::vector<std::string> undetermined;  // parameters that the data cannot tell
   std::vector<std::string> blind;         // "E and E1 enter only as their sum"
   std::vector<std::string> intervals;     // profile likelihood, 95 %, in words
-  int discounted = 0;                     // force components that the robust loss halves or drops
+  std::vector<KeptConstraint> constraints;
+  std::vector<std::string> held;  // parameters to which active constraints leave no freedom
+  double unconstrained = std::numeric_limits<double>::quiet_NaN();  // told error without them [N]
+  int discounted = 0;  // force components that the robust loss halves or drops
 };
 
 // A model as it is, its bodies solved.
@@ -74,6 +94,9 @@ Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selec
 // Fits on the chosen episodes by least squares of the forces. Standard errors come from the noise
 // (or the misfit, where that is larger) and from the gain error `floor` of each position. The
 // bodies are solved again as FitOptions says; `known`: what a fit that solves nothing stands on.
+// Constraints are asked for where the fit without them breaks one (minimise_under()), from its end;
+// standard errors are then along what the active ones leave free. Contradictory ones: not
+// converged.
 Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
         const FitOptions& options, const Linearisation& known = {});
 

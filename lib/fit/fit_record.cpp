@@ -11,7 +11,15 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   Model& model = fitted.model;
   model.metadata = start;
   unmark(model);
-  for (const char* key : {"heldout", "until", "heldout_later"}) model.metadata.remove(key);
+  for (const char* key : {"heldout", "until", "heldout_later", "constraints", "binding"})
+    model.metadata.remove(key);
+  std::string all, binding;
+  for (const KeptConstraint& c : fitted.constraints) {
+    all += (all.empty() ? "" : "; ") + c.text;
+    if (c.active) binding += (binding.empty() ? "" : "; ") + c.text;
+  }
+  if (!all.empty()) model.metadata.set("constraints", all);
+  if (!binding.empty()) model.metadata.set("binding", binding);
   model.metadata.set("rmse", format_number(fitted.error.told()));
   model.metadata.set("force_noise", format_number(w.noise.value));
   model.metadata.set("depth", format_number(w.depth.depth));

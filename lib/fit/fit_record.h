@@ -8,8 +8,9 @@
 
 namespace hapsim {
 
-// The metadata of the model that the fit started from, with the error and the noise of this one;
-// what was known of the start's own fit (held-out errors, marks) goes.
+// The metadata of the model that the fit started from, with the error and the noise of this one,
+// and its constraints (all, and those that bind), as --constrain takes them; what was known of the
+// start's own fit (held-out errors, marks) goes.
 void record_fit(Fit& fitted, const Metadata& start, const Experiment& experiment);
 
 // A version named `model`; `held_out`, of what `by` says, and `force_rms` [N].

@@ -11,6 +11,7 @@
 #include "effects/plates_law.h"
 #include "estimate/identifiability.h"
 #include "experiment/plausible.h"
+#include "fit/constraints.h"
 #include "model/body_parameters.h"
 #include "model/model_edit.h"
 
@@ -108,8 +109,7 @@ SummaryItem values_item(const Model& model, std::vector<SummaryValue>& values) {
   int shown = 0;
   for (const Parameter& p : model.parameters) {
     if (p.state != ParameterState::kFree) continue;
-    values.push_back({p.effect + "." + p.name + (p.region > 0 ? fmt::format("[{}]", p.region) : ""),
-                      p.value, p.unit, p.std_error});
+    values.push_back({parameter_name(p), p.value, p.unit, p.std_error});
     if (++shown > kMost) continue;
     if (p.effect == effect)
       item.facts.back() += ", " + value_words(p);
@@ -184,6 +184,12 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
               {"force_noise", noise, "N"},
               {"force_rms", force_rms, "N"}};
   s.items.push_back(values_item(result.model, s.values));
+  if (std::vector<std::string> words = constraint_words(result); !words.empty()) {
+    s.items.push_back({"CONSTRAINTS", "", "", std::move(words)});
+    s.values.push_back({"unconstrained_error", result.unconstrained, "N"});
+    for (const KeptConstraint& c : result.constraints)
+      s.values.push_back({"cost of " + c.text, c.active ? c.cost : 0, "N"});
+  }
   s.items.push_back(
       {"DATA",
        "",

@@ -33,6 +33,8 @@ Sample fit_position(const Model& start, const Experiment& experiment, const Sele
 LocationTable fit_locations(const Model& model, const Experiment& experiment,
                             const FitOptions& options) {
   const Dataset& dataset = experiment.dataset;
+  FitOptions of_place = options;
+  of_place.constraints.clear();  // they are of the whole
   Model start = model;
   const std::string& map = map_effect().card().name;
   if (start.has(map)) remove_effect(start, map);
@@ -48,7 +50,7 @@ LocationTable fit_locations(const Model& model, const Experiment& experiment,
     poissons_ratio_of(start)->state = with_nu ? ParameterState::kFree : ParameterState::kFixed;
     std::vector<Sample> samples;
     for (const Selection& selection : at) {
-      samples.push_back(fit_position(start, experiment, selection, options));
+      samples.push_back(fit_position(start, experiment, selection, of_place));
       const Sample& s = samples.back();
       if (with_nu && !(s.found && s.nu_std > 0 && s.nu_std < kKnownNu))
         return std::vector<Sample>{};

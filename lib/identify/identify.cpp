@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "diagnose/wording.h"
 #include "experiment/plausible.h"
+#include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_words.h"
 #include "io/number.h"
@@ -60,6 +61,12 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
   if (request.options.profile && request.options.robust != RobustLoss::kNone)
     fail_usage("--profile and --robust exclude each other",
                "a robust loss is no likelihood: use one of them");
+  if (request.options.profile && !request.options.constraints.empty())
+    fail_usage("--profile and --constrain exclude each other",
+               "standard errors are along what the constraints leave free: use one of them");
+  if (request.fit.automatic && !request.options.constraints.empty())
+    fail_usage("--constrain needs the model's effects, which 'auto' finds out",
+               "find them first, then go on with --model and --constrain");
   const FitOptions fit_options = each_fit(request, w);
   FitOptions final_options = request.options;
   final_options.noise = fit_options.noise;
@@ -87,6 +94,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
   } else {
     Starts starts = build_starts(request.fit, w, all, fit_options, extend);
     require_enough_data(starts.models.front(), w.dataset, all);
+    require_constraints(starts.models.front(), fit_options.constraints);
     if (request.starts) request.starts(starts.models);
     result.fitted = fit_best(starts.models, w, all, final_options, starts.known);
     if (request.refine && result.fitted.converged) result.fitted = request.refine(result.fitted);

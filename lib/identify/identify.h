@@ -47,7 +47,8 @@ FitOptions each_fit(const IdentifyRequest& request, const Experiment& w);
 
 // `w` was prepared by `options`; `body` is its first. The fitted model has its metadata
 // (record_fit(), heldout, interrupted). Error(kUsage): a profile
-// of a robust loss; Error(kBadInput): less was measured than is to be fitted;
+// of a robust loss or under constraints, constraints that the model cannot keep or that name what
+// it has not (require_constraints()); Error(kBadInput): less was measured than is to be fitted;
 // Error(kNoConvergence): the fit does not converge.
 Identification identify(const IdentifyRequest& request, const TetMesh& body, const Experiment& w,
                         ExperimentOptions options);

@@ -109,6 +109,8 @@ class Errors(unittest.TestCase):
              identify + ["--body", "body.ply", "--body", "body.ply"]),
             (hapsim.UsageError, lambda: hapsim.identify(data, body, profile=True, robust="huber"),
              identify + ["--profile", "--robust", "huber"]),
+            (hapsim.UsageError, lambda: hapsim.identify(data, body, constrain=["E >= 9 kPa", "E2 = E"]),
+             identify + ["--constrain", "E >= 9 kPa", "--constrain", "E2 = E"]),
             (hapsim.UsageError, lambda: hapsim.diagnose(data, body, model, noise=1000),
              ["hs-diagnose", "data.csv", "--body", "body.ply", "--model", "hidden.csv", "--noise", "1000"]),
         ]
@@ -155,6 +157,12 @@ class Work(unittest.TestCase):
             raise RuntimeError(words)
         with self.assertRaisesRegex(RuntimeError, "noise"):
             hapsim.identify(self.data, self.body, fix="nu=0.4", folds=0, noise=0.05, say=refuse)
+
+    def test_constraints(self):
+        model = hapsim.identify(self.data, self.body, folds=0, constrain=["E <= 9 kPa", "nu >= 0.2"])
+        self.assertTrue(math.isclose(model["elastic.E"], 9000, rel_tol=1e-9))
+        self.assertEqual(model.metadata["binding"], "E <= 9 kPa")
+        self.assertGreater(model.summary["values"]["cost of E <= 9 kPa"]["value"], 0)
 
     def test_a_diagnosis(self):
         model = hapsim.identify(self.data, self.body, fix="nu=0.4", folds=0)

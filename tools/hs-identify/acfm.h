@@ -25,7 +25,7 @@ inline int run_acfm(const Arguments& arguments) {
                 flag::fix,     flag::free,     flag::regions, flag::locations, flag::image,
                 flag::profile, flag::robust,   flag::history, flag::terms,     flag::boundary,
                 flag::library, flag::material, flag::object,  flag::starts,    flag::resume,
-                flag::until})
+                flag::until,   flag::constrain})
     if (arguments.given(flag))
       fail_usage(flag + " is of models with effects, and --acfm has none", "leave one of them out");
   const GivenRecordings given = load_recordings(arguments, {});

@@ -11,8 +11,8 @@ inline constexpr FileFlag image{"--image"}, library{"--library"}, diagnosis{"--d
     history{"--history"}, locations{"--locations"}, field{"--field"}, curves{"--curves"},
     data{"--data"};
 inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"--effects"},
-    add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, terms{"--terms"},
-    regions{"--regions"};
+    add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, constrain{"--constrain"},
+    terms{"--terms"}, regions{"--regions"};
 inline constexpr TimesFlag windows{"--windows"};
 inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"}, memory{"--memory"},
     boundary{"--refine-boundary"}, starts{"--starts"}, seed{"--seed"};

@@ -8,6 +8,7 @@
 #include "base/shell_words.h"
 #include "common_options.h"
 #include "experiment/learned_curves.h"
+#include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_request.h"
 #include "fit/fit_words.h"
@@ -92,6 +93,8 @@ int run(const Arguments& arguments) {
   IdentifyRequest request;
   request.fit = plan;
   request.regions = parse_regions(arguments[flag::regions], flag::regions.name);
+  const std::vector<Relation> constraints =
+      parse_constraints(arguments.list(flag::constrain), flag::constrain.name);
   const SearchState search = search_asked(arguments, plan.start);
   GivenRecordings given = load_recordings(arguments, plan.start);
   require_fit_for(arguments, plan, given.dataset);
@@ -113,6 +116,7 @@ int run(const Arguments& arguments) {
   fit_options.skip = search.done;
   fit_options.robust = robust_loss(arguments[flag::robust]);
   fit_options.profile = arguments[flag::profile];
+  fit_options.constraints = constraints;
   request.folds = static_cast<int>(arguments[flag::folds]);
 
   SearchWatch watch(arguments);

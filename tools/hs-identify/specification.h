@@ -67,6 +67,16 @@ inline ToolSpec identify_specification() {
       "A flat tool that covers the body compresses it between plates, bonded to both: samples "
       "beyond a strain of 0.3, to which finite strain (hyperelastic) was verified, are left out, "
       "here and in hs-diagnose.",
+      "--constrain keeps relations between the parameters: = or <=, >= between sums, products, "
+      "quotients and powers (+ - * / ^ and parentheses). Parameters are named as the model file "
+      "has them: elastic.E, elastic.E[2] of region 2, viscoelastic.tau1, inclusion.z; the effect "
+      "may be left out where one effect alone has such a parameter. Numbers are in SI or carry a "
+      "unit (50 kPa, -5 mm). Where the fit without them keeps them, it stays as it is. Else it "
+      "goes on from there by constrained Gauss-Newton steps (Ipopt), and what binds is told with "
+      "what it costs: by how much the error would fall if that one were left out, and by how many "
+      "standard errors the data contradict it. Standard errors are then along what the binding "
+      "ones leave free. The model has them as the metadata constraints and binding. Constraints "
+      "that contradict each other or the bounds are refused, and those that do are named.",
       "The model says what it was fitted to: metadata depth (the deepest press), speed (the "
       "fastest "
       "in contact, over ways of 10 ms), places (x y z of up to 64 of them) and reach (how far from "
@@ -112,6 +122,13 @@ inline ToolSpec identify_specification() {
       {.flag = flag::free,
        .value = "LIST",
        .help = "Parameters to free again.",
+       .group = "Model",
+       .repeatable = true},
+      {.flag = flag::constrain,
+       .value = "FORMULA",
+       .help = "A relation that the fit keeps between the model's parameters: 'E >= 2*E1', '3*tau1 "
+               "<= tau2', '1 <= E[1]/E <= 4', 'E + E1 = 50 kPa'; several may also stand in one, "
+               "apart by semicolons or lines.",
        .group = "Model",
        .repeatable = true},
       {.flag = flag::terms,
@@ -229,6 +246,8 @@ inline ToolSpec identify_specification() {
        "Adds what hs-diagnose found missing."},
       {"hs-identify block.csv --body block.ply --data ball.csv --body ball.ply -o m.csv",
        "One material of two bodies."},
+      {"hs-identify data.csv --body body.ply --model m1.csv --constrain 'E1 <= E/2' -o m2.csv",
+       "Keeps a relation between two moduli."},
       {"hs-identify hold.csv --body block.ply --effects hyperelastic,viscoelastic --terms 2 "
        "--until "
        "4 -o m.csv",
