@@ -80,6 +80,8 @@ struct CsvTable {
 };
 
 CsvTable read_csv(Input& input);
+// What a reader has not read yet; `name`: of the source.
+CsvTable read_rows(CsvReader& reader, const std::string& name);
 
 // Writes metadata, header and rows; fields are quoted where they must be.
 class CsvWriter {

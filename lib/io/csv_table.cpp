@@ -63,8 +63,12 @@ std::vector<double> CsvTable::numbers(const std::string& column) const {
 
 CsvTable read_csv(Input& input) {
   CsvReader reader(input);
+  return read_rows(reader, input.name());
+}
+
+CsvTable read_rows(CsvReader& reader, const std::string& name) {
   CsvTable table;
-  table.name = input.name();
+  table.name = name;
   table.header = reader.header();
   table.columns.resize(table.header.size());
   std::vector<std::string_view> fields;

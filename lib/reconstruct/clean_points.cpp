@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -24,6 +26,9 @@ constexpr int kNeighbours = 10;
 constexpr double kIsolation = 3.0;
 // Off the surface: this many robust standard deviations off the plane of its neighbours.
 constexpr double kOffPlane = 8.0;
+// Merged of less than this part of the points of others; thickness over width of neighbours in a
+// plane (points that fill space have 0.6); how many thicknesses off it.
+constexpr double kStray = 5, kInPlane = 0.25, kStrayOff = 4;
 constexpr int kPasses = 3;  // outliers that hid each other show up in the next pass
 
 PointCloud keep(const PointCloud& cloud, const std::vector<char>& dropped,
@@ -58,24 +63,33 @@ std::size_t drop_near(PointCloud& cloud, double distance, std::vector<int>& kept
   return count;
 }
 
-// Exact doubles: sorted, as the search tree degrades when thousands of points coincide.
+// Exact doubles, of which the first stays; before any search tree is built, as it degrades when
+// thousands of points coincide.
 std::size_t drop_equal(PointCloud& cloud, std::vector<int>& kept) {
-  std::vector<int> order(cloud.points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-  const auto key = [&](int i) {
-    const Vec3& p = cloud.points[i];
-    return std::array<double, 3>{p.x(), p.y(), p.z()};
+  const auto same = [&](int a, int b) {
+    return cloud.points[static_cast<std::size_t>(a)] == cloud.points[static_cast<std::size_t>(b)];
   };
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const auto ka = key(a), kb = key(b);
-    return ka != kb ? ka < kb : a < b;
-  });
+  // By a hash, which sorts faster than coordinates; points of one hash are few.
+  std::vector<std::pair<std::uint64_t, int>> order(cloud.points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    std::uint64_t hash = 0;
+    for (const double c : cloud.points[i]) {
+      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u;  // -0 is 0
+      hash ^= hash >> 32;
+    }
+    order[i] = {hash, static_cast<int>(i)};
+  }
+  std::sort(order.begin(), order.end());
   std::vector<char> dropped(order.size(), 0);
   std::size_t count = 0;
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    if (key(order[i]) == key(order[i - 1])) {
-      dropped[order[i]] = 1;
-      ++count;
+  for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    for (end = begin + 1; end < order.size() && order[end].first == order[begin].first; ++end) {
+      bool known = false;
+      for (std::size_t i = begin; i < end && !known; ++i)
+        known = dropped[static_cast<std::size_t>(order[i].second)] == 0 &&
+                same(order[i].second, order[end].second);
+      dropped[static_cast<std::size_t>(order[end].second)] = known ? 1 : 0;
+      count += known ? 1 : 0;
     }
   }
   if (count > 0) cloud = keep(cloud, dropped, kept);
@@ -109,6 +123,37 @@ std::size_t drop_isolated(PointCloud& cloud, std::vector<int>& kept) {
   }
   if (count > 0) cloud = keep(cloud, dropped, kept);
   return count;
+}
+
+// What few points were merged into, where others are of many, and lies in no surface: outliers of a
+// dense scan, which are each other's neighbours. An uneven density is no reason here either: the
+// points of a sparse part lie in a plane.
+std::size_t drop_stray(PointCloud& cloud, std::vector<int>& count, std::vector<int>& kept) {
+  std::vector<double> of_each;  // as many times as there are points of that count
+  for (const int c : count) of_each.insert(of_each.end(), static_cast<std::size_t>(c), c);
+  const double few = upper_median(std::move(of_each)) / kStray;
+  if (few < 1) return 0;
+  const PointIndex index(cloud.points);
+  std::vector<char> dropped(cloud.points.size(), 0);
+  std::size_t dropped_count = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (count[i] > few) continue;
+    std::vector<Vec3> others;
+    for (const Neighbour& m : index.nearest(cloud.points[i], kNeighbours + 1))
+      if (m.index != static_cast<int>(i)) others.push_back(cloud.points[m.index]);
+    const LocalPlane plane = fit_plane(others);
+    const double off = std::abs(plane.normal.dot(cloud.points[i] - plane.centre));
+    if (plane.thickness < kInPlane * plane.spread[1] && off < kStrayOff * plane.thickness) continue;
+    dropped[i] = 1;
+    ++dropped_count;
+  }
+  if (dropped_count == 0) return 0;
+  cloud = keep(cloud, dropped, kept);
+  std::size_t left = 0;
+  for (std::size_t i = 0; i < dropped.size(); ++i)
+    if (!dropped[i]) count[left++] = count[i];
+  count.resize(left);
+  return dropped_count;
 }
 
 // Distance from the plane of the neighbours, in units of their own median distance from it: large
@@ -168,12 +213,11 @@ void require_surface_points(const std::vector<Vec3>& points, const std::string& 
   }
 }
 
-PointCloud thin_points(const PointCloud& cloud, double size, std::vector<int>* index) {
+PointCloud thin_points(const PointCloud& cloud, double size) {
   struct Cell {
     Vec3 point = Vec3::Zero();
     Vec3 normal = Vec3::Zero();
     double count = 0;
-    int first = 0;
   };
   std::map<std::array<long, 3>, std::size_t> number;
   std::vector<Cell> cells;
@@ -181,7 +225,7 @@ PointCloud thin_points(const PointCloud& cloud, double size, std::vector<int>* i
     const Vec3 at = cloud.points[i] / size;
     const auto [where, added] = number.try_emplace(
         {std::lround(at.x()), std::lround(at.y()), std::lround(at.z())}, cells.size());
-    if (added) cells.emplace_back().first = static_cast<int>(i);
+    if (added) cells.emplace_back();
     Cell& cell = cells[where->second];
     cell.point += cloud.points[i];
     if (!cloud.normals.empty()) cell.normal += cloud.normals[i];
@@ -195,7 +239,6 @@ PointCloud thin_points(const PointCloud& cloud, double size, std::vector<int>* i
       thin.normals.push_back(cell.normal.normalized());
     }
     thin.points.push_back(cell.point / cell.count);
-    if (index != nullptr) index->push_back(cell.first);
   }
   return thin;
 }
@@ -215,6 +258,16 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
   std::iota(index.begin(), index.end(), 0);
   report.duplicates = drop_equal(clean, index);
   require_surface_points(clean.points, name);
+  // Before neighbours are sought: how many a question takes grows with their density.
+  MergedPoints merged = merge_points(clean, options.spacing, report.merged);
+  clean = std::move(merged.cloud);
+  for (int& i : merged.index) i = index[static_cast<std::size_t>(i)];
+  index = std::move(merged.index);
+  for (int pass = 0; options.remove_outliers && pass < kPasses; ++pass) {
+    const std::size_t stray = drop_stray(clean, merged.count, index);
+    report.isolated += stray;
+    if (stray == 0) break;
+  }
   report.near_duplicates = drop_near(clean, 1e-3 * point_spacing(clean.points), index);
   if (options.remove_outliers && clean.points.size() > 3 * kNeighbours) {
     for (int pass = 0; pass < kPasses; ++pass) {
@@ -224,14 +277,6 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
       report.off_surface += off;
       if (isolated + off == 0) break;
     }
-  }
-  if (options.spacing > 0) {
-    const std::size_t before = clean.points.size();
-    std::vector<int> first;
-    clean = thin_points(clean, options.spacing, &first);
-    for (int& i : first) i = index[static_cast<std::size_t>(i)];
-    index = std::move(first);
-    report.thinned = before - clean.points.size();
   }
   require_surface_points(clean.points, name);
   report.kept = clean.points.size();

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "mesh/surface.h"
+#include "reconstruct/merge_points.h"
 
 namespace hapsim {
 
 struct CleanOptions {
   bool remove_outliers = true;
-  double spacing = 0;  // thin to at most one point in a cell of this size [m]; 0: do not
+  double spacing = 0;  // of merged points [m]; 0: as a surface asks for (merge_points())
 };
 
 // What was done, for the summary.
@@ -20,24 +21,26 @@ struct CleanReport {
   std::size_t near_duplicates = 0;  // closer than a thousandth of the usual distance to one
   std::size_t isolated = 0;         // far from all others, compared with its neighbours
   std::size_t off_surface = 0;      // off the plane of its neighbours
-  std::size_t thinned = 0;
+  MergeReport merged;
   std::size_t kept = 0;
-  std::vector<int> index;  // index[i]: number in the input of kept point i (the first of its cell)
+  std::vector<int> index;  // index[i]: number in the input of kept point i (the nearest of those
+                           // merged)
+  std::size_t thinned() const { return merged.before - merged.after; }
 };
 
 // Distance of neighbours were the points laid out evenly, 1/sqrt(points a unit area): from the
 // median distance to the sixth neighbour [m].
 double point_spacing(const std::vector<Vec3>& points);
 
-// Removes what CleanReport counts, in that order; what is kept keeps its order (with thinning, each
-// cell keeps the mean of its points). Error(kBadInput, name): fewer than 4 points, or all on a
-// line.
+// Removes points equal to an earlier one, merges those that lie denser than a surface asks for, and
+// removes of what is left what else CleanReport counts, in that order; what is kept keeps its
+// order. Error(kBadInput, name): fewer than 4 points, or all on a line.
 PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
                         const std::string& name, CleanReport& report);
 
 // One point a cubic cell of `size` [m]: the mean of its points and (renormalised) normals, in the
-// order in which the cells are first met; `index` then names the first point of each.
-PointCloud thin_points(const PointCloud& cloud, double size, std::vector<int>* index = nullptr);
+// order in which the cells are first met.
+PointCloud thin_points(const PointCloud& cloud, double size);
 
 // Fails as clean_points does.
 void require_surface_points(const std::vector<Vec3>& points, const std::string& name);

@@ -97,7 +97,7 @@ double most_questions(const std::vector<Vec3>& points, double cell) {
 
 }  // namespace
 
-Surface poisson_surface(const PointCloud& cloud, double cell, std::uint64_t seed) {
+Surface poisson_surface(const PointCloud& cloud, double cell, double off, std::uint64_t seed) {
   using Oriented = std::pair<Kernel::Point_3, Kernel::Vector_3>;
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   // The triangulation inserts in random order.
@@ -115,8 +115,7 @@ Surface poisson_surface(const PointCloud& cloud, double cell, std::uint64_t seed
                     CGAL::Second_of_pair_property_map<Oriented>());
   Triangulation triangulation;
   if (function.compute_implicit_function()) {
-    // Smallest angle 20 degrees, triangles within a circle of radius `cell`, a tenth of it off.
-    const double off = 0.1 * cell;
+    // Smallest angle 20 degrees.
     const double radius = 5 * std::sqrt(function.bounding_sphere().squared_radius());
     double left = most_questions(cloud.points, cell);
     const auto bounded = [&](const Kernel::Point_3& p) {

@@ -86,6 +86,9 @@ PointCloud mirrored(const PointCloud& cloud, const BodyFrame& frame) {
 constexpr double kLeastBall = 1.0;
 constexpr double kWrapGap = 3.0;
 constexpr double kWrapOffset = 0.3;
+// Of the edge: how large the triangles of the Poisson surface are, and how far off it; they are
+// made even and fitted to the points afterwards.
+constexpr double kPoissonCell = 0.7, kPoissonOff = 0.05;
 constexpr double kTight = 0.1;  // of the edge: a wrap about triangles
 constexpr int kWrapAttempts = 6;
 constexpr double kDoubleSkin = 3;  // volume over offset and area: a double skin has about 1
@@ -188,7 +191,8 @@ Surface raw_surface(const PointCloud& cloud, const BodyFrame& frame, Reconstruct
           kWrapGap * frame.spacing, kWrapOffset * frame.spacing,
           [&](double gap, double offset) { return wrap_points(cloud.points, gap, offset); });
     default:
-      return largest_part(poisson_surface(cloud, frame.edge / 2, frame.seed));
+      return largest_part(
+          poisson_surface(cloud, kPoissonCell * frame.edge, kPoissonOff * frame.edge, frame.seed));
   }
 }
 

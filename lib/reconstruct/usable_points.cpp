@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "mesh/local_plane.h"
 #include "mesh/surface_check.h"
 #include "reconstruct/clean_points.h"
@@ -93,8 +94,8 @@ void check_size(const std::vector<Vec3>& points, const std::string& unit, const 
   const auto cut = static_cast<std::size_t>(0.02 * static_cast<double>(points.size()));
   for (int k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < points.size(); ++i) along[i] = points[i][k];
-    std::sort(along.begin(), along.end());
-    if (!along.empty()) size = std::max(size, along[along.size() - 1 - cut] - along[cut]);
+    if (!along.empty())
+      size = std::max(size, nth_smallest(along, along.size() - 1 - cut) - nth_smallest(along, cut));
   }
   if (size > 5) {
     fail_input(name, fmt::format("the surface is {:.3g} m wide when read in {}", size, unit),

@@ -9,6 +9,19 @@
 #include "scan/orient.h"
 
 namespace hapsim {
+namespace {
+
+std::string merge_words(const MergeReport& merged) {
+  return fmt::format(
+      "{} points became {}, each the mean of those about it, some {:.2g} mm apart{}", merged.before,
+      merged.after, 1e3 * merged.spacing,
+      merged.asked ? ", as asked"
+      : merged.noise * kMergeNoises > 0.7 * merged.spacing
+          ? fmt::format(": with noise of {:.2g} mm closer ones say no more", 1e3 * merged.noise)
+          : ": more say no more of the surface; --spacing sets it");
+}
+
+}  // namespace
 
 Scan scan_of_volume(const Volume& volume, const IsoOptions& options, const std::string& name,
                     ScanRecord& record) {
@@ -72,8 +85,9 @@ Summary points_summary(const ScanRecord& record, const std::string& frame) {
                   "{} points read in {}; removed {} given twice, {} nearly so, {} isolated, {} off "
                   "the surface, {} by thinning; kept {}",
                   cleaned.read, frame, cleaned.duplicates, cleaned.near_duplicates,
-                  cleaned.isolated, cleaned.off_surface, cleaned.thinned, cleaned.kept)}},
+                  cleaned.isolated, cleaned.off_surface, cleaned.thinned(), cleaned.kept)}},
              {"NORMALS", "", "", {record.normals}}};
+  if (cleaned.thinned() > 0) s.items.push_back({"THINNED", "", "", {merge_words(cleaned.merged)}});
   return s;
 }
 
@@ -107,7 +121,7 @@ std::string scan_json(const ScanRecord& record) {
                     {"near_duplicates", cleaned.near_duplicates},
                     {"isolated", cleaned.isolated},
                     {"off_surface", cleaned.off_surface},
-                    {"thinned", cleaned.thinned},
+                    {"thinned", cleaned.thinned()},
                     {"kept", cleaned.kept},
                     {"spacing", record.spacing},
                     {"normals", record.normals}};

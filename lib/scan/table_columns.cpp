@@ -5,8 +5,17 @@
 #include "base/error.h"
 
 namespace hapsim {
+
+std::string zone_column(const CsvTable& table) {
+  return find_column(table, {"zone", "region", "view"});
+}
+
+std::string touch_force_column(const CsvTable& table) {
+  return find_column(table, {"touch_force", "force", "f_touch"});
+}
+
 void take_zones(const CsvTable& table, const std::vector<int>& kept, Scan& scan) {
-  const std::string column = find_column(table, {"zone", "region", "view"});
+  const std::string column = zone_column(table);
   if (column.empty()) return;
   const auto& cells = table.columns[static_cast<std::size_t>(table.find(column))];
   for (const int row : kept) {
@@ -22,7 +31,7 @@ void take_zones(const CsvTable& table, const std::vector<int>& kept, Scan& scan)
 }
 
 void take_touch_force(const CsvTable& table, const std::vector<int>& kept, Scan& scan) {
-  const std::string column = find_column(table, {"touch_force", "force", "f_touch"});
+  const std::string column = touch_force_column(table);
   if (column.empty()) return;
   const std::vector<double> force = table.numbers(column);
   for (const int row : kept) {

@@ -10,6 +10,10 @@
 
 namespace hapsim {
 
+// The columns of zones and touch forces, as the table writes them; "" for none.
+std::string zone_column(const CsvTable& table);
+std::string touch_force_column(const CsvTable& table);
+
 // Takes the columns zone (or region, view, organ_zone) and touch_force (or force, f_touch), where
 // there are any, into the scan, for the rows `kept`.
 void take_zones(const CsvTable& table, const std::vector<int>& kept, Scan& scan);

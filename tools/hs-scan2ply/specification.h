@@ -42,8 +42,11 @@ inline std::vector<Option> scan2ply_options() {
         .help = "Unit of coordinates, distances and sliding joints (not of volumes).",
         .default_text = "m",
         .choices = {"m", "mm", "cm", "um", "in"}},
-       number_option(flag::spacing, "M",
-                     "Thins to one point (the mean) a cubic cell of this size [m].", 1e-6, 1),
+       number_option(
+           flag::spacing, "M",
+           "Thins to points about so far apart, each the mean of those about it [m]; else "
+           "as described above, and with 1um not at all.",
+           1e-6, 1),
        switch_option(flag::keep_outliers, "Removes only points that are given twice."),
        switch_option(flag::ascii, "Writes text instead of a binary PLY."),
        {.flag = flag::json,
@@ -131,6 +134,19 @@ inline ToolSpec scan2ply_specification() {
       "Reads the points of a surface scan by content and column name (any order, further columns "
       "are ignored), turns them into metres, removes what is not surface, gives every point an "
       "outward normal and writes a PLY of doubles for hs-reconstruct.",
+      "Scans denser than their surface asks for are thinned first, to 50,000 to 100,000 points, or "
+      "fewer where these would lie closer than five times the noise, which the planes of "
+      "neighbours "
+      "could not tell apart; only where that leaves less than two thirds of them. Each point that "
+      "is "
+      "kept is the mean of a part of the surface as wide as their spacing and as deep as the "
+      "noise, "
+      "which falls by the square root of the points merged; the mean lies spacing^2 / (12 R) "
+      "inside "
+      "a surface of radius R. Points of few, where others are of 5 times as many, go when they "
+      "lie "
+      "in no surface. The summary says how many became how many, how far apart, and why. --spacing "
+      "sets it.",
       "Removed are, each counted in the summary: points equal to an earlier one; points closer "
       "than "
       "a thousandth of the usual spacing to another; isolated points, whose mean distance to their "
@@ -184,7 +200,7 @@ inline ToolSpec scan2ply_specification() {
   spec.examples = {
       {"hs-scan2ply scan.csv | hs-reconstruct | hs-tetmesh -o body.ply", "A body from a scan."},
       {"hs-scan2ply touched.csv --unit mm --spacing 0.001 -o points.ply",
-       "Millimetres; at most one point a cubic millimetre."},
+       "Millimetres; points a millimetre apart."},
       {"hs-scan2ply coarse.ply --robot arm.urdf --scan-plan surface --pitch 0.004 -o plan.csv",
        "Joint angles for a raster 4 mm apart."},
       {"hs-scan2ply driven.csv --robot arm.urdf --range 0.02,0.3 -o points.ply",

@@ -58,11 +58,14 @@ TEST(CleanPoints, CountsDoublesAndThins) {
     cloud.points.push_back(cloud.points[i] + Vec3(1e-9, 0, 0));
   }
   CleanReport report;
+  clean_points(cloud, {}, "scan", report);
+  EXPECT_EQ(report.duplicates, 100u);
+  EXPECT_EQ(report.near_duplicates, 100u);
+  EXPECT_EQ(report.thinned(), 0u);
   CleanOptions options;
   options.spacing = 0.01;
   const PointCloud thin = clean_points(cloud, options, "scan", report);
   EXPECT_EQ(report.duplicates, 100u);
-  EXPECT_EQ(report.near_duplicates, 100u);
   EXPECT_EQ(report.kept, thin.points.size());
   // 2 pi 0.05^2 / 0.01^2 = 157 cells a flat sheet of them would need.
   EXPECT_GT(thin.points.size(), 120u);
