@@ -42,11 +42,12 @@ class Clock : public Effect {
                        {"r", "1", "how much earlier by the time of the session", 0, 0, -0.1, 0.1,
                         1e-4, false}},
         .needs_time = true,
+        .needs_positions = true,  // a damper of e0 times the stiffness does nearly the same at one
         .screened = true,
         .signature =
             "forces that rise before the tool moves and stand still before it does, which no "
             "material can; with a rate, more so from press to press",
-        .confounders = {"sensor-lag", "touch", "viscoelastic"},
+        .confounders = {"damper", "sensor-lag", "touch", "viscoelastic"},
         .separated_by =
             "fast presses with a hold, at the beginning and at the end of the session; "
             "a tap on the sensor that both records show",
