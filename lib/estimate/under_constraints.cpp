@@ -121,7 +121,7 @@ class Search {
 
   void descend() {
     LeastSquaresResult& fit = result_.fit;
-    constexpr double kTiny = 1e-6, kRounding = 1e-13;
+    constexpr double kTiny = 1e-5, kRounding = 1e-13;
     double sum = r_.squaredNorm(), box = 2, before = 0;
     if (open_.empty() || !enough_freedom()) {
       fit.converged = true;
