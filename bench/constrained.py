@@ -90,7 +90,7 @@ def reference(data, start, constraints):
     y = np.ones(len(names))
     for _ in range(3):  # SLSQP ends early; it goes on from there
         found = minimize(lambda y: both(y)[0], y, jac=lambda y: both(y)[1], method="SLSQP", constraints=given,
-                         bounds=[(0.05, 0.499 / start[NU] if n == NU else 20) for n in names], options={"ftol": 1e-15, "maxiter": 200})
+                         bounds=[(0.05, 0.49 / start[NU] if n == NU else 20) for n in names], options={"ftol": 1e-15, "maxiter": 200})
         y = found.x
     return dict(zip(names, y * size))
 
@@ -113,9 +113,9 @@ GAIN = {E: 12e3, NU: 0.42, GX: 1.1, GY: 0.9}
 PROBLEMS = [
     (ONE, "E1 <= E/3", [("ineq", lambda p: p[E] / 3e3 - p[E1] / 1e3)]),
     (ONE, "E >= 2.5*E1", [("ineq", lambda p: p[E] / 1e3 - 2.5 * p[E1] / 1e3)]),
-    (ONE, "E + E1 = 15 kPa", [("eq", lambda p: (p[E] + p[E1]) / 1e3 - 15)]),
-    (ONE, "E + E1 <= 16 kPa; tau1 >= 0.4", [("ineq", lambda p: 16 - (p[E] + p[E1]) / 1e3),
-           ("ineq", lambda p: p[T1] - 0.4)]),
+    (ONE, "E + E1 = 17.5 kPa", [("eq", lambda p: (p[E] + p[E1]) / 1e3 - 17.5)]),
+    (ONE, "E + E1 <= 17.5 kPa; tau1 >= 0.31", [("ineq", lambda p: 17.5 - (p[E] + p[E1]) / 1e3),
+           ("ineq", lambda p: p[T1] - 0.31)]),
     (ONE, "E1*tau1 = 2500", [("eq", lambda p: p[E1] * p[T1] / 1e3 - 2.5)]),
     (ONE, "E1*tau1 <= 1500", [("ineq", lambda p: 1.5 - p[E1] * p[T1] / 1e3)]),
     (ONE, "(E^2 + E1^2)^0.5 <= 12 kPa",
@@ -135,7 +135,7 @@ PROBLEMS = [
            ("ineq", lambda p: (p[E1] - 3 * p[E2]) / 1e3)]),
     (TWO, "(tau1*tau2)^0.5 = 1; E1/E2 = 1.5", [("eq", lambda p: np.sqrt(p[T1] * p[T2]) - 1),
            ("eq", lambda p: p[E1] / p[E2] - 1.5)]),
-    (GAIN, "gx = gy", [("eq", lambda p: p[GX] - p[GY])]),
+    (GAIN, "gx + gy = 1.98", [("eq", lambda p: p[GX] + p[GY] - 1.98)]),
     (GAIN, "1/gx + 1/gy <= 1.9", [("ineq", lambda p: 1.9 - 1 / p[GX] - 1 / p[GY])]),
     (GAIN, "gx*gy = 1.1; E <= 11.5 kPa", [("eq", lambda p: p[GX] * p[GY] - 1.1),
            ("ineq", lambda p: 11.5 - p[E] / 1e3)]),
