@@ -75,7 +75,7 @@ class LearnedCurve {
 
 // By how much the curve through these values may err about x for want of knots: of fourth order, so
 // that the curve through every second knot misses the one between by sixteen times that, at the
-// ends by eight; a quarter is taken, for knots are not even.
+// ends by eight.
 template <std::size_t N>
 double for_want_of_knots(const LearnedCurve<N>& curve, const std::array<double, N>& y, double x) {
   constexpr std::size_t kFewer = N / 2 + 1;
@@ -83,12 +83,17 @@ double for_want_of_knots(const LearnedCurve<N>& curve, const std::array<double, 
   const auto place = [](std::size_t k) { return std::min(2 * k, N - 1); };
   typename Fewer::Weights knots{}, by{}, slopes{};
   for (std::size_t k = 0; k < kFewer; ++k) knots[k] = curve.knots()[place(k)];
-  std::size_t between = 1;
-  while (between + 3 < N && x > curve.knots()[between + 1]) between += 2;
-  Fewer(knots).at(curve.knots()[between], by, slopes);
-  double missed = y[between];
-  for (std::size_t k = 0; k < kFewer; ++k) missed -= by[k] * y[place(k)];
-  return std::abs(missed) / 4;
+  std::size_t about = 1;
+  while (about + 3 < N && x > curve.knots()[about + 1]) about += 2;
+  double most = 0;  // there and beside it, for what is missed may change its sign
+  for (std::size_t between = about < 3 ? 1 : about - 2; between <= about + 2 && between + 1 < N;
+       between += 2) {
+    Fewer(knots).at(curve.knots()[between], by, slopes);
+    double missed = y[between];
+    for (std::size_t k = 0; k < kFewer; ++k) missed -= by[k] * y[place(k)];
+    most = std::max(most, std::abs(missed));
+  }
+  return most / 7;
 }
 
 }  // namespace hapsim

@@ -212,7 +212,8 @@ LearnedFusion learn_fusion(const Recording& source, const SlowSource& slow,
   result.converged = true;
   result.parameters = start;
   // What is left of a press is learned with what the others teach of it.
-  const Taught taught = teach(lessons_of(source, rows), source.tool_radius());
+  const Taught taught = teach(lessons_of(source, rows),
+                              source.metadata.find("tool_radius") ? source.tool_radius() : 0);
   result.parameters.taught = {};
   Recording fast = source;
   std::size_t lesson = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "effects/effect.h"
 #include "material/maxwell_memory.h"
 
 namespace hapsim {
@@ -70,7 +71,8 @@ TaughtCorrection scales_of(const std::vector<LessonPress>& lessons, double tool_
   for (const LessonPress& press : lessons)
     c.place += press.contact / static_cast<double>(lessons.size());
   for (const LessonPress& press : lessons) {
-    c.reach = std::max(c.reach, (press.contact - c.place).norm() + tool_radius / 2);
+    c.reach =
+        std::max(c.reach, (press.contact - c.place).norm() + std::max(tool_radius / 2, kSamePlace));
     for (const Vec3& u : press.u) c.scale = c.scale.cwiseMax(u.cwiseAbs());
     for (std::size_t k = 1; k < press.slow_t.size(); ++k)
       gap += press.slow_t[k] - press.slow_t[k - 1], ++count;
