@@ -133,6 +133,20 @@ void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
   }
 }
 
+// What the latest includes as a special case has left the model when that came in.
+void drop_included(const Baseline& base, Diagnosis& d) {
+  for (std::size_t k = 0; k + 1 < d.findings.size();) {
+    const Finding earlier = d.findings[k];
+    if (base.fitted.model.has(earlier.effect)) {
+      ++k;
+      continue;
+    }
+    d.findings[k + 1].rmse_now = earlier.rmse_now;
+    d.findings[k + 1].held_out_now = earlier.held_out_now;
+    d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
 // What was tried on top of the model that the search ended with, and is not in it.
 void list_the_rest(const Round& last, const Gates& gates, Diagnosis& d) {
   for (const Finding& f : last.findings) {
@@ -185,13 +199,12 @@ bool ends_in_rivals(Round& round, std::size_t best, const TrialGround& g, const 
 }
 
 // Adds the best effect while one passes the gates; where no effect that has a name does, and not
-// noise alone is left, the best curve of no law.
-void search(Baseline& base, const TrialGround& g, const Folds& folds,
+// noise alone is left, the best curve of no law. `kind`: what is tried first.
+void search(Kind kind, Baseline& base, const TrialGround& g, const Folds& folds,
             const DiagnoseOptions& options, Diagnosis& d) {
   const bool can_hold_out = !folds.held_out.empty();
   Random random(options.seed);
   std::array<Round, 2> last;  // by Kind
-  Kind kind = Kind::kNamed;
   for (int added = 0; added < options.gates.most_effects;) {
     Round& round = last[static_cast<std::size_t>(kind)];
     round = try_all(kind, base, g, folds, options, random);
@@ -210,6 +223,7 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
     d.findings.push_back(finding);
     base = make_baseline(round.candidates[best].fitted.model, g, folds);
     round.findings[best].effect.clear();
+    drop_included(base, d);
     drop_superfluous(base, g, folds, options, d);
     kind = Kind::kNamed;
     ++added;
@@ -224,6 +238,43 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
     d.findings.insert(d.findings.end(), round.ruled_out.begin(), round.ruled_out.end());
     d.findings.insert(d.findings.end(), round.untestable.begin(), round.untestable.end());
   }
+}
+
+// On what is unseen, with all that is missing, or with the best of the rivals.
+double unseen_error(const Baseline& base, const Diagnosis& d) {
+  double least = base.held_out.error.pooled;
+  for (const Finding& f : d.findings)
+    if (f.verdict == Verdict::kIndistinguishable) least = std::min(least, f.held_out_after.pooled);
+  return least;
+}
+
+// A name is believed first; where all names together leave more than noise, or one of them is an
+// offset of each press, which imitates anything, a curve of no law is tried in their place, and
+// stands where it foretells plainly better: the cause is then of its kind, and of none of their
+// forms.
+void search_both_ways(Baseline& base, const TrialGround& g, const Folds& folds,
+                      const DiagnoseOptions& options, Diagnosis& d) {
+  constexpr double kPlainlyLess = 0.9;  // of two errors
+  Baseline other_base = base;
+  Diagnosis other = d;
+  search(Kind::kNamed, base, g, folds, options, d);
+  const bool explained =
+      d.rivals.empty() ? left_over(base.fitted, g).noise_alone() : d.left.noise_alone();
+  bool any = false, offsets = false;
+  for (const Finding& f : d.findings) {
+    if (f.verdict != Verdict::kMissing && f.verdict != Verdict::kIndistinguishable) continue;
+    any = true;
+    offsets = offsets || require_effect(f.effect).card().per_press;
+  }
+  if ((explained && !offsets) || !any || folds.held_out.empty()) return;
+  search(Kind::kLearned, other_base, g, folds, options, other);
+  const bool learned =
+      std::any_of(other.findings.begin(), other.findings.end(), [](const Finding& f) {
+        return f.verdict == Verdict::kMissing && require_effect(f.effect).card().learned;
+      });
+  if (!learned || unseen_error(other_base, other) >= kPlainlyLess * unseen_error(base, d)) return;
+  base = std::move(other_base);
+  d = std::move(other);
 }
 
 void search_few(Baseline& base, const TrialGround& g, const DiagnoseOptions& options,
@@ -294,7 +345,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   if (few_presses)
     search_few(base, g, options, d);
   else
-    search(base, g, folds, options, d);
+    search_both_ways(base, g, folds, options, d);
   const bool ambiguous = !d.rivals.empty();
   if (!few_presses && !ambiguous &&
       doubt_what_places_share(base, g, folds, options.gates, d.findings))

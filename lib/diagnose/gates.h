@@ -107,7 +107,8 @@ inline std::vector<std::string> gates_in_words() {
       "(learned-depth), the time since the tool moved (learned-kernel) and the session "
       "(learned-drift); learned-place stands beside the named ones. Such a name states no cause: "
       "it says of what kind the cause is, what it does, and by how much the unseen error falls "
-      "with it."};
+      "with it. Where all names together leave more than noise, such curves are tried in their "
+      "place too, and stand where the unseen error is plainly less."};
 }
 
 }  // namespace hapsim

@@ -78,6 +78,8 @@ std::map<int, std::vector<SlowRow>> slow_rows(const Recording& fast, const SlowS
 
 // Where the data say nothing, parameters stay within a factor of about e^3 of the start.
 constexpr double kPrior = 3;
+// Observations that learned shares are worth: as many as half the memory for what they have been.
+constexpr double kLearnedShares = 20;
 
 class Run {
  public:
@@ -117,6 +119,7 @@ class Run {
     out.report = fusion_.report();
     return out;
   }
+  const WayWorth& worth() const { return fusion_.worth(); }
 
  private:
   static std::size_t longest(const Recording& r) {
@@ -171,6 +174,36 @@ std::vector<LessonPress> lessons_of(const Recording& fast,
     lessons.push_back(std::move(lesson));
   }
   return lessons;
+}
+
+// What the filter's corrections are worth by the way since the newest slow force, when slow forces
+// come as they do, and so many times as seldom and as late. A band that hardly any motion reached
+// has what the one before it has.
+WayShares shares_of(const Recording& fast, const std::map<int, std::vector<SlowRow>>& rows,
+                    const FusionParameters& parameters) {
+  constexpr double kLeast = 3;  // normalised squares of corrections that tell what they are worth
+  WayShares agreed{}, added{};
+  for (const std::size_t times : {1, 2, 4, 8}) {
+    std::map<int, std::vector<SlowRow>> seldom;
+    for (const auto& [press, list] : rows)
+      for (std::size_t k = 0; k < list.size(); k += times) {
+        SlowRow row = list[k];
+        row.arrives = row.t + static_cast<double>(times) * (row.arrives - row.t);
+        seldom[press].push_back(row);
+      }
+    Run run(fast, parameters);
+    run(std::move(seldom));
+    for (std::size_t c = 0; c < kWayBands; ++c) {
+      agreed[c] += run.worth().agreed[c];
+      added[c] += run.worth().added[c];
+    }
+  }
+  WayShares share;
+  for (std::size_t c = 0; c < kWayBands; ++c)
+    share[c] = added[c] > kLeast ? std::clamp(agreed[c] / added[c], 0.0, 1.0)
+               : c > 1           ? share[c - 1]
+                                 : parameters.share[c];
+  return share;
 }
 
 // What was taught, in the table: its scale and times, then the weights.
@@ -260,6 +293,8 @@ LearnedFusion learn_fusion(const Recording& source, const SlowSource& slow,
     result.converged = result.converged && found.converged;
     result.runs += found.evaluations;
   }
+  result.parameters.share = shares_of(fast, rows, result.parameters);
+  result.parameters.share_known = kLearnedShares;
   result.parameters.taught = taught.correction;
   return result;
 }
@@ -303,6 +338,14 @@ FusionParameters read_fusion(Input& input) {
                    fmt::format("give {:g} to {:g}", lower, upper));
       return value[row];
     };
+    if (name.rfind("share", 0) == 0 && name.size() == 6 && name[5] >= '0' && name[5] <= '8') {
+      parameters.share[static_cast<std::size_t>(name[5] - '0')] = bounded(0, 1);
+      continue;
+    }
+    if (name == "share_known") {
+      parameters.share_known = bounded(0.1, 1e6);
+      continue;
+    }
     if (name == "blend") {
       parameters.blend = bounded(0, 10);
       continue;
@@ -334,6 +377,9 @@ void write_fusion(std::ostream& out, const FusionParameters& parameters) {
     for (const Entry& e : entries())
       csv.row({e.name, kAxes[a], format_number(parameters.axis[a].*(e.value)), e.unit});
   csv.row({"blend", "", format_number(parameters.blend), "s"});
+  for (std::size_t c = 0; c < kWayBands; ++c)
+    csv.row({fmt::format("share{}", c), "", format_number(parameters.share[c]), "1"});
+  csv.row({"share_known", "", format_number(parameters.share_known), "1"});
   TaughtCorrection taught = parameters.taught;
   if (!taught.taught()) return;
   for (const TaughtEntry& e : taught_entries(taught))

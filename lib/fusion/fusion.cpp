@@ -8,9 +8,8 @@ namespace {
 
 constexpr double kChiSquare3 = 7.814727903;  // 95 % point of three degrees of freedom
 constexpr double kWalkFloor = 0.1;    // of the walk at rest: in fast motion it does not freeze
-constexpr double kShareStart = 0.5;   // of what is added, until it has shown its worth
-constexpr double kShareKnown = 2;     // observations that this is worth
-constexpr double kShareSpread = 0.3;  // to the next class of rates
+constexpr double kShareSpread = 0.3;  // to the next band of ways
+constexpr double kFirstWay = 2e-4;    // [m]
 constexpr double kScaleSpread = 0.6;  // the same, of the variances' scale
 constexpr double kShareMemory = 40;   // observations
 constexpr double kLargestNis = 10;    // one outlier does not blow all variances up
@@ -46,8 +45,9 @@ Fusion::Fusion(const FusionParameters& parameters, std::size_t history)
       filter_{Filter(history), Filter(history), Filter(history)},
       ring_(history) {
   scale_.fill(1);
-  agreed_.fill(kShareStart * kShareKnown);
-  added_.fill(kShareKnown);
+  for (std::size_t c = 0; c < kWayBands; ++c)
+    agreed_[c] = parameters.share[c] * parameters.share_known;
+  added_.fill(parameters.share_known);
   begin(0, parameters.taught.place);
 }
 
@@ -84,6 +84,7 @@ void Fusion::begin(double t, const Vec3& contact) noexcept {
   ring_[0].t = t;
   newest_t_ = t;
   newest_way_ = 0;
+  any_slow_ = false;
   u_.setZero();
   pending_.setZero();
   last_.setZero();
@@ -115,7 +116,8 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& source) noexcept {
   now.rate = rate;
   now.way = before.way + (u - u_).norm();
   now.ahead = t > newest_t_ ? std::max(rate, (now.way - newest_way_) / (t - newest_t_)) : rate;
-  const double share = parameters_.weighs ? share_at(rate) : 1;
+  now.moved = any_slow_ ? std::max(now.way - newest_way_, 0.0) : -1;
+  const double share = parameters_.weighs ? share_at(now.moved) : 1;
   share_ += parameters_.blend > 0 ? (1 - std::exp(-dt / parameters_.blend)) * (share - share_)
                                   : share - share_;
   now.added = added();
@@ -127,14 +129,21 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& source) noexcept {
   return now.given + pending_;
 }
 
-// Between the classes' middles straight in the logarithm of the rate.
-double Fusion::share_at(double rate) const noexcept {
+std::size_t Fusion::way_band(double moved) noexcept {
+  if (moved < 0) return 0;
+  const int k = moved > kFirstWay ? std::ilogb(moved / kFirstWay) + 2 : 1;
+  return static_cast<std::size_t>(std::clamp(k, 1, static_cast<int>(kWayBands) - 1));
+}
+
+// Between the bands' middles straight in the logarithm of the way.
+double Fusion::share_at(double moved) const noexcept {
   const auto of = [&](int k) {
-    const auto i = static_cast<std::size_t>(std::clamp(k, 0, 7));
+    const auto i = static_cast<std::size_t>(std::clamp(k, 1, static_cast<int>(kWayBands) - 1));
     return std::clamp(agreed_[i] / added_[i], 0.0, 1.0);
   };
-  const double x = rate > 0 ? std::log2(rate / 1e-3) + 0.5 : 0;
-  if (x <= 0) return of(0);
+  if (moved < 0) return std::clamp(agreed_[0] / added_[0], 0.0, 1.0);
+  const double x = moved > 0 ? std::log2(moved / kFirstWay) + 1.5 : 1;
+  if (x <= 1) return of(1);
   const double k = std::floor(x);
   return of(static_cast<int>(k)) +
          (x - k) * (of(static_cast<int>(k) + 1) - of(static_cast<int>(k)));
@@ -202,14 +211,20 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
     deviance[a] = std::log(S) + normalised[a] * normalised[a];
   }
   if (t > newest_t_) {
+    any_slow_ = true;
     newest_t_ = t;
     newest_way_ = before.way + share * (after.way - before.way);
   }
-  const std::size_t at_rate = rate_class(after.rate);
+  const std::size_t band = way_band(after.moved);
+  worth_.agreed[band] += agreed;
+  worth_.added[band] += had_added;
   for (std::size_t c = 0; c < agreed_.size(); ++c) {
-    const double weight = near(c, at_rate, kShareSpread);
-    agreed_[c] += weight * (agreed - (agreed_[c] - kShareStart * kShareKnown) / kShareMemory);
-    added_[c] += weight * (had_added - (added_[c] - kShareKnown) / kShareMemory);
+    // What is known before any slow force is of its own kind.
+    if ((c == 0) != (band == 0)) continue;
+    const double weight = near(c, band, kShareSpread);
+    agreed_[c] += weight * (agreed - (agreed_[c] - parameters_.share[c] * parameters_.share_known) /
+                                         kShareMemory);
+    added_[c] += weight * (had_added - (added_[c] - parameters_.share_known) / kShareMemory);
   }
   const std::size_t at_ahead = rate_class(after.ahead);
   normalised /= std::sqrt(scale_[at_ahead]);

@@ -26,11 +26,24 @@ struct AxisFusion {
   double noise_rise = 0.1;   // and how it grows with the rate [N s/m]
   double force_scale = 1;    // F [N]
 };
+// Bands of the way that the tool has gone since the newest slow force that was there: none in this
+// contact yet, then to 0.2 mm, 0.4 mm, 0.8 mm, ...
+inline constexpr std::size_t kWayBands = 9;
+using WayShares = std::array<double, kWayBands>;
+
 struct FusionParameters {
   std::array<AxisFusion, 3> axis;
   double blend = 0.01;      // time over which a correction is let in [s]; 0: at once
   bool weighs = true;       // false: all that the filter adds is let in, whatever it has been worth
   TaughtCorrection taught;  // added to the fast force before all else
+  // Of what the filter adds, by the way since the newest slow force: until it has shown its worth.
+  WayShares share{0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
+  double share_known = 2;  // observations that these are worth
+};
+
+// What corrections have been worth by the way since the newest slow force, of all observations.
+struct WayWorth {
+  WayShares agreed{}, added{};
 };
 
 struct FusionReport {
@@ -68,9 +81,9 @@ struct FusionReport {
 //
 // Share. The correction is a forecast over the slow source's lateness, and may be worse than
 // nothing where that is long beside the motion. Therefore only a share of it is added, one a band
-// of rates, a half at first: the share by which the corrections agree best, in the mean square,
-// with what the slow forces later showed to have been missing (Bates and Granger, Operational
-// Research Quarterly 20, 1969).
+// of the way since the newest slow force, at first as learned: the share by which the corrections
+// agree best, in the mean square, with what the slow forces later showed to have been missing
+// (Bates and Granger, Operational Research Quarterly 20, 1969).
 //
 // step() and observe() allocate nothing and lock nothing.
 class Fusion {
@@ -88,6 +101,7 @@ class Fusion {
   bool observe(double t, const Vec3& slow) noexcept;
 
   Vec3 deviation() const noexcept;  // standard deviation of the last fused force [N]
+  const WayWorth& worth() const { return worth_; }
   const FusionReport& report() const { return report_; }
 
  private:
@@ -98,13 +112,15 @@ class Fusion {
     double rate = 0;            // [m/s]
     double way = 0;             // of u since the contact began [m]
     double ahead = 0;           // mean rate since the newest slow force that was there [m/s]
+    double moved = -1;          // and the way since then [m]; negative: there was none
     Vec3 added = Vec3::Zero();  // by the filter, before its share is taken
     Vec3 given = Vec3::Zero(), variance = Vec3::Zero();  // as it was given out, before blending
   };
   const Sample& sample(std::size_t k) const { return ring_[k % ring_.size()]; }
   Filter::Vector features(int axis, double force) const noexcept;
   static std::size_t rate_class(double rate) noexcept;
-  double share_at(double rate) const noexcept;
+  static std::size_t way_band(double moved) noexcept;
+  double share_at(double moved) const noexcept;
   Vec3 added() const noexcept;     // by the filter to the last sample
   Vec3 estimate() const noexcept;  // of the last sample, before blending
   Vec3 variance() const noexcept;  // of it
@@ -114,10 +130,12 @@ class Fusion {
   std::array<Filter, 3> filter_;
   std::vector<Sample> ring_;
   std::size_t first_ = 0, next_ = 0;
-  // One a factor 2 of the rate: of all variances by what was seen; and sums of what was added times
-  // what was missing, and squared, over the variance.
-  std::array<double, 8> scale_{}, agreed_{}, added_{};
+  std::array<double, 8> scale_{};  // of all variances by what was seen, one a factor 2 of the rate
+  // Sums of what was added times what was missing, and squared, over the variance.
+  WayShares agreed_{}, added_{};
+  WayWorth worth_;
   double newest_t_ = 0, newest_way_ = 0;  // of the newest slow force in this contact
+  bool any_slow_ = false;                 // there was one
   double share_ = 1;                      // of the filter's in what is given out
   Vec3 u_ = Vec3::Zero(), pending_ = Vec3::Zero(), last_ = Vec3::Zero();
   FusionReport report_;

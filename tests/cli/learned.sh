@@ -26,7 +26,7 @@ changed() {
       $c["fx"] = f[1] + noise(); $c["fy"] = f[2] + noise(); $c["fz"] = f[3] + noise(); print }' forces.csv >"$1.csv"
 }
 changed depth 'if (d > 0) { g = exp(.25 * sin(5 * d / .003)); for (i = 1; i <= 3; ++i) f[i] *= g }'
-changed zero 'f[3] += .02 * sin(.3 * t) + .01 * sin(.11 * t); f[1] += .01 * cos(.25 * t)'
+changed zero 'f[3] += .03 * sin(.2 * t); f[1] += .015 * cos(.17 * t)'
 changed nothing ''
 for cause in depth zero nothing; do
   "$bin/hs-identify" -q $cause.csv --body body.ply --effects elastic --fix nu=0.42 -o $cause-m0.csv || complain "$cause: no model"
