@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -188,22 +189,46 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
   return starts;
 }
 
+namespace {
+
+// Whether the force swings so where nothing is touched: then it is no body that does.
+bool swings_too(const SpectralLine& line, const std::vector<double>& t,
+                const std::vector<Vec3>& values) {
+  constexpr std::size_t kFewest = 12;
+  constexpr double kPlainly = 9, kAsMuch = 0.25;  // deviations; of the power in contact
+  if (t.size() < kFewest) return false;
+  Eigen::MatrixXd A(static_cast<Eigen::Index>(t.size()), 3), y = A;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double phase = 2 * 3.14159265358979323846 * line.frequency * t[i];
+    A.row(static_cast<Eigen::Index>(i)) << std::sin(phase), std::cos(phase), 1;
+    y.row(static_cast<Eigen::Index>(i)) = values[i].transpose();
+  }
+  const Eigen::MatrixXd x = A.colPivHouseholderQr().solve(y);
+  const double rest = (y - A * x).squaredNorm() / (3 * static_cast<double>(t.size() - 3));
+  const double power = x.topRows(2).squaredNorm();
+  return power > kPlainly * 6 * 2 * rest / static_cast<double>(t.size()) &&
+         power > kAsMuch * (line.sine.squaredNorm() + line.cosine.squaredNorm());
+}
+
+}  // namespace
+
 SpectralLine line_left(const Fit& fitted, const Experiment& experiment,
                        const Selection& selection) {
   const Eigen::VectorXd left = measured_forces(experiment.dataset, selection) -
                                model_forces(fitted, experiment, selection, false).f;
-  std::vector<double> t;
-  std::vector<Vec3> values;
+  std::vector<double> t, air_t;
+  std::vector<Vec3> values, in_air;
   Eigen::Index at = 0;
   for (const int e : selection) {
     const PressView& press = experiment.dataset.episodes[static_cast<std::size_t>(e)].view;
     for (std::size_t i = 0; i < press.size(); ++i, at += 3) {
-      if (press.in_air[i] || press.session.empty()) continue;
-      t.push_back(press.session[i]);
-      values.emplace_back(left.segment<3>(at));
+      if (press.session.empty()) continue;
+      (press.in_air[i] ? air_t : t).push_back(press.session[i]);
+      (press.in_air[i] ? in_air : values).emplace_back(left.segment<3>(at));
     }
   }
-  return find_line(t, values, selection.size());
+  const SpectralLine line = find_line(t, values, selection.size());
+  return line.frequency > 0 && swings_too(line, air_t, in_air) ? SpectralLine{} : line;
 }
 
 std::string not_shared(const EffectCard& effect, const Dataset& dataset) {

@@ -19,8 +19,10 @@ inline double direction_doubt(const Eigen::Matrix3d& K, const Vec3& u) noexcept 
   return square > 0 ? std::sqrt((u.dot(f) * K.trace() / square + 1) / 4) : 1;
 }
 
-// The root of its mean square over the thirteen axes of a cube.
+// The root of its mean square over the thirteen axes of a cube; 1 where it is hardly more, as
+// beside a half-space, so that places are sampled there as if all directions were alike.
 inline double mean_direction_doubt(const Eigen::Matrix3d& K) noexcept {
+  constexpr double kHardlyMore = 1.05;
   double sum = 0;
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
@@ -29,7 +31,8 @@ inline double mean_direction_doubt(const Eigen::Matrix3d& K) noexcept {
         const double doubt = direction_doubt(K, Vec3(x, y, z));
         sum += doubt * doubt;
       }
-  return std::sqrt(sum / 26);
+  const double mean = std::sqrt(sum / 26);
+  return mean > kHardlyMore ? mean : 1;
 }
 
 }  // namespace hapsim
