@@ -46,6 +46,10 @@ inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 inline constexpr std::size_t kLeastPresses = 6;
 inline constexpr double kForetoldFall = 0.05;
 
+// A curve of no law stands in the place of names where it errs by less than that share of their
+// error on what is unseen.
+inline constexpr double kPlainlyLess = 0.9;
+
 // Where there are more places than that, so many of them tell first which effects are worth finite
 // elements at all of them.
 inline constexpr std::size_t kManyPlaces = 60, kScreened = 24;

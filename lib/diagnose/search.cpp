@@ -1,0 +1,200 @@
+#include "diagnose/search.h"
+
+#include <algorithm>
+#include <array>
+
+#include "diagnose/held_out.h"
+#include "diagnose/left_over.h"
+#include "diagnose/rivals_together.h"
+#include "diagnose/round_winner.h"
+#include "diagnose/superfluous.h"
+#include "effects/catalogue.h"
+
+namespace hapsim {
+namespace {
+
+// What was found first may have stood for what was found after it.
+void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
+                      const DiagnoseOptions& options, Diagnosis& d) {
+  for (std::size_t k = 0; k + 1 < d.findings.size();) {
+    const Finding& earlier = d.findings[k];
+    // Of a map that a later one includes nothing can be taken away by itself.
+    const bool is_map = require_effect(earlier.effect).card().is_map;
+    const bool repeated =
+        std::any_of(d.findings.begin() + static_cast<std::ptrdiff_t>(k) + 1, d.findings.end(),
+                    [&](const Finding& f) {
+                      return f.effect == earlier.effect ||
+                             (is_map && contains(require_effect(f.effect), earlier.effect));
+                    });
+    if (repeated || !base.fitted.model.has(earlier.effect)) {
+      ++k;
+      continue;
+    }
+    options.tell("without " + earlier.effect);
+    auto lesser = without_superfluous(earlier.effect, base, g, folds, options.gates);
+    if (!lesser) {
+      ++k;
+      continue;
+    }
+    base = std::move(*lesser);
+    d.findings[k + 1].rmse_now = earlier.rmse_now;
+    d.findings[k + 1].held_out_now = earlier.held_out_now;
+    Finding& latest = d.findings.back();
+    latest.rmse_after = base.fitted.error;
+    latest.held_out_after = held_out_for(require_effect(latest.effect), base).error;
+    d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
+// What the latest includes as a special case has left the model when that came in.
+void drop_included(const Baseline& base, Diagnosis& d) {
+  for (std::size_t k = 0; k + 1 < d.findings.size();) {
+    const Finding earlier = d.findings[k];
+    if (base.fitted.model.has(earlier.effect)) {
+      ++k;
+      continue;
+    }
+    d.findings[k + 1].rmse_now = earlier.rmse_now;
+    d.findings[k + 1].held_out_now = earlier.held_out_now;
+    d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
+// What was tried on top of the model that the search ended with, and is not in it.
+void list_the_rest(const Round& last, const Gates& gates, Diagnosis& d) {
+  for (const Finding& f : last.findings) {
+    if (f.effect.empty()) continue;
+    const bool known = std::any_of(d.findings.begin(), d.findings.end(),
+                                   [&](const Finding& other) { return other.effect == f.effect; });
+    if (known) continue;
+    Finding finding = f;
+    const bool by_chance = !f.plain && f.p_value >= gates.p_value;
+    if (f.hidden) {
+      finding.verdict = Verdict::kNotTestable;
+      finding.evidence = finding.next_measurement =
+          "a law of the depth and a first touch of each place's own would do the same; record " +
+          f.next_measurement;
+      d.findings.push_back(finding);
+      continue;
+    }
+    finding.verdict =
+        f.criterion_gain > gates.criterion_gain && !by_chance && f.share >= gates.share
+            ? Verdict::kPossible
+            : Verdict::kAbsent;
+    d.findings.push_back(finding);
+  }
+}
+
+// Whether the round ended in rivals that the data cannot tell apart; they then stand in `d`.
+bool ends_in_rivals(Round& round, std::size_t best, const TrialGround& g, const Gates& gates,
+                    bool can_hold_out, Diagnosis& d) {
+  std::vector<std::size_t> rivals = rivals_of(best, round, gates, can_hold_out, g.allowance.noise);
+  if (std::any_of(rivals.begin(), rivals.end(), [&](std::size_t k) {
+        return both_act(round.candidates[best], round.candidates[k], g);
+      }))
+    return false;  // the next rounds find the other
+  if (rivals.empty()) return false;
+  rivals.insert(rivals.begin(), best);
+  d.left = left_over(round.candidates[best].fitted, g);
+  for (const std::size_t k : rivals) {
+    d.rivals.push_back(round.candidates[k].fitted.model);
+    Finding finding = round.findings[k];
+    finding.verdict = Verdict::kIndistinguishable;
+    for (const std::size_t other : rivals)
+      if (other != k) finding.confused_with.push_back(round.findings[other].effect);
+    d.findings.push_back(finding);
+  }
+  for (Finding& f : round.findings)
+    if (std::any_of(rivals.begin(), rivals.end(),
+                    [&](std::size_t k) { return round.findings[k].effect == f.effect; }))
+      f.effect.clear();
+  return true;
+}
+
+// Adds the best effect while one passes the gates; where no effect that has a name does, and not
+// noise alone is left, the best curve of no law. `kind`: what is tried first.
+void search_from(Kind kind, Baseline& base, const TrialGround& g, const Folds& folds,
+                 const DiagnoseOptions& options, Diagnosis& d) {
+  const bool can_hold_out = !folds.held_out.empty();
+  Random random(options.seed);
+  std::array<Round, 2> last;  // by Kind
+  for (int added = 0; added < options.gates.most_effects;) {
+    Round& round = last[static_cast<std::size_t>(kind)];
+    round = try_all(kind, base, g, folds, options, random);
+    const std::size_t best = best_of(round, options.gates, can_hold_out);
+    if (best == round.findings.size()) {
+      if (kind == Kind::kLearned || left_over(base.fitted, g).noise_alone()) break;
+      kind = Kind::kLearned;
+      continue;
+    }
+    if (ends_in_rivals(round, best, g, options.gates, can_hold_out, d)) break;
+    Finding finding = round.findings[best];
+    finding.verdict = Verdict::kMissing;
+    for (std::size_t k = 0; k < round.findings.size(); ++k)
+      if (k != best && passes(round.findings[k], options.gates, can_hold_out))
+        finding.confused_with.push_back(round.findings[k].effect);
+    d.findings.push_back(finding);
+    base = make_baseline(round.candidates[best].fitted.model, g, folds);
+    round.findings[best].effect.clear();
+    drop_included(base, d);
+    drop_superfluous(base, g, folds, options, d);
+    kind = Kind::kNamed;
+    ++added;
+  }
+  for (Finding& f : d.findings)
+    std::erase_if(f.confused_with, [&](const std::string& other) {
+      return f.verdict == Verdict::kMissing && base.fitted.model.has(other);
+    });
+  for (const Round& round : last) list_the_rest(round, options.gates, d);
+  put_in_order(d.findings);
+  for (const Round& round : last) {
+    d.findings.insert(d.findings.end(), round.ruled_out.begin(), round.ruled_out.end());
+    d.findings.insert(d.findings.end(), round.untestable.begin(), round.untestable.end());
+  }
+}
+
+// On what is unseen, with all that is missing, or with the best of the rivals.
+double unseen_error(const Baseline& base, const Diagnosis& d) {
+  double least = base.held_out.error.pooled;
+  for (const Finding& f : d.findings)
+    if (f.verdict == Verdict::kIndistinguishable) least = std::min(least, f.held_out_after.pooled);
+  return least;
+}
+
+}  // namespace
+
+void put_in_order(std::vector<Finding>& findings) {
+  const auto settled = [](const Finding& f) {
+    return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
+  };
+  std::stable_sort(findings.begin(), findings.end(), [&](const Finding& a, const Finding& b) {
+    if (settled(a) || settled(b)) return settled(a) && !settled(b);
+    return a.criterion_gain > b.criterion_gain;
+  });
+}
+
+void search(Baseline& base, const TrialGround& g, const Folds& folds,
+            const DiagnoseOptions& options, Diagnosis& d) {
+  Baseline other_base = base;
+  Diagnosis other = d;
+  search_from(Kind::kNamed, base, g, folds, options, d);
+  const bool explained =
+      d.rivals.empty() ? left_over(base.fitted, g).noise_alone() : d.left.noise_alone();
+  bool any = false, offsets = false;
+  for (const Finding& f : d.findings) {
+    if (f.verdict != Verdict::kMissing && f.verdict != Verdict::kIndistinguishable) continue;
+    any = true;
+    offsets = offsets || require_effect(f.effect).card().per_press;
+  }
+  if ((explained && !offsets) || !any || folds.held_out.empty()) return;
+  search_from(Kind::kLearned, other_base, g, folds, options, other);
+  const bool learned =
+      std::any_of(other.findings.begin(), other.findings.end(), [](const Finding& f) {
+        return f.verdict == Verdict::kMissing && require_effect(f.effect).card().learned;
+      });
+  if (!learned || unseen_error(other_base, other) >= kPlainlyLess * unseen_error(base, d)) return;
+  base = std::move(other_base);
+  d = std::move(other);
+}
+
+}  // namespace hapsim
