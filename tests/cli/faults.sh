@@ -154,6 +154,7 @@ for tool in hs-tetmesh hs-simulate hs-identify; do
   done
   # The cache that a killed process was writing does no harm.
   XDG_CACHE_HOME=$work/fresh ${command[$tool]} -q -o after 2>/dev/null && cmp -s after whole || complain "$tool after kills"
+  rm -rf fresh  # a SIGKILL may have left its temporary file there
   row "killed ($cut of 10 in time)" $tool 'old or new, whole; the cache serves on'
 done
 # An operator whose output cannot be written, or that is killed on the way: the teleoperator lives on and
