@@ -22,6 +22,8 @@ constexpr std::size_t kPool = 1200;  // places among which the next are chosen
 constexpr std::size_t kFirstBoth = 5, kBoth = 12;
 // So near to what is bonded, in tool radii, the meshes differ by more than a common factor.
 constexpr double kBesideSupport = 2.5;
+// Meshes are made from one radius on, but not of every place up to here.
+constexpr double kClear = 1.2;
 // Where the surface about turns so much, two radii from a right-angled edge, coarse meshes scatter.
 constexpr double kBesideEdge = 0.07;
 // A place that was refused says little of those beyond that share of a radius, which are tried.
@@ -151,7 +153,7 @@ std::vector<Vec3> FieldSampling::draw(std::size_t count, std::uint64_t seed) con
 }
 
 bool FieldSampling::is_touchable(const Vec3& point) const {
-  return is_touchable(point, radius_);
+  return clearance(*bonded_, point) >= kClear * radius_ && is_touchable(point, radius_);
 }
 
 bool FieldSampling::is_touchable(const Vec3& point, double reach) const {
