@@ -25,7 +25,7 @@ constexpr double kBesideSupport = 2.5;
 // Meshes are made from one radius on, but not of every place up to here.
 constexpr double kClear = 1.2;
 // Where the surface about turns so much, two radii from a right-angled edge, coarse meshes scatter.
-constexpr double kBesideEdge = 0.07;
+constexpr double kBesideEdge = 0.03;
 // A place that was refused says little of those beyond that share of a radius, which are tried.
 constexpr double kNearRefused = 0.3;
 // The share of the pool that may be less sure than this, in tolerances: twice that is the worst.
