@@ -12,6 +12,7 @@
 #include "estimate/probability.h"
 #include "fit/learned_field.h"
 #include "fit/press_offsets.h"
+#include "fit/testable.h"
 #include "model/model_edit.h"
 
 namespace hapsim {

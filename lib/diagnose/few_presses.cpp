@@ -10,6 +10,7 @@
 #include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
+#include "fit/testable.h"
 
 namespace hapsim {
 namespace {

@@ -12,6 +12,7 @@
 #include "diagnose/screens.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
+#include "fit/testable.h"
 
 namespace hapsim {
 namespace {

@@ -30,16 +30,6 @@ std::vector<Model> with_effect(const Fit& fitted, const std::string& effect,
                                const Experiment& experiment, const Selection& selection,
                                const ExtendOptions& options);
 
-// Empty when what the effect's parameters belong to (one body, one tool) is but one in these data,
-// else what to do, in words.
-std::string not_shared(const EffectCard& effect, const Dataset& dataset);
-
-// Error(kUsage) naming the first of these effects whose parameters cannot be shared so.
-void require_shared(const std::vector<std::string>& effects, const Dataset& dataset);
-
-// Empty when these data can test the effect, else what they lack, in words.
-std::string lacking_for(const EffectCard& effect, const Dataset& dataset);
-
 // The frequency that stands out of the forces that a fitted model leaves where the tool is in
 // contact, over the time of the session.
 SpectralLine line_left(const Fit& fitted, const Experiment& experiment, const Selection& selection);

@@ -7,6 +7,7 @@
 #include "base/parallel.h"
 #include "effects/catalogue.h"
 #include "fit/extend.h"
+#include "fit/testable.h"
 #include "model/body_parameters.h"
 
 namespace hapsim {

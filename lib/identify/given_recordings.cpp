@@ -7,6 +7,7 @@
 #include "experiment/contact_radius.h"
 #include "experiment/plausible.h"
 #include "fit/extend.h"
+#include "fit/testable.h"
 #include "recording/recording_join.h"
 
 namespace hapsim {

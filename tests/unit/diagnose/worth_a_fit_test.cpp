@@ -3,6 +3,7 @@
 
 #include "diagnose/candidate.h"
 #include "effects/catalogue.h"
+#include "fit/testable.h"
 #include "support/synthetic.h"
 
 namespace hapsim {

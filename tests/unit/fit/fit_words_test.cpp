@@ -8,6 +8,7 @@
 
 #include "expect_error.h"
 #include "fit/fit_record.h"
+#include "fit/testable.h"
 #include "support/synthetic.h"
 #include "support/told.h"
 

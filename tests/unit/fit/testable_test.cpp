@@ -1,5 +1,9 @@
 // What data must have for an effect to be testable, and what presses tell of their past.
+#include "fit/testable.h"
+
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "expect_error.h"
 #include "support/synthetic.h"
@@ -89,6 +93,30 @@ TEST(Testable, SaysWhatTheDataLack) {
   EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
   in.u[0].z() = 1e-4;  // above the surface is no way out
   EXPECT_NE(lack("drag", in).find("way out"), std::string::npos);
+}
+
+// One steady pace in: whatever a memory does, a law of the depth does.
+TEST(Testable, AMemoryOfNoLawNeedsMoreThanOnePace) {
+  const auto presses = [](double second_pace, int held) {
+    Recording r = two_presses();
+    for (auto* column : {&r.u, &r.f, &r.position}) column->clear();
+    r.press.clear(), r.line.clear(), r.t.clear();
+    for (int press = 0; press < 2; ++press)
+      for (int i = 0; i < 20 + held; ++i) {
+        r.line.push_back(static_cast<long>(r.line.size()) + 2);
+        r.press.push_back(press);
+        r.t.push_back(10 * press + 0.1 * i);
+        r.position.emplace_back(0.01, 0.02, 0.04);
+        r.u.emplace_back(0, 0, -1e-4 * std::min(i, 20) * (press == 0 ? 1 : second_pace));
+        r.f.push_back(Vec3::Zero());
+      }
+    return r;
+  };
+  EXPECT_NE(lack("learned-kernel", presses(1, 0)).find("one steady pace"), std::string::npos);
+  EXPECT_EQ(lack("learned-kernel", presses(0.3, 0)), "");
+  EXPECT_EQ(lack("learned-kernel", presses(1, 20)), "");
+  EXPECT_EQ(lack("learned-drift", presses(1, 0)), "");  // the second press comes later
+  EXPECT_EQ(lack("viscoelastic", presses(1, 0)), "");   // its law is told by its form, or is not
 }
 
 TEST(Testable, AnEndOfTheSensorIsInTheReadings) {
