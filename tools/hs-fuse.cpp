@@ -22,7 +22,7 @@
 namespace hapsim {
 namespace flag {
 inline constexpr FileFlag slow{"--slow"}, acfm{"--acfm-model"}, parameters{"--parameters"},
-    learn{"--learn"}, exact{"--exact"};
+    learn{"--learn"}, exact{"--exact"}, stepped{"--stepped"};
 inline constexpr TimeFlag delay{"--delay"};
 inline constexpr SwitchFlag live{"--live"};
 inline constexpr NumberFlag rate{"--rate"};
@@ -52,7 +52,8 @@ ToolSpec specification() {
       "its memories, kept where it foretells presses left out (of four or more), added to the fast "
       "force at the places of these presses and nowhere else. Then it finds the filter's "
       "parameters under which the slow forces, as they differ from what "
-      "was predicted, are most likely. The consistency of the filter is told as NIS, the mean of "
+      "was predicted, are most likely, at their own pace and when they come 3 and 10 times as "
+      "seldom and as late. The consistency of the filter is told as NIS, the mean of "
       "those differences squared over their variances: 1 when the filter knows its own error, with "
       "the band that it should lie in.",
       "With --exact the error and the largest step per millisecond are told, beside those of the "
@@ -79,6 +80,12 @@ ToolSpec specification() {
        .default_text = "0",
        .minimum = 0,
        .maximum = 100},
+      {.flag = flag::stepped,
+       .value = "FILE",
+       .help = "Forces of the fast source in the slow one's steps (the rows of --slow through the "
+               "analytical model): what steps that are long make of a body that relaxes is taken "
+               "off the slow forces, as --live does.",
+       .group = "Input"},
       {.flag = flag::live,
        .help = "Answers a motion line by line: --acfm-model is the fast source, finite elements of "
                "--model "
@@ -122,21 +129,29 @@ ToolSpec specification() {
        .value = "FILE",
        .help = "Recording of the same rows with exact forces to compare with.",
        .group = "Input"}};
-  spec.tables = {{"Output",
-                  {{"...", "the columns of the fast recording, its forces replaced"},
-                   {"sdx, sdy, sdz", "standard deviation that the filter states [N]"}}},
-                 {"Parameters",
-                  {{"axis", "x, y or z: every component has its own"},
-                   {"offset_walk", "of the offset at rest [N/s^0.5]"},
-                   {"walk_rate", "rate at which that has fallen to a tenth, its floor [m/s]"},
-                   {"drift_walk", "of the drift at rest [N/s^1.5]"},
-                   {"drift_time", "in which the drift decays [s]"},
-                   {"gain_walk", "of the gain along a way of force_scale of the fast force"},
-                   {"gain_spread", "standard deviation of gain and stiffening at the start"},
-                   {"noise", "of the slow source at rest [N]"},
-                   {"noise_rise", "its growth with the rate [N s/m]"},
-                   {"force_scale", "force at which the stiffening is one of the force [N]"},
-                   {"blend", "time over which a correction is let in [s]"}}}};
+  spec.tables = {
+      {"Output",
+       {{"...", "the columns of the fast recording, its forces replaced"},
+        {"sdx, sdy, sdz", "standard deviation that the filter states [N]"}}},
+      {"Parameters",
+       {{"axis", "x, y or z: every component has its own"},
+        {"offset_walk", "of the offset at rest [N/s^0.5]"},
+        {"walk_rate", "rate at which that has fallen to a tenth, its floor [m/s]"},
+        {"offset_time", "in which the offset decays [s]"},
+        {"drift_walk", "of the drift at rest [N/s^1.5]"},
+        {"drift_time", "in which the drift decays [s]"},
+        {"gain_walk", "of the gain along a way of force_scale of the fast force"},
+        {"gain_spread", "standard deviation of gain and stiffening at the start"},
+        {"noise", "of the slow source at rest [N]"},
+        {"noise_rise", "its growth with the rate [N s/m]"},
+        {"force_scale", "force at which the stiffening is one of the force [N]"},
+        {"blend", "time over which a correction is let in [s]"},
+        {"share0..8, age_share0..8",
+         "of the corrections that are let in, by the way since the newest slow force "
+         "(none yet, to 0.2 mm, 0.4 mm, ...) and by the time since (to 10 ms, 20 ms, "
+         "...)"},
+        {"share_known", "observations that the shares are worth, as they go on learning"},
+        {"taught...", "what the slow forces teach by law, from --learn"}}}};
   for (const Option& option : hand_flags()) spec.options.push_back(option);
   spec.options.push_back(answer_option("Output"));
   spec.examples = {
@@ -177,7 +192,8 @@ class FinitePress : public SlowPress {
 int run_live_fusion(const Arguments& arguments) {
   for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::acfm})
     if (!arguments.given(flag)) fail_usage("--live needs " + flag, "give it");
-  for (const AnyFlag& flag : AnyFlags{flag::slow, flag::learn, flag::exact, flag::delay})
+  for (const AnyFlag& flag :
+       AnyFlags{flag::slow, flag::learn, flag::exact, flag::delay, flag::stepped})
     if (arguments.given(flag))
       fail_usage(flag + " is of whole recordings", "leave it out, or --live");
   const std::optional<SafetyLimits> hand = hand_limits(arguments);
@@ -248,7 +264,12 @@ int run(const Arguments& arguments) {
   Recording fast = read_recording(input);
   Input slow_input(arguments[flag::slow]);
   const Recording slow = read_recording(slow_input);
-  const SlowSource source{&slow, arguments[flag::delay]};
+  std::optional<Recording> stepped;
+  if (arguments.given(flag::stepped)) {
+    Input stepped_input(arguments[flag::stepped]);
+    stepped = read_recording(stepped_input);
+  }
+  const SlowSource source{&slow, arguments[flag::delay], stepped ? &*stepped : nullptr};
   FusionParameters parameters = given_parameters(arguments);
   if (arguments.given(flag::learn)) {
     const LearnedFusion learned = learn_fusion(fast, source, parameters);

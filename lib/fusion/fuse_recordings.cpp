@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "base/error.h"
 #include "estimate/simplex_search.h"
@@ -19,6 +20,27 @@ struct SlowRow {
   Vec3 force = Vec3::Zero();
 };
 
+// A row's place between two samples of the fast recording's press.
+struct Between {
+  std::size_t before, after;
+  double share;  // of the way to `after`
+};
+
+std::optional<Between> between(const Recording& fast, const std::vector<int>& rows, double t) {
+  const auto after = std::lower_bound(rows.begin(), rows.end(), t, [&](int row, double when) {
+    return fast.t[static_cast<std::size_t>(row)] < when;
+  });
+  if (after == rows.end()) return std::nullopt;
+  const auto b = static_cast<std::size_t>(*after);
+  if (after == rows.begin())
+    return fast.t[b] == t ? std::optional<Between>({b, b, 1}) : std::nullopt;
+  const auto a = static_cast<std::size_t>(*(after - 1));
+  const double step = fast.t[b] - fast.t[a];
+  return Between{a, b, step > 0 ? (t - fast.t[a]) / step : 1};
+}
+
+using SlowRows = std::map<int, std::vector<SlowRow>>;  // by press, in the order of arrival
+
 // Slow forces of another motion, or of times counted otherwise, are off by its size; those of a
 // sampling or a clock of their own by far less.
 void require_same_motion(const Recording& fast, const Recording& slow) {
@@ -26,15 +48,10 @@ void require_same_motion(const Recording& fast, const Recording& slow) {
   std::map<int, Press> presses;
   for (const Press& p : fast.presses()) presses[p.id] = p;
   for (std::size_t i = 0; i < slow.rows(); ++i) {
-    const std::vector<int>& rows = presses[slow.press[i]].rows;
-    const auto after = std::lower_bound(
-        rows.begin(), rows.end(), slow.t[i],
-        [&](int row, double t) { return fast.t[static_cast<std::size_t>(row)] < t; });
-    if (after == rows.begin() || after == rows.end()) continue;
-    const auto b = static_cast<std::size_t>(*after), a = static_cast<std::size_t>(*(after - 1));
-    const double step = fast.t[b] - fast.t[a];
-    const double share = step > 0 ? (slow.t[i] - fast.t[a]) / step : 1;
-    off += ((1 - share) * fast.u[a] + share * fast.u[b] - slow.u[i]).squaredNorm();
+    const auto at = between(fast, presses[slow.press[i]].rows, slow.t[i]);
+    if (!at) continue;
+    off += ((1 - at->share) * fast.u[at->before] + at->share * fast.u[at->after] - slow.u[i])
+               .squaredNorm();
     size += slow.u[i].squaredNorm();
   }
   if (off > 0.25 * size)
@@ -44,14 +61,29 @@ void require_same_motion(const Recording& fast, const Recording& slow) {
                "give the slow forces of the same motion, their t counted alike");
 }
 
-// By press, in the order of arrival.
-std::map<int, std::vector<SlowRow>> slow_rows(const Recording& fast, const SlowSource& slow) {
+void require_same_rows(const Recording& stepped, const Recording& slow) {
+  const std::string mend = "simulate the slow recording's own rows with the fast model";
+  if (stepped.rows() != slow.rows())
+    fail_input(stepped.name,
+               fmt::format("it has {} rows, {} has {}", stepped.rows(), slow.name, slow.rows()),
+               mend);
+  for (std::size_t i = 0; i < slow.rows(); ++i)
+    if (stepped.press[i] != slow.press[i] || stepped.t.empty() ||
+        std::abs(stepped.t[i] - slow.t[i]) > 1e-9 * (1 + std::abs(slow.t[i])))
+      fail_input(fmt::format("{}:{}", stepped.name, stepped.line[i]),
+                 "its press or t is not that of the row in " + slow.name, mend);
+}
+
+SlowRows slow_rows(const Recording& fast, const SlowSource& slow) {
   const Recording& r = *slow.recording;
   for (const Recording* needed : {&fast, &r})
     if (needed->t.empty())
       fail_input(needed->name, "there is no column t", "forces are fused by their times");
-  std::map<int, std::vector<SlowRow>> rows;
+  SlowRows rows;
   for (const Press& p : fast.presses()) rows[p.id];
+  if (slow.stepped) require_same_rows(*slow.stepped, r);
+  std::map<int, std::vector<int>> samples;
+  for (const Press& p : fast.presses()) samples[p.id] = p.rows;
   const auto column = std::find(r.extra_header.begin(), r.extra_header.end(), "arrives");
   for (std::size_t i = 0; i < r.rows(); ++i) {
     const std::string where = fmt::format("{}:{}", r.name, r.line[i]);
@@ -67,6 +99,10 @@ std::map<int, std::vector<SlowRow>> slow_rows(const Recording& fast, const SlowS
         fail_input(where, "arrives is " + shown(r.extra[c][i]),
                    "give the time at which the row is there, not before its own [s]");
     }
+    if (slow.stepped)
+      if (const auto at = between(fast, samples[r.press[i]], r.t[i]))
+        row.force += (1 - at->share) * fast.f[at->before] + at->share * fast.f[at->after] -
+                     slow.stepped->f[i];
     found->second.push_back(row);
   }
   require_same_motion(fast, r);
@@ -86,12 +122,12 @@ class Run {
   Run(const Recording& fast, const FusionParameters& parameters)
       : fast_(fast), fusion_(parameters, std::max<std::size_t>(longest(fast) + 2, 16)) {}
 
-  FusedForces operator()(std::map<int, std::vector<SlowRow>> slow) {
+  FusedForces operator()(const SlowRows& slow) {
     FusedForces out;
     for (auto* list : {&out.force, &out.deviation, &out.held, &out.extrapolated})
       list->assign(fast_.rows(), Vec3::Zero());
     for (const Press& press : fast_.presses()) {
-      const std::vector<SlowRow>& rows = slow[press.id];
+      const std::vector<SlowRow>& rows = slow.at(press.id);
       std::size_t next = 0;
       const SlowRow *last = nullptr, *before = nullptr;  // by their own times
       const auto start = static_cast<std::size_t>(press.rows.front());
@@ -119,7 +155,7 @@ class Run {
     out.report = fusion_.report();
     return out;
   }
-  const WayWorth& worth() const { return fusion_.worth(); }
+  const CorrectionWorth& worth() const { return fusion_.worth(); }
 
  private:
   static std::size_t longest(const Recording& r) {
@@ -138,11 +174,12 @@ struct Entry {
   double AxisFusion::*value;
   double lower, upper;
 };
-constexpr std::size_t kLearned = 8;  // the first ones
-const std::array<Entry, 9>& entries() {
-  static const std::array<Entry, 9> table{{
+constexpr std::size_t kLearned = 9;  // the first ones
+const std::array<Entry, 10>& entries() {
+  static const std::array<Entry, 10> table{{
       {"offset_walk", "N/s^0.5", &AxisFusion::offset_walk, 1e-9, 1e3},
       {"walk_rate", "m/s", &AxisFusion::walk_rate, 1e-3, 1e6},
+      {"offset_time", "s", &AxisFusion::offset_time, 1e-3, 1e6},
       {"drift_walk", "N/s^1.5", &AxisFusion::drift_walk, 1e-9, 1e3},
       {"drift_time", "s", &AxisFusion::drift_time, 1e-3, 1e3},
       {"gain_walk", "1", &AxisFusion::gain_walk, 1e-9, 1e3},
@@ -155,8 +192,7 @@ const std::array<Entry, 9>& entries() {
 }
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
-std::vector<LessonPress> lessons_of(const Recording& fast,
-                                    const std::map<int, std::vector<SlowRow>>& slow) {
+std::vector<LessonPress> lessons_of(const Recording& fast, const SlowRows& slow) {
   std::vector<LessonPress> lessons;
   for (const Press& press : fast.presses()) {
     LessonPress lesson;
@@ -176,34 +212,41 @@ std::vector<LessonPress> lessons_of(const Recording& fast,
   return lessons;
 }
 
-// What the filter's corrections are worth by the way since the newest slow force, when slow forces
-// come as they do, and so many times as seldom and as late. A band that hardly any motion reached
-// has what the one before it has.
-WayShares shares_of(const Recording& fast, const std::map<int, std::vector<SlowRow>>& rows,
-                    const FusionParameters& parameters) {
-  constexpr double kLeast = 3;  // normalised squares of corrections that tell what they are worth
-  WayShares agreed{}, added{};
-  for (const std::size_t times : {1, 2, 4, 8}) {
-    std::map<int, std::vector<SlowRow>> seldom;
-    for (const auto& [press, list] : rows)
+// Slow forces as they come, and so many times as seldom and as late: what is learned of them serves
+// at any of these paces.
+std::vector<SlowRows> paces_of(const SlowRows& rows) {
+  std::vector<SlowRows> paces;
+  for (const std::size_t times : {1, 3, 10}) {
+    SlowRows& pace = paces.emplace_back();
+    for (const auto& [press, list] : rows) {
+      std::vector<SlowRow>& kept = pace[press];
       for (std::size_t k = 0; k < list.size(); k += times) {
         SlowRow row = list[k];
         row.arrives = row.t + static_cast<double>(times) * (row.arrives - row.t);
-        seldom[press].push_back(row);
+        kept.push_back(row);
       }
-    Run run(fast, parameters);
-    run(std::move(seldom));
-    for (std::size_t c = 0; c < kWayBands; ++c) {
-      agreed[c] += run.worth().agreed[c];
-      added[c] += run.worth().added[c];
     }
   }
-  WayShares share;
+  return paces;
+}
+
+CorrectionShares shares_of(const Recording& fast, const std::vector<SlowRows>& paces,
+                           const FusionParameters& parameters) {
+  CorrectionWorth worth;
+  for (const SlowRows& pace : paces) {
+    Run run(fast, parameters);
+    run(pace);
+    worth.add(run.worth());
+  }
+  return worth.shares(parameters.share);
+}
+
+double* share_named(CorrectionShares& shares, const std::string& name) {
   for (std::size_t c = 0; c < kWayBands; ++c)
-    share[c] = added[c] > kLeast ? std::clamp(agreed[c] / added[c], 0.0, 1.0)
-               : c > 1           ? share[c - 1]
-                                 : parameters.share[c];
-  return share;
+    if (name == fmt::format("share{}", c)) return &shares.way[c];
+  for (std::size_t c = 0; c < kAgeBands; ++c)
+    if (name == fmt::format("age_share{}", c)) return &shares.age[c];
+  return nullptr;
 }
 
 // What was taught, in the table: its scale and times, then the weights.
@@ -235,7 +278,8 @@ FusedForces fuse(const Recording& fast, const SlowSource& slow,
 
 LearnedFusion learn_fusion(const Recording& source, const SlowSource& slow,
                            const FusionParameters& start) {
-  std::map<int, std::vector<SlowRow>> rows = slow_rows(source, slow);
+  const SlowRows rows = slow_rows(source, slow);
+  const std::vector<SlowRows> paces = paces_of(rows);
   std::size_t count = 0;
   for (const auto& [press, list] : rows) count += list.size();
   if (count < 20)
@@ -286,14 +330,21 @@ LearnedFusion learn_fusion(const Recording& source, const SlowSource& slow,
         [&](const Eigen::VectorXd& y) {
           FusionParameters p = at(y);  // the filter's own: what is let in of it comes after
           p.weighs = false;
-          return Run(fast, p)(rows).report.deviance[a] + (y - x).squaredNorm() / (kPrior * kPrior);
+          double deviance = (y - x).squaredNorm() / (kPrior * kPrior);
+          // As much by each pace as by another, though there are fewer slow forces.
+          for (const SlowRows& pace : paces) {
+            const FusionReport r = Run(fast, p)(pace).report;
+            deviance += static_cast<double>(count) * r.deviance[a] /
+                        static_cast<double>(std::max(r.observations, 1L) * paces.size());
+          }
+          return deviance;
         },
         options);
     result.parameters = at(found.x);
     result.converged = result.converged && found.converged;
     result.runs += found.evaluations;
   }
-  result.parameters.share = shares_of(fast, rows, result.parameters);
+  result.parameters.share = shares_of(fast, paces, result.parameters);
   result.parameters.share_known = kLearnedShares;
   result.parameters.taught = taught.correction;
   return result;
@@ -338,8 +389,8 @@ FusionParameters read_fusion(Input& input) {
                    fmt::format("give {:g} to {:g}", lower, upper));
       return value[row];
     };
-    if (name.rfind("share", 0) == 0 && name.size() == 6 && name[5] >= '0' && name[5] <= '8') {
-      parameters.share[static_cast<std::size_t>(name[5] - '0')] = bounded(0, 1);
+    if (double* share = share_named(parameters.share, name)) {
+      *share = bounded(0, 1);
       continue;
     }
     if (name == "share_known") {
@@ -378,7 +429,9 @@ void write_fusion(std::ostream& out, const FusionParameters& parameters) {
       csv.row({e.name, kAxes[a], format_number(parameters.axis[a].*(e.value)), e.unit});
   csv.row({"blend", "", format_number(parameters.blend), "s"});
   for (std::size_t c = 0; c < kWayBands; ++c)
-    csv.row({fmt::format("share{}", c), "", format_number(parameters.share[c]), "1"});
+    csv.row({fmt::format("share{}", c), "", format_number(parameters.share.way[c]), "1"});
+  for (std::size_t c = 0; c < kAgeBands; ++c)
+    csv.row({fmt::format("age_share{}", c), "", format_number(parameters.share.age[c]), "1"});
   csv.row({"share_known", "", format_number(parameters.share_known), "1"});
   TaughtCorrection taught = parameters.taught;
   if (!taught.taught()) return;

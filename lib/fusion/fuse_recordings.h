@@ -12,6 +12,10 @@ namespace hapsim {
 struct SlowSource {
   const Recording* recording = nullptr;
   double delay = 0;  // from a row's time until it is there [s]; a column `arrives` [s] goes before
+  // The fast source pressed in the slow one's steps, row by row of `recording`; may be null. What
+  // it gives there less than along the whole way is what seldom steps make of a body that relaxes,
+  // and is taken off the slow forces.
+  const Recording* stepped = nullptr;
 };
 
 struct FusedForces {
@@ -23,7 +27,8 @@ struct FusedForces {
 
 // Row by row of `fast`: slow rows of the same press are observed once their arrival has passed, so
 // nothing is known before it is there. A row in the air gives no force. Error(kBadInput): no
-// times, slow presses that the fast recording does not have, an arrival before its time.
+// times, slow presses that the fast recording does not have, an arrival before its time, `stepped`
+// of other rows.
 FusedForces fuse(const Recording& fast, const SlowSource& slow, const FusionParameters& parameters);
 
 // The parameters under which the slow forces are most likely, each under what was given out for its

@@ -9,7 +9,6 @@ namespace {
 constexpr double kChiSquare3 = 7.814727903;  // 95 % point of three degrees of freedom
 constexpr double kWalkFloor = 0.1;    // of the walk at rest: in fast motion it does not freeze
 constexpr double kShareSpread = 0.3;  // to the next band of ways
-constexpr double kFirstWay = 2e-4;    // [m]
 constexpr double kScaleSpread = 0.6;  // the same, of the variances' scale
 constexpr double kShareMemory = 40;   // observations
 constexpr double kLargestNis = 10;    // one outlier does not blow all variances up
@@ -22,7 +21,7 @@ double near(std::size_t class_of_rate, std::size_t other, double spread) {
 }  // namespace
 
 double FusionReport::mean_nis() const {
-  return observations > 0 ? nis / (3 * static_cast<double>(observations)) : 1;
+  return judged > 0 ? nis / (3 * static_cast<double>(judged)) : 1;
 }
 
 double FusionReport::correlation() const {
@@ -32,8 +31,7 @@ double FusionReport::correlation() const {
 std::array<double, 2> FusionReport::band() const {
   // Wilson and Hilferty's cube root of chi-square (Proc. Nat. Acad. Sci. 17, 1931).
   const double together = correlation() * correlation();
-  const double n =
-      3 * static_cast<double>(std::max(observations, 1L)) * (1 - together) / (1 + together);
+  const double n = 3 * static_cast<double>(std::max(judged, 1L)) * (1 - together) / (1 + together);
   const double a = 2 / (9 * n);
   const auto point = [&](double z) { return std::pow(1 - a + z * std::sqrt(a), 3); };
   return {point(-1.959964), point(1.959964)};
@@ -46,7 +44,7 @@ Fusion::Fusion(const FusionParameters& parameters, std::size_t history)
       ring_(history) {
   scale_.fill(1);
   for (std::size_t c = 0; c < kWayBands; ++c)
-    agreed_[c] = parameters.share[c] * parameters.share_known;
+    agreed_[c] = parameters.share.way[c] * parameters.share_known;
   added_.fill(parameters.share_known);
   begin(0, parameters.taught.place);
 }
@@ -103,6 +101,7 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& source) noexcept {
     const double df = fast[a] - before.fast[a];
     const double gain = p.gain_walk * p.gain_walk * std::abs(df) / p.force_scale;
     Filter::Matrix move = Filter::Matrix::Identity();
+    move(0, 0) = std::exp(-dt / p.offset_time);
     move(0, 1) = df;
     move(0, 3) = dt;
     move(3, 3) = std::exp(-dt / p.drift_time);
@@ -117,7 +116,8 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& source) noexcept {
   now.way = before.way + (u - u_).norm();
   now.ahead = t > newest_t_ ? std::max(rate, (now.way - newest_way_) / (t - newest_t_)) : rate;
   now.moved = any_slow_ ? std::max(now.way - newest_way_, 0.0) : -1;
-  const double share = parameters_.weighs ? share_at(now.moved) : 1;
+  now.age = any_slow_ ? t - newest_t_ : 0;
+  const double share = parameters_.weighs ? share_now(now) : 1;
   share_ += parameters_.blend > 0 ? (1 - std::exp(-dt / parameters_.blend)) * (share - share_)
                                   : share - share_;
   now.added = added();
@@ -129,24 +129,11 @@ Vec3 Fusion::step(double t, const Vec3& u, const Vec3& source) noexcept {
   return now.given + pending_;
 }
 
-std::size_t Fusion::way_band(double moved) noexcept {
-  if (moved < 0) return 0;
-  const int k = moved > kFirstWay ? std::ilogb(moved / kFirstWay) + 2 : 1;
-  return static_cast<std::size_t>(std::clamp(k, 1, static_cast<int>(kWayBands) - 1));
-}
-
-// Between the bands' middles straight in the logarithm of the way.
-double Fusion::share_at(double moved) const noexcept {
-  const auto of = [&](int k) {
-    const auto i = static_cast<std::size_t>(std::clamp(k, 1, static_cast<int>(kWayBands) - 1));
-    return std::clamp(agreed_[i] / added_[i], 0.0, 1.0);
-  };
-  if (moved < 0) return std::clamp(agreed_[0] / added_[0], 0.0, 1.0);
-  const double x = moved > 0 ? std::log2(moved / kFirstWay) + 1.5 : 1;
-  if (x <= 1) return of(1);
-  const double k = std::floor(x);
-  return of(static_cast<int>(k)) +
-         (x - k) * (of(static_cast<int>(k) + 1) - of(static_cast<int>(k)));
+double Fusion::share_now(const Sample& now) const noexcept {
+  CorrectionShares shares = parameters_.share;
+  for (std::size_t c = 0; c < kWayBands; ++c)
+    shares.way[c] = std::clamp(agreed_[c] / added_[c], 0.0, 1.0);
+  return shares.of_way(now.moved) * shares.of_age(now.moved, now.age);
 }
 
 Vec3 Fusion::added() const noexcept {
@@ -190,7 +177,7 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
   const Vec3 fast = before.fast + share * (after.fast - before.fast);
   const Vec3 was = estimate();
   Vec3 deviance;
-  double agreed = 0, had_added = 0;
+  double agreed = 0, had_added = 0, agreed_newtons = 0, had_added_newtons = 0;
   Vec3 normalised = Vec3::Zero();
   for (int a = 0; a < 3; ++a) {
     const AxisFusion& p = parameters_.axis[static_cast<std::size_t>(a)];
@@ -208,6 +195,8 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
     const double put = before.added[a] + share * (after.added[a] - before.added[a]);
     agreed += put * (slow[a] - fast[a]) / S;
     had_added += put * put / S;
+    agreed_newtons += put * (slow[a] - fast[a]);
+    had_added_newtons += put * put;
     deviance[a] = std::log(S) + normalised[a] * normalised[a];
   }
   if (t > newest_t_) {
@@ -215,29 +204,37 @@ bool Fusion::observe(double t, const Vec3& slow) noexcept {
     newest_t_ = t;
     newest_way_ = before.way + share * (after.way - before.way);
   }
+  worth_.add(after.moved, after.age, agreed_newtons, had_added_newtons);
   const std::size_t band = way_band(after.moved);
-  worth_.agreed[band] += agreed;
-  worth_.added[band] += had_added;
+  const double of_age = parameters_.share.of_age(after.moved, after.age);
+  agreed *= of_age;
+  had_added *= of_age * of_age;
   for (std::size_t c = 0; c < agreed_.size(); ++c) {
     // What is known before any slow force is of its own kind.
     if ((c == 0) != (band == 0)) continue;
     const double weight = near(c, band, kShareSpread);
-    agreed_[c] += weight * (agreed - (agreed_[c] - parameters_.share[c] * parameters_.share_known) /
-                                         kShareMemory);
+    agreed_[c] +=
+        weight *
+        (agreed - (agreed_[c] - parameters_.share.way[c] * parameters_.share_known) / kShareMemory);
     added_[c] += weight * (had_added - (added_[c] - parameters_.share_known) / kShareMemory);
   }
   const std::size_t at_ahead = rate_class(after.ahead);
   normalised /= std::sqrt(scale_[at_ahead]);
   const double nis = normalised.squaredNorm();
-  for (std::size_t c = 0; c < scale_.size(); ++c)
-    scale_[c] *= std::exp(kScaleStep * near(c, at_ahead, kScaleSpread) *
-                          (std::min(nis / 3, kLargestNis) - 1));
   ++report_.observations;
-  report_.nis += nis;
   report_.deviance += deviance;
-  report_.within += nis < kChiSquare3 ? 1 : 0;
-  report_.lag_product += normalised.dot(last_);
-  last_ = normalised;
+  if (after.way > 0) {
+    ++report_.judged;
+    // What was learned elsewhere is worth one observation here.
+    const double step = std::max(kScaleStep, 1 / (1 + static_cast<double>(report_.judged)));
+    for (std::size_t c = 0; c < scale_.size(); ++c)
+      scale_[c] *=
+          std::exp(step * near(c, at_ahead, kScaleSpread) * (std::min(nis / 3, kLargestNis) - 1));
+    report_.nis += nis;
+    report_.within += nis < kChiSquare3 ? 1 : 0;
+    report_.lag_product += normalised.dot(last_);
+    last_ = normalised;
+  }
   if (parameters_.blend > 0) pending_ += was - estimate();
   return true;
 }

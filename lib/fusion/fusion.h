@@ -6,6 +6,7 @@
 
 #include "base/vec3.h"
 #include "estimate/delayed_filter.h"
+#include "fusion/correction_worth.h"
 #include "fusion/taught_correction.h"
 
 namespace hapsim {
@@ -17,6 +18,7 @@ namespace hapsim {
 // In SI and the frame of the forces; every component has its own.
 struct AxisFusion {
   double offset_walk = 0.1;  // of b at rest [N/s^0.5]
+  double offset_time = 10;   // in which b decays [s]
   double walk_rate = 1;      // rate at which that has fallen to its floor, a tenth [m/s]
   double drift_walk = 0.1;   // of r at rest, falling with the rate as that of b [N/s^1.5]
   double drift_time = 0.3;   // in which r decays [s]
@@ -26,30 +28,20 @@ struct AxisFusion {
   double noise_rise = 0.1;   // and how it grows with the rate [N s/m]
   double force_scale = 1;    // F [N]
 };
-// Bands of the way that the tool has gone since the newest slow force that was there: none in this
-// contact yet, then to 0.2 mm, 0.4 mm, 0.8 mm, ...
-inline constexpr std::size_t kWayBands = 9;
-using WayShares = std::array<double, kWayBands>;
-
 struct FusionParameters {
   std::array<AxisFusion, 3> axis;
   double blend = 0.01;      // time over which a correction is let in [s]; 0: at once
   bool weighs = true;       // false: all that the filter adds is let in, whatever it has been worth
   TaughtCorrection taught;  // added to the fast force before all else
-  // Of what the filter adds, by the way since the newest slow force: until it has shown its worth.
-  WayShares share{0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
-  double share_known = 2;  // observations that these are worth
-};
-
-// What corrections have been worth by the way since the newest slow force, of all observations.
-struct WayWorth {
-  WayShares agreed{}, added{};
+  CorrectionShares share;   // of what the filter adds, until it has shown its worth
+  double share_known = 2;   // observations that this is worth
 };
 
 struct FusionReport {
   long observations = 0, refused = 0;  // refused: before the contact, or too late
-  // Of what was given out for the time of a slow force, when that was not there yet: sum over the
-  // observations and components of (slow - given)^2 / variance, the variance as the filter stated
+  long judged = 0;                     // observations but those before any motion, which are zero
+  // Of what was given out for the time of a slow force, when that was not there yet: sum over those
+  // judged and components of (slow - given)^2 / variance, the variance as the filter stated
   // it and of the slow source's noise.
   double nis = 0;
   Vec3 deviance = Vec3::Zero();  // by component: sum of log variance + (slow - given)^2 / variance
@@ -75,15 +67,14 @@ struct FusionReport {
 // Size of the variances. It changes no force, only the stated uncertainty. Each component has one
 // scale a band of rates (a factor 2 wide). A band is chosen by the sample's rate, or by the mean
 // rate since the newest slow force known at that time, whichever is larger: what was forecast since
-// then is what may be wrong. After each slow force the scale's logarithm rises by kScaleStep times
-// the excess of the normalised squared difference over one, so that its mean becomes one on any
-// motion. Neighbouring bands learn nearly as much.
+// then is what may be wrong. After each slow force the scale's logarithm rises by kScaleStep (the
+// first ones: by more) times the excess of the normalised squared difference over one, so that its
+// mean becomes one on any motion. Neighbouring bands learn nearly as much.
 //
 // Share. The correction is a forecast over the slow source's lateness, and may be worse than
-// nothing where that is long beside the motion. Therefore only a share of it is added, one a band
-// of the way since the newest slow force, at first as learned: the share by which the corrections
-// agree best, in the mean square, with what the slow forces later showed to have been missing
-// (Bates and Granger, Operational Research Quarterly 20, 1969).
+// nothing where that is long beside the motion. Therefore only a share of it is added, by the way
+// and the time since the newest slow force, at first as learned; those of the ways are put right by
+// what the slow forces later show to have been missing, as CorrectionWorth has it.
 //
 // step() and observe() allocate nothing and lock nothing.
 class Fusion {
@@ -101,7 +92,7 @@ class Fusion {
   bool observe(double t, const Vec3& slow) noexcept;
 
   Vec3 deviation() const noexcept;  // standard deviation of the last fused force [N]
-  const WayWorth& worth() const { return worth_; }
+  const CorrectionWorth& worth() const { return worth_; }
   const FusionReport& report() const { return report_; }
 
  private:
@@ -113,14 +104,14 @@ class Fusion {
     double way = 0;             // of u since the contact began [m]
     double ahead = 0;           // mean rate since the newest slow force that was there [m/s]
     double moved = -1;          // and the way since then [m]; negative: there was none
+    double age = 0;             // and the time [s]
     Vec3 added = Vec3::Zero();  // by the filter, before its share is taken
     Vec3 given = Vec3::Zero(), variance = Vec3::Zero();  // as it was given out, before blending
   };
   const Sample& sample(std::size_t k) const { return ring_[k % ring_.size()]; }
   Filter::Vector features(int axis, double force) const noexcept;
   static std::size_t rate_class(double rate) noexcept;
-  static std::size_t way_band(double moved) noexcept;
-  double share_at(double moved) const noexcept;
+  double share_now(const Sample& now) const noexcept;
   Vec3 added() const noexcept;     // by the filter to the last sample
   Vec3 estimate() const noexcept;  // of the last sample, before blending
   Vec3 variance() const noexcept;  // of it
@@ -132,8 +123,8 @@ class Fusion {
   std::size_t first_ = 0, next_ = 0;
   std::array<double, 8> scale_{};  // of all variances by what was seen, one a factor 2 of the rate
   // Sums of what was added times what was missing, and squared, over the variance.
-  WayShares agreed_{}, added_{};
-  WayWorth worth_;
+  std::array<double, kWayBands> agreed_{}, added_{};
+  CorrectionWorth worth_;
   double newest_t_ = 0, newest_way_ = 0;  // of the newest slow force in this contact
   bool any_slow_ = false;                 // there was one
   double share_ = 1;                      // of the filter's in what is given out

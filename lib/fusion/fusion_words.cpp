@@ -18,8 +18,7 @@ std::string fusion_words(const FusionReport& report) {
       "{:.2f}",
       report.observations, report.refused, mean,
       mean >= band[0] && mean <= band[1] ? "within" : "outside", band[0], band[1],
-      100.0 * static_cast<double>(report.within) /
-          static_cast<double>(std::max(report.observations, 1L)),
+      100.0 * static_cast<double>(report.within) / static_cast<double>(std::max(report.judged, 1L)),
       report.correlation());
 }
 

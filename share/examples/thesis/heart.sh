@@ -22,12 +22,13 @@ viscoelastic,0,E2,4000,Pa
 viscoelastic,0,tau2,1,s
 END
 
-# motion KIND STEP: presses of sin^2 shape with a hold, rise:depth each; sideways a little.
+# motion KIND STEP: presses of sin^2 shape with a hold, rise:depth each (or these as KIND); sideways a little.
 motion() {
   case $1 in
     lesson) presses='1.5:0.009 0.15:0.0085 0.4:0.006 0.12:0.0075 0.25:0.009 0.14:0.0092 0.18:0.0065 0.12:0.008' hold=0.3 ;;
     slow) presses='1.5:0.008 2:0.006' hold=0.5 ;;
     fast) presses='0.125:0.008 0.2:0.009 0.125:0.007' hold=1 ;;
+    *) presses=$1 hold=1 ;;
   esac
   awk -v presses="$presses" -v hold=$hold -v step="$2" 'BEGIN {
     print "# tool_radius: 0.006"; print "press,t,x,y,z,ux,uy,uz"
@@ -50,7 +51,10 @@ fe='--full --own-mesh --body organ.ply --model organ.csv -q'
 motion lesson 0.001 >lesson.csv
 motion lesson 0.02 | hs-simulate $fe -o lesson.fe.csv
 hs-identify lesson.fe.csv --body organ.ply --acfm 2 --stiffening --folds 0 -o acfm.csv
-hs-simulate lesson.csv --model acfm.csv -q | hs-fuse - --slow lesson.fe.csv --delay 0.02 --learn filter.csv -o /dev/null
+# What the analytical model makes of the finite elements' steps is what these make of a body that relaxes.
+hs-simulate lesson.fe.csv --model acfm.csv -q -o lesson.steps.csv
+hs-simulate lesson.csv --model acfm.csv -q |
+  hs-fuse - --slow lesson.fe.csv --stepped lesson.steps.csv --delay 0.02 --learn filter.csv -o /dev/null
 
 for kind in slow fast; do
   motion $kind 0.001 >$kind.csv
@@ -59,8 +63,9 @@ for kind in slow fast; do
   hs-simulate $kind.csv $fe -o $kind.exact.csv
   step=$(awk -v ns=$(($(date +%s%N) - began)) '/^[0-9]/ { ++n } END { printf "%.0f", ns / n / 1e6 }' $kind.csv)
   echo "$kind motion:"
+  hs-simulate $kind.fe.csv --model acfm.csv -q -o $kind.steps.csv
   hs-simulate $kind.csv --model acfm.csv -q |
-    hs-fuse - --slow $kind.fe.csv --delay 0.02 --parameters filter.csv --exact $kind.exact.csv -o $kind.fused.csv 2>$kind.txt
+    hs-fuse - --slow $kind.fe.csv --stepped $kind.steps.csv --delay 0.02 --parameters filter.csv --exact $kind.exact.csv -o $kind.fused.csv 2>$kind.txt
   cat $kind.txt
   awk -f "$here/../plot.awk" -v title="Organ, $kind motion" -v over=t -v press=1 \
     $kind.exact.csv $kind.fused.csv $kind.fe.csv >$kind.svg

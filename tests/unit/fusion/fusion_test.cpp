@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -127,6 +128,69 @@ TEST(Fusion, KnowsNothingBeforeItIsThere) {
   EXPECT_EQ(late.report.observations, 0);
 }
 
+// A slow source whose memory knows of its own steps alone: what a step of 0.1 s makes of a press of
+// 0.1 s is large, and the fast source, which errs otherwise, shows it.
+TEST(Fusion, TakesOffWhatSeldomStepsMakeOfABodyThatRelaxes) {
+  const auto relaxing = [](double stiffness, int every) {
+    Recording r;
+    r.name = "relaxing";
+    for (int press = 1; press <= 4; ++press) {
+      double kept = 0, last = 0;
+      for (int i = 0; i <= 400; i += every) {
+        const double t = 1e-3 * i, step = 1e-3 * every;
+        const double depth = 1e-3 * (3 + press) * std::pow(std::sin(15.708 * t), 2);
+        const double a = std::exp(-step / 0.08);
+        kept = i == 0 ? 0 : a * kept + (1 - a) * 0.08 / step * (depth - last);
+        last = depth;
+        r.line.push_back(static_cast<long>(r.line.size()) + 2);
+        r.press.push_back(press);
+        r.t.push_back(t);
+        r.position.push_back(Vec3::Zero());
+        r.u.push_back({0, 0, -depth});
+        r.f.push_back({0, 0, stiffness * (depth + kept)});
+      }
+    }
+    return r;
+  };
+  const Recording exact = relaxing(500, 1), fast = relaxing(450, 1);
+  const Recording slow = relaxing(500, 70), stepped = relaxing(450, 70);
+  // At its own times, where it is held at once, what is left is the share that the fast one misses.
+  const auto worst = [&](const Recording* along) {
+    const FusedForces fused = fuse(fast, {&slow, 0, along}, {});
+    double error = 0;
+    for (const Press& press : fast.presses())
+      for (std::size_t k = 0; k < press.rows.size(); k += 70) {
+        const auto i = static_cast<std::size_t>(press.rows[k]);
+        error = std::max(error, (fused.held[i] - exact.f[i]).norm());
+      }
+    return error;
+  };
+  EXPECT_GT(worst(nullptr), 0.05);
+  EXPECT_NEAR(worst(&stepped), 0.1 * worst(nullptr), 0.01 * worst(nullptr));
+  const Recording other = relaxing(450, 60);
+  EXPECT_THROW(fuse(fast, {&slow, 0, &other}, {}), Error);
+}
+
+// Corrections that were right at once and by half late, whatever the way.
+TEST(CorrectionWorth, TellsWayFromAge) {
+  CorrectionWorth worth;
+  for (int i = 0; i < 20; ++i) {
+    worth.add(1e-4, 0.005, 1, 1);
+    worth.add(1e-4, 0.5, 0.5, 1);
+    worth.add(2e-3, 0.005, 0.4, 1);
+    worth.add(2e-3, 0.5, 0.2, 1);
+    worth.add(-1, 0, 0.1, 1);
+  }
+  const CorrectionShares shares = worth.shares({});
+  EXPECT_NEAR(shares.of_way(-1) * shares.of_age(-1, 3), 0.1, 1e-9);
+  for (const auto& [moved, age, share] : {std::array{1e-4, 0.005, 1.0}, {1e-4, 0.5, 0.5}})
+    EXPECT_NEAR(shares.way[way_band(moved)] * shares.age[age_band(age)], share, 1e-6);
+  EXPECT_NEAR(shares.way[way_band(2e-3)] * shares.age[age_band(0.5)], 0.2, 1e-6);
+  // Beyond what was seen as at the last that was.
+  EXPECT_EQ(shares.way.back(), shares.way[way_band(2e-3)]);
+  EXPECT_EQ(shares.age.back(), shares.age[age_band(0.5)]);
+}
+
 TEST(Fusion, RefusesWhatBelongsToNoSample) {
   Fusion fusion({}, 64);
   fusion.begin(1, Vec3::Zero());
@@ -143,6 +207,8 @@ TEST(FusionParameters, AreReadAsTheyAreWritten) {
   FusionParameters p;
   p.axis[1].noise = 0.123;
   p.blend = 0.02;
+  p.share.way[3] = 0.4;
+  p.share.age[8] = 0.3;
   std::ostringstream out;
   write_fusion(out, p);
   Input in = Input::from_bytes(out.str(), "filter.csv");
@@ -150,6 +216,8 @@ TEST(FusionParameters, AreReadAsTheyAreWritten) {
   EXPECT_EQ(back.axis[1].noise, 0.123);
   EXPECT_EQ(back.axis[2].noise, p.axis[2].noise);
   EXPECT_EQ(back.blend, 0.02);
+  EXPECT_EQ(back.share.way[3], 0.4);
+  EXPECT_EQ(back.share.age[8], 0.3);
   Input bad = Input::from_bytes("parameter,axis,value\nnoise,x,-1\n", "filter.csv");
   EXPECT_THROW(read_fusion(bad), Error);
 }

@@ -9,7 +9,7 @@ namespace {
 
 TEST(FusionWords, SayWhetherTheFilterKnowsItsError) {
   FusionReport report;
-  report.observations = 100;
+  report.observations = report.judged = 100;
   report.refused = 3;
   report.nis = 300;  // one per component, as it should be
   report.within = 95;
