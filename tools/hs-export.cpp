@@ -26,14 +26,15 @@ inline constexpr SwitchFlag bare{"--bare"}, match{"--match"};
 namespace {
 
 // Of --format.
-const std::map<std::string, std::string> kExtension{
-    {"calculix", "inp"}, {"febio", "feb"}, {"sofa", "scn"}, {"vtu", "vtu"}, {"gmsh", "msh"}};
+const std::map<std::string, std::string> kExtension{{"calculix", "inp"}, {"febio", "feb"},
+                                                    {"sofa", "scn"},     {"mujoco", "xml"},
+                                                    {"vtu", "vtu"},      {"gmsh", "msh"}};
 
 ToolSpec specification() {
   ToolSpec spec;
   spec.name = "hs-export";
   spec.task = Task::kForces;
-  spec.summary = "a model, its body and a press as input of CalculiX, FEBio or SOFA";
+  spec.summary = "a model, its body and a press as input of CalculiX, FEBio, SOFA or MuJoCo";
   spec.input = "model CSV from hs-identify";
   spec.description = {
       "Writes the body with the model's materials, its support, and a flat bonded tool that makes "
@@ -56,17 +57,22 @@ ToolSpec specification() {
       "and every second place are held out. Deck and summary say how far the force is from "
       "hapsim's there, by elements integrated as the program does it: at rest and small strain, "
       "along the deepest displacement of each press.",
+      "MuJoCo has no such bodies: of an elastic one it gets the tool on three springs, which are "
+      "the "
+      "body under it at that press, bonded and at small strain, from hapsim's own mesh; forces of "
+      "whole bodies it gets by a callback (share/examples/mujoco).",
       "vtu and gmsh hold the mesh alone, the model's regions or else its own, and for vtu the "
       "moduli. "
-      "Every tool that takes --body, and hs-tetmesh, reads any of the five back: nodes, "
+      "Every tool that takes --body, and hs-tetmesh, reads any of these back but MuJoCo's: nodes, "
       "tetrahedra, regions and what is fixed."};
   spec.options = {
       {.flag = flag::format,
        .value = "PROGRAM",
        .help =
            "calculix (.inp, also Abaqus), febio (.feb, febio_spec 4.0), sofa (.scn, from 23.12), "
+           "mujoco (.xml, from 2.2), "
            "vtu (ParaView), gmsh (2.2).",
-       .choices = {"calculix", "febio", "sofa", "vtu", "gmsh"},
+       .choices = {"calculix", "febio", "sofa", "mujoco", "vtu", "gmsh"},
        .required = true},
       {.flag = flag::body,
        .value = "FILE",
@@ -140,12 +146,17 @@ void write_vtu(std::ostream& out, const Scene& scene) {
   write_field_vtu(out, scene.mesh, {}, {modulus, nu});
 }
 
-// What the deck's force will be, in the deck and in the summary; with --match, made right first.
-void tell_error(const Arguments& arguments, const TetMesh& body, const Model& model,
-                const Recording& recording, const Press& press, Scene& scene, Summary& summary) {
+PrepareOptions prepare_options(const Arguments& arguments) {
   PrepareOptions prepare{static_cast<int>(arguments[flag::threads]), default_cache_directory()};
   if (arguments.given(flag::cache))
     prepare.cache = arguments[flag::cache] == std::string("none") ? "" : arguments[flag::cache];
+  return prepare;
+}
+
+// What the deck's force will be, in the deck and in the summary; with --match, made right first.
+void tell_error(const Arguments& arguments, const TetMesh& body, const Model& model,
+                const Recording& recording, const Press& press, Scene& scene, Summary& summary) {
+  const PrepareOptions prepare = prepare_options(arguments);
   if (arguments[flag::match]) {
     const bool sofa = arguments[flag::format] == std::string("sofa");
     const Match match = match_scene(scene, body, model, recording, press,
@@ -190,6 +201,9 @@ int run(const Arguments& arguments) {
   if (arguments[flag::match] && !(solved && arguments.given(flag::data)))
     fail_usage("--match is of a press that a program solves",
                solved ? "add --data FILE" : "export to calculix, febio or sofa");
+  const bool springs = format == "mujoco";
+  if (springs && !arguments.given(flag::data))
+    fail_usage("springs for mujoco are of a press", "add --data FILE");
   Recording recording;
   Press press;
   if (arguments.given(flag::data)) {
@@ -202,10 +216,17 @@ int run(const Arguments& arguments) {
   const bool pressed = solved && !scene.tool.empty();
   Summary summary;
   if (pressed) tell_error(arguments, body, model, recording, press, scene, summary);
+  GradedPress graded;
+  if (springs) {
+    graded = graded_presses(body, model, recording, {press}, prepare_options(arguments)).front();
+    scene.remarks.emplace_back(
+        "springs of hapsim: at this place and small strain the force is its own");
+  }
   Output output(result_file(arguments));
   if (format == "calculix") write_calculix(output.stream(), scene);
   if (format == "febio") write_febio(output.stream(), scene);
   if (format == "sofa") write_sofa(output.stream(), scene);
+  if (springs) write_mujoco(output.stream(), scene, graded, recording.tool_radius());
   if (format == "vtu") write_vtu(output.stream(), scene);
   if (format == "gmsh") write_mesh_gmsh(output.stream(), scene.mesh);
   output.commit();
@@ -215,7 +236,7 @@ int run(const Arguments& arguments) {
   summary.verdict = fmt::format("{} as input of {}", input_name, format);
   summary.size =
       fmt::format("{} tetrahedra of order {}{}", scene.mesh.tets.size(), scene.mesh.order,
-                  pressed ? fmt::format(", {} steps", scene.t.size()) : "");
+                  pressed || springs ? fmt::format(", {} steps", scene.t.size()) : "");
   summary.values.insert(summary.values.begin(),
                         {{"tetrahedra", static_cast<double>(scene.mesh.tets.size()), "1"},
                          {"order", static_cast<double>(scene.mesh.order), "1"},

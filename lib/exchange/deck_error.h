@@ -27,6 +27,11 @@ std::vector<GradedPress> graded_presses(const TetMesh& body, const Model& model,
                                         const std::vector<Press>& presses,
                                         const PrepareOptions& options);
 
+// MuJoCo: the tool on three slides along the principal axes of K, whose springs are the body at
+// this place, bonded, at rest and small strain: their force is hapsim's. A key frame a row of the
+// press. Error(kBadInput): finite strain, relaxation.
+void write_mujoco(std::ostream& out, const Scene& scene, const GradedPress& press, double radius);
+
 // Stiffness of the scene's tool on the scene's mesh with its moduli, at rest and small strain
 // [N/m], integrated as CalculiX, FEBio and SOFA integrate it: no mean dilatation. That of a linear
 // deck in CalculiX to its printed digits (tests/verify/export_test.cpp).

@@ -150,8 +150,8 @@ TEST_F(Export, NeoHookeanForcesAreTheSame) {
   }
 }
 
-// A coarse body, two regions, presses at four places: the matched deck's force is hapsim's own, from
-// meshes with other elements, and CalculiX has the error that the match has told.
+// A coarse body, two regions, presses at four places: the matched deck's force is hapsim's own,
+// from meshes with other elements, and CalculiX has the error that the match has told.
 TEST_F(Export, MatchedForcesAreHapsimsOwn) {
   const TetMesh coarse = test::block_mesh({0.08, 0.06, 0.04}, 4, 3, 2, 1, 0);
   Model model;
