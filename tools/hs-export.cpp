@@ -72,45 +72,56 @@ ToolSpec specification() {
            "calculix (.inp, also Abaqus), febio (.feb, febio_spec 4.0), sofa (.scn, from 23.12), "
            "mujoco (.xml, from 2.2), "
            "vtu (ParaView), gmsh (2.2).",
+       .group = "Output",
        .choices = {"calculix", "febio", "sofa", "mujoco", "vtu", "gmsh"},
        .required = true},
       {.flag = flag::body,
        .value = "FILE",
        .help = "Body from hs-tetmesh, or another mesh of tetrahedra with fixed nodes: " +
                names_to_read(Content::kTetrahedra) + ".",
+       .group = "Input",
        .required = true},
       {.flag = flag::data,
        .value = "FILE",
-       .help =
-           "Recording or motion whose press is exported; without it, body and materials alone."},
-      calibration_option(""),
-      {.flag = flag::press, .value = "ID", .help = "Which press of it; otherwise the first."},
+       .help = "Recording or motion whose press is exported; without it, body and materials alone.",
+       .group = "Input"},
+      calibration_option("Input"),
+      {.flag = flag::press,
+       .value = "ID",
+       .help = "Which press of it; otherwise the first.",
+       .group = "Input"},
       {.flag = flag::tool_radius,
        .value = "M",
        .help = "Radius of the flat tool [m]; otherwise the recording's metadata tool_radius.",
+       .group = "Input",
        .minimum = 1e-6,
        .maximum = 1},
       {.flag = flag::steps,
        .value = "N",
        .help = "Rows of the press that are kept, evenly, the deepest among them.",
+       .group = "Output",
        .default_text = "20",
        .minimum = 1,
        .maximum = 100000},
       {.flag = flag::match,
-       .help = "Another mesh and moduli, with which the program's force is hapsim's."},
+       .help = "Another mesh and moduli, with which the program's force is hapsim's.",
+       .group = "Output"},
       {.flag = flag::bare,
-       .help = "Leaves out effects on the motion and of the sensor instead of refusing them."},
+       .help = "Leaves out effects on the motion and of the sensor instead of refusing them.",
+       .group = "Output"},
       {.flag = flag::threads,
        .value = "N",
        .help = "Places compared side by side; 0: as many as the machine has cores.",
+       .group = "General",
        .default_text = "0",
        .minimum = 0,
        .maximum = 1024},
       {.flag = flag::cache,
        .value = "DIR",
        .help = "Where prepared stiffnesses are kept by content ('none': nowhere); otherwise the "
-               "user's cache folder."}};
-  spec.options.push_back(answer_option());
+               "user's cache folder.",
+       .group = "General"}};
+  spec.options.push_back(answer_option("General"));
   spec.writes.clear();
   for (const auto& [format, extension] : kExtension) spec.writes.push_back(extension);
   spec.examples = {
