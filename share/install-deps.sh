@@ -21,7 +21,7 @@ python_packages=(python3-dev pybind11-dev python3-numpy)
 # Each is called by a test, or by run-tests.sh; none is asked for only where it happens to be installed.
 test_packages=(
   libgtest-dev clang-format
-  calculix-ccx gmsh tetgen                        # peers: solver and meshers
+  calculix-ccx gmsh tetgen libmujoco-dev           # peers: solver, meshers, a simulator that takes our forces
   chromium mandoc libxml2-utils sqlite3 python3 python3-jsonschema   # readers of what the tools write
   "${python_packages[@]}" python3-matplotlib
   zsh fish lintian                                # completions and packages

@@ -22,7 +22,7 @@ extern "C" {
 #endif
 
 #define HS_API __attribute__((visibility("default")))
-#define HS_INTERFACE 1
+#define HS_INTERFACE 2
 
 typedef enum hs_status {
   HS_DONE = 0,
@@ -200,6 +200,10 @@ HS_API void hs_live_free(hs_live* live);
  * lock, no system call. A tip that is not finite repeats the last; time that runs backwards counts
  * as none. */
 HS_API void hs_live_step(hs_live* live, double t, const double tip[3], double force[3]);
+/* The same of many tools, one after the other: tips and forces are count x 3. Since HS_INTERFACE 2.
+ */
+HS_API void hs_live_step_all(hs_live* const* lives, size_t count, double t, const double* tips,
+                             double* forces);
 /* A recorded motion instead, whose contact point is known: at each new press, then its
  * displacements. */
 HS_API void hs_live_begin(hs_live* live, const double contact[3]);

@@ -141,6 +141,19 @@ void hs_live_step(hs_live* live, double t, const double tip[3], double force[3])
   put(live->give(t, at, live->loop.step(t, at)), force);
 }
 
+void hs_live_step_all(hs_live* const* lives, size_t count, double t, const double* tips,
+                      double* forces) {
+  // Thousands of tools are more than a cache holds: what a step reads first comes meanwhile.
+  constexpr std::size_t kAhead = 3, kLines = 16, kLine = 64;
+  for (size_t i = 0; i < count; ++i) {
+    if (i + kAhead < count) {
+      const auto* next = reinterpret_cast<const char*>(lives[i + kAhead]);
+      for (std::size_t k = 0; k < kLines; ++k) __builtin_prefetch(next + k * kLine);
+    }
+    hs_live_step(lives[i], t, tips + 3 * i, forces + 3 * i);
+  }
+}
+
 void hs_live_begin(hs_live* live, const double contact[3]) {
   live->contact = vec(contact);
   live->known = true;

@@ -92,10 +92,36 @@ class Search {
   }
   // No further than `box` away; false where there is none.
   bool step(double box, VectorXd& best) {
-    const auto found = constrained_step(moving_, coordinates_, open_, x_, J_(Eigen::all, open_), r_,
+    MatrixXd J = J_(Eigen::all, open_);
+    VectorXd r = r_;
+    if (bend_.size() > 0) with_bend(J, r);
+    const auto found = constrained_step(moving_, coordinates_, open_, x_, J, r,
                                         {low_(open_), high_(open_), box}, binds_);
     if (found) best = *found;
     return found.has_value();
+  }
+  // |r + J d|^2 + d' S d as |q + R d|^2 but for a constant, where that has a minimum.
+  void with_bend(MatrixXd& J, VectorXd& r) const {
+    const Eigen::LLT<MatrixXd> llt(J.transpose() * J + bend_);
+    if (llt.info() != Eigen::Success || !(llt.rcond() > 1e-10)) return;
+    VectorXd q = J.transpose() * r;
+    llt.matrixL().solveInPlace(q);
+    r = std::move(q);
+    J = llt.matrixU();
+  }
+  // Where much is left and the constraints hold it, steps without the residuals' own curvature
+  // S = sum r_i d2r_i shrink by a constant factor only. S from the changes of J along the steps, by
+  // the least symmetric change that each asks for (Dennis, Gay and Welsch, ACM Trans. Math. Softw.
+  // 7, 1981, of what the change is; Powell, in Nonlinear Programming, 1970, of the update).
+  void learn_bend(const VectorXd& moved, const MatrixXd& last_J) {
+    const auto n = static_cast<Index>(open_.size());
+    if (bend_.size() == 0) bend_ = MatrixXd::Zero(n, n);
+    const VectorXd lacks =
+        (J_(Eigen::all, open_) - last_J(Eigen::all, open_)).transpose() * r_ - bend_ * moved;
+    const double square = moved.squaredNorm();
+    if (square == 0) return;
+    bend_ += (lacks * moved.transpose() + moved * lacks.transpose()) / square -
+             lacks.dot(moved) / (square * square) * moved * moved.transpose();
   }
 
   // To a point that keeps the constraints: the best of the linearised residuals where there is one.
@@ -131,15 +157,23 @@ class Search {
     while (fit.iterations < options_.max_iterations) {
       ++fit.iterations;
       VectorXd best;
+      const bool bent = bend_.size() > 0;
       if (!step(box, best)) {
         if (box < 1e-6) break;
         box /= 4;
         continue;
       }
-      const double length = (inner(best) - inner(x_)).cwiseAbs().maxCoeff();
+      const VectorXd moved = inner(best) - inner(x_);
+      const double length = moved.cwiseAbs().maxCoeff();
       // Steps shrink by a constant factor where much is left: so far the end is still away.
       const double shrink = before > 0 ? std::min(0.9, length / before) : 0.5;
-      if (length * std::max(1.0, shrink / (1 - shrink)) < options_.step_tolerance) {
+      const bool near = length * std::max(1.0, shrink / (1 - shrink)) < options_.step_tolerance;
+      if (near && bent) {  // an end is one without S as well
+        bend_.resize(0, 0);
+        before = 0;
+        continue;
+      }
+      if (near) {
         fit.converged = true;
         fit.message = "converged";
         return;
@@ -150,20 +184,23 @@ class Search {
         x_ = last;
         r_ = last_r;
         J_ = last_J;
+        bend_.resize(0, 0);
         box = length / 4;
         // A refused tiny step is the floor of rounding.
-        if (length > kTiny) continue;
+        if (length > kTiny || bent) continue;
         fit.converged = true;
         fit.message = "converged";
         return;
       }
       const double fall = sum - r_.squaredNorm();
       sum = r_.squaredNorm();
-      if (length < kTiny && fall <= kRounding * sum) {
+      if (length < kTiny && fall <= kRounding * sum && !bent) {
         fit.converged = true;
         fit.message = "converged";
         return;
       }
+      constexpr double kNear = 0.5;  // steps beyond which the curvature is another
+      if (length < kNear) learn_bend(moved, last_J);
       before = length;
       if (length > 0.9 * box) box *= 2;
       if (options_.watch && !options_.watch(sum)) {
@@ -260,7 +297,7 @@ class Search {
   const LeastSquaresOptions& options_;
   Coordinates coordinates_;
   VectorXd x_, low_, high_, r_;
-  MatrixXd J_;
+  MatrixXd J_, bend_;  // bend_: S of learn_bend(), by `open_`; empty: none
   std::vector<Index> open_;
   std::vector<SmoothConstraint> moving_;
   std::vector<std::size_t> number_;

@@ -78,6 +78,21 @@ std::vector<int> thinned(const std::vector<int>& rows, const Recording& r, std::
 
 }  // namespace
 
+void write_xml_remarks(std::ostream& out, const Scene& scene) {
+  for (std::string remark : scene.remarks) {
+    for (std::size_t at; (at = remark.find("--")) != remark.npos;) remark.erase(at, 1);
+    out << "<!-- " << remark << " -->\n";
+  }
+}
+
+std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material) {
+  std::vector<int> region;
+  for (const auto& n : mesh.tets)
+    region.push_back(region_at(
+        material, (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4));
+  return region;
+}
+
 Scene make_scene(const TetMesh& body, const Model& model, const Recording& recording,
                  const std::vector<int>& press, const SceneOptions& options) {
   const MaterialSpec material = material_of(model);
@@ -89,11 +104,7 @@ Scene make_scene(const TetMesh& body, const Model& model, const Recording& recor
   scene.finite = spec.finite;
   scene.terms = spec.terms;
   if (material.key_point.empty()) scene.modulus.resize(1);  // the body's own regions stay
-  for (std::size_t t = 0; t < body.tets.size() && !material.key_point.empty(); ++t) {
-    const auto& n = body.tets[t];
-    scene.mesh.region[t] = region_at(
-        material, (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4);
-  }
+  if (!material.key_point.empty()) scene.mesh.region = regions_of(body, material);
   if (press.empty()) return scene;
   scene.tool = patch_under_tool(body, recording.position[static_cast<std::size_t>(press[0])],
                                 recording.tool_radius())

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <ostream>
+#include <string>
 #include <vector>
 
+#include "effects/effect.h"
 #include "mesh/tetmesh.h"
 #include "model/model.h"
 #include "recording/recording.h"
@@ -19,6 +21,7 @@ struct Scene {
   std::vector<int> tool;           // nodes under the flat, bonded tool: they move together
   std::vector<double> t;  // [s], rising from above 0; without times in the recording 1, 2, ...
   std::vector<Vec3> u;    // displacement of the tool [m], one a time
+  std::vector<std::string> remarks;  // become comments at the deck's head, a line each
 
   // Of a region that the body has and the model has not: that of the whole.
   double modulus_of(int region) const {
@@ -39,6 +42,12 @@ struct SceneOptions {
 // `bare`. Error(kBadInput): a press off the surface.
 Scene make_scene(const TetMesh& body, const Model& model, const Recording& recording,
                  const std::vector<int>& press, const SceneOptions& options);
+
+// The remarks as comments of XML, in which no two dashes may follow each other.
+void write_xml_remarks(std::ostream& out, const Scene& scene);
+
+// By element, the region of the material's nearest key point; 0 without key points.
+std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material);
 
 // CalculiX, Abaqus: a step for each time, RF summed over the node set TOOL printed after each (the
 // force of the tool on the body). Error(kBadInput): relaxation, which CalculiX does not have.

@@ -13,6 +13,7 @@ void write_calculix(std::ostream& out, const Scene& scene) {
   if (!scene.terms.empty())
     fail_input("", "CalculiX has no linear viscoelasticity",
                "export to FEBio, or take viscoelastic out of the model");
+  for (const std::string& remark : scene.remarks) out << "** " << remark << '\n';
   write_mesh_abaqus(out, scene.mesh);
   const std::set<int> regions(scene.mesh.region.begin(), scene.mesh.region.end());
   for (const int region : regions) {

@@ -72,7 +72,9 @@ void write_febio(std::ostream& out, const Scene& scene) {
   const std::set<int> regions(scene.mesh.region.begin(), scene.mesh.region.end());
   constexpr int kSteps = 100;  // from a relaxed body to the last row
   const double end = scene.t.empty() ? 1 : scene.t.back();
-  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<febio_spec version=\"4.0\">\n"
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
+  write_xml_remarks(out, scene);
+  out << "<febio_spec version=\"4.0\">\n"
       << "<Module type=\"solid\"/>\n<Control>\n<analysis>STATIC</analysis>\n"
       << fmt::format("<time_steps>{}</time_steps>\n<step_size>{:.12g}</step_size>\n", kSteps,
                      end / kSteps)

@@ -37,8 +37,9 @@ void write_sofa(std::ostream& out, const Scene& scene) {
         "export to FEBio, or take the effect out of the model");
   const double end = scene.t.empty() ? 1 : scene.t.back();
   const double step = end / static_cast<double>(std::max<std::size_t>(1, scene.t.size()));
-  out << fmt::format(
-      "<?xml version=\"1.0\"?>\n<Node name=\"root\" gravity=\"0 0 0\" dt=\"{:.9g}\">\n", step);
+  out << "<?xml version=\"1.0\"?>\n";
+  write_xml_remarks(out, scene);
+  out << fmt::format("<Node name=\"root\" gravity=\"0 0 0\" dt=\"{:.9g}\">\n", step);
   for (const char* plugin :
        {"Constraint.Projective", "LinearSolver.Direct", "ODESolver.Backward", "StateContainer",
         "SolidMechanics.FEM.Elastic", "Topology.Container.Dynamic", "Visual"})

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <cmath>
 
@@ -35,6 +36,7 @@ void extend(const Lanes& a, const Vector& x, Vector& y) {
 
 struct ConjugateGradients::Impl {
   virtual ~Impl() = default;
+  mutable std::atomic<int> most{0};  // iterations(); several threads may solve at once
   virtual bool prepare(const SymmetricSparse& matrix) = 0;
   virtual void multiply_by_matrix(const Vector& x, Vector& y) const = 0;
   virtual void precondition(Vector& z) const = 0;
@@ -186,11 +188,17 @@ IterationReport ConjugateGradients::solve(const Eigen::MatrixXd& b, Eigen::Matri
       for (int l = 0; l < columns; ++l)
         x(order[i], first + l) = impl_->scale[i] * y[kLanes * i + l];
   }
+  for (int most = impl_->most; most < all.iterations;)
+    if (impl_->most.compare_exchange_weak(most, all.iterations)) break;
   return all;
 }
 
 std::size_t ConjugateGradients::held_bytes() const {
   return impl_ ? impl_->held_bytes() : 0;
+}
+
+int ConjugateGradients::iterations() const {
+  return impl_ ? impl_->most.load() : 0;
 }
 
 double ConjugateGradients::shift() const {

@@ -37,7 +37,8 @@ class ConjugateGradients {
   IterationReport solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x, double tolerance = 1e-8,
                         int limit = 0) const;
   std::size_t held_bytes() const;
-  double shift() const;  // by which the unit diagonal was raised
+  int iterations() const;  // the most of any solution since it was made
+  double shift() const;    // by which the unit diagonal was raised
 
  private:
   struct Impl;

@@ -37,6 +37,8 @@ class StiffnessSolver {
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
   // In which blocks of three unknowns are eliminated; empty when iterative.
   std::vector<int> order() const { return direct_ ? direct_->order() : std::vector<int>{}; }
+  // The most steps of any solution so far; 0 when direct.
+  int iterations() const { return iterative_ ? iterative_->iterations() : 0; }
   std::size_t held_bytes() const {
     return hapsim::held_bytes(direct_) + hapsim::held_bytes(iterative_);
   }

@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "python/convert.h"
 #include "python/options.h"
@@ -60,6 +61,22 @@ class Live {
     }
     return forces;
   }
+  static py::array_t<double> step_all(const std::vector<Live*>& tools, double t,
+                                      const py::array_t<double>& positions) {
+    const auto at = positions.unchecked<2>();
+    if (at.shape(0) != static_cast<py::ssize_t>(tools.size()) || at.shape(1) != 3)
+      fail(HS_BAD_INPUT, "there are " + std::to_string(tools.size()) +
+                             " tools; give a position of three numbers for each");
+    std::vector<hs_live*> lives;
+    std::vector<double> tips;
+    for (py::ssize_t i = 0; i < at.shape(0); ++i) {
+      lives.push_back(tools[static_cast<std::size_t>(i)]->live_.get());
+      for (py::ssize_t k = 0; k < 3; ++k) tips.push_back(at(i, k));
+    }
+    py::array_t<double> forces({at.shape(0), py::ssize_t{3}});
+    hs_live_step_all(lives.data(), lives.size(), t, tips.data(), forces.mutable_data());
+    return forces;
+  }
   void begin(const py::handle& contact) {
     hs_live_begin(live_.get(), Vector(contact).values.data());
   }
@@ -108,6 +125,8 @@ void define_live(py::module_& m) {
       .def("step", &Live::step, "position"_a, "t"_a = py::none(),
            "Force [N] on a tool with its tip at a position [m]; without t [s] by the clock.")
       .def("run", &Live::run, "t"_a, "positions"_a, "step() for each row; forces, n x 3")
+      .def_static("step_all", &Live::step_all, "tools"_a, "t"_a, "positions"_a,
+                  "step() of many tools at one time; forces, n x 3")
       .def("begin", &Live::begin, "contact"_a, "A recorded press, whose contact point is known.")
       .def("press", &Live::press, "u"_a, "t"_a, "in_air"_a = false,
            "Its force at a displacement u [m] from there.")

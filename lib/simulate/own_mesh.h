@@ -25,6 +25,7 @@ class OwnMesh {
   bool is_regional() const { return !stiffness_.empty() && !stiffness_[0].relaxing.empty(); }
   std::vector<ToolStand> stands() const;
   const SolverChoice& solver() const { return press_.solver(); }
+  int iterations() const { return press_.iterations(); }
   std::size_t patch_size(std::size_t position) const;  // nodes that move with the tool
 
   // The nodal displacements [m], and by element the mean stress (xx, yy, zz, xy, yz, xz) [Pa] and

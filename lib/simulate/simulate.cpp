@@ -9,15 +9,20 @@
 #include "recording/force_noise.h"
 #include "recording/tools_together.h"
 #include "simulate/regional_relaxation.h"
+#include "simulate/traction.h"
 
 namespace hapsim {
 namespace {
 
-Eigen::VectorXd contact_mesh_forces(const Model& model, const Experiment& w, const Selection& all,
-                                    const std::function<void(const std::string&)>& say) {
+// The model's own, solved here; where regions relax each in its own way with their elements.
+StiffnessAt contact_mesh_stiffness(const Model& model, const Experiment& w,
+                                   const std::function<void(const std::string&)>& say) {
   const MaterialSpec material = material_of(model);
   const std::vector<RegionRelaxation> regions = regional_relaxation_of(model, material);
-  if (regions.empty()) return solved_forces(model, w, all, false).f;
+  if (regions.empty())
+    return [about = w.places.solve(material), material](std::size_t p) {
+      return about.at(p, material);
+    };
   const auto solve = [&](const MaterialSpec& sample) {
     const Linearisation about = w.places.solve(sample);
     std::vector<Eigen::Matrix3d> K;
@@ -25,23 +30,30 @@ Eigen::VectorXd contact_mesh_forces(const Model& model, const Experiment& w, con
     return K;
   };
   double misfit = 0;
-  const std::vector<PositionStiffness> stiffness =
-      regional_stiffness(regions, material, solve, misfit);
+  std::vector<PositionStiffness> stiffness = regional_stiffness(regions, material, solve, misfit);
   say(
       fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
                   "stiffness",
                   stiffness.front().relaxing.size(), misfit));
-  const auto at = [&](std::size_t p) { return stiffness[p]; };
-  return model_forces(model, w.dataset, at, all, false).f;
+  return [stiffness = std::move(stiffness)](std::size_t p) { return stiffness[p]; };
+}
+
+Eigen::VectorXd contact_mesh_forces(const Model& model, const Experiment& w, const Selection& all,
+                                    const std::function<void(const std::string&)>& say) {
+  if (regional_relaxation_of(model, material_of(model)).empty())
+    return solved_forces(model, w, all, false).f;
+  return model_forces(model, w.dataset, contact_mesh_stiffness(model, w, say), all, false).f;
 }
 
 }  // namespace
 
 Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
-                   ExperimentOptions options, const std::function<void(const std::string&)>& say) {
+                   ExperimentOptions options, const std::function<void(const std::string&)>& say,
+                   Control control) {
   const auto told = [&](const std::string& words) {
     if (say && !words.empty()) say(words);
   };
+  if (control == Control::kForce) motion.u.assign(motion.rows(), Vec3::Zero());  // not known yet
   set_contact_radius(motion, model);
   set_poisson_range(model, options);  // as a fit did, so its prepared stiffnesses serve again
   options.borrow = true;              // every row has its force
@@ -53,6 +65,12 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
   Simulated simulated;
   simulated.mesh_uncertainty = w.places.mesh_uncertainty();
   simulated.positions = w.dataset.positions.size();
+  if (control == Control::kForce) {
+    simulated.recording =
+        with_displacements(model, w.dataset, contact_mesh_stiffness(model, w, told));
+    mark_simulated(simulated.recording.metadata, effects_label(model));
+    return simulated;
+  }
   const Eigen::VectorXd f = contact_mesh_forces(model, w, all, told);
   simulated.recording = with_forces(std::move(w.dataset), all, f, simulated.mesh_uncertainty);
   mark_simulated(simulated.recording.metadata, effects_label(model));

@@ -17,10 +17,15 @@ struct Simulated {
   std::size_t positions = 0;
 };
 
+// The motion's forces are given and its displacements are found (traction.h), instead of the other
+// way round.
+enum class Control { kDisplacement, kForce };
+
 // `motion` as it was read, with its tool's radius. `say` is told what was left out, is beyond what
 // the model is valid for, or how regions relax; may be empty. Errors of make_experiment().
 Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
-                   ExperimentOptions options, const std::function<void(const std::string&)>& say);
+                   ExperimentOptions options, const std::function<void(const std::string&)>& say,
+                   Control control = Control::kDisplacement);
 
 // The dataset's recording with the stacked forces `f` of these episodes, zero elsewhere;
 // `mesh_uncertainty` as its metadata, none where it is 0.

@@ -39,7 +39,8 @@ class ElasticBody {
   int handles() const { return handles_; }
   int unknowns() const { return system_.unknowns(); }
   const SolverChoice& solver() const { return choice_; }
-  std::size_t held_bytes() const;  // its factor with it, its mesh without
+  int iterations() const { return system_.iterations(); }  // StiffnessSolver
+  std::size_t held_bytes() const;                          // its factor with it, its mesh without
 
  private:
   bool is_touched(std::size_t tet) const;

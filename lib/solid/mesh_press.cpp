@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -95,6 +96,12 @@ std::vector<MeshPress::Solution> MeshPress::solve(const std::vector<Lame>& lame_
     solutions.push_back({0.5 * (K + K.transpose()), std::move(r.field)});
   }
   return solutions;
+}
+
+int MeshPress::iterations() const {
+  int most = 0;
+  for (const auto& body : apart_) most = std::max(most, body->iterations());
+  return most;
 }
 
 std::vector<MeshPress::Solution> MeshPress::solve_together(const std::vector<Lame>& lame_of_tet) {

@@ -41,6 +41,7 @@ class MeshPress {
 
   const std::vector<MeshPatch>& patches() const { return patches_; }
   const SolverChoice& solver() const { return choice_; }
+  int iterations() const;  // the most of any position's solutions so far; 0 when direct
   Dilatation dilatation() const { return dilatation_; }
 
  private:

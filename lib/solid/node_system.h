@@ -44,6 +44,7 @@ class NodeSystem {
   bool factorise();
   // Rows of the free nodes of `load` (3 nodes x m) solved for; rows of the others are zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& load) const;
+  int iterations() const { return solver_ ? solver_->iterations() : 0; }  // StiffnessSolver
   const SymmetricSparse& matrix() const { return matrix_; }
   std::size_t held_bytes() const;  // its factor with it
 

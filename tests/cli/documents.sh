@@ -19,6 +19,7 @@ excused() { # COMMAND
     rostopic\ *) ;;                                      # another program's
     'g++ pressing.cpp'* | ./pressing\ *) ;;              # tests/install
     build/device_none\ * | build/device_linked\ *) ;;                             # haptic_device.sh
+    cc\ press.c\ * | ./press\ *) ;;                      # mujoco.sh
     hs-link\ --listen\ * | hs-link\ *--peer\ *) ;;       # link.sh
     share/examples/batch/machines.sh*) ;;                # machines.sh
     hs-scan2ply\ *--robot\ *) ;;                         # scan2ply.sh: a robot stands behind it

@@ -33,9 +33,22 @@ flat err | grep -q 'nodes under the tool: this mesh is' || complain 'what the me
 sed 's/^# tool_radius: 0.006/# tool_radius: 0.001/' motion.csv >small.csv
 "$bin/hs-export" elastic.csv --format calculix --body body.ply --data small.csv -o small.inp 2>err
 flat err | grep -q 'warning: [0-9]* nodes* under the tool: this mesh is too coarse there, [0-9]* % s' || complain 'a coarse deck is a warning'
+head -n 1 out | grep -Eq '^\*\* (warning: )?[0-9]+ nodes? under the tool: this mesh is' || complain 'the deck says it too'
 [[ $(grep -c '^\*STEP' out) == 20 ]] && grep -q '^TOOL, 3, 3, -1.2' out || complain 'the deepest row is a step'
 awk -F, '/^\*NODE,/ { n = 1; next } /^\*/ { n = 0 } n && (length($2) > 20 || length($4) > 21) { exit 1 }' out ||
   complain 'a field of CalculiX has 20 characters at most'
+# Matched: one place alone, then two; the deck says how near it is.
+export_to 0 "of hapsim's at this press; the moduli are" calculix elastic.csv --match
+flat err | grep -q 'learned here, for the recording has no other place' || complain 'one place is told'
+head -n 1 out | grep -q '^\*\* matched to hapsim: its force is within [0-9.]* %' && grep -q 'TYPE=C3D10' out || complain 'the matched deck says so'
+{ cat motion.csv; printf '5,0,0.01,0.01,0.04,0,0,0\n5,1,0.012,0.015,0.04,0,0,-0.001\n' | sed 's/0.01,0.01,/0.012,0.015,/'; } >places.csv
+"$bin/hs-export" -q elastic.csv --format sofa --body body.ply --data places.csv --match --json match.json -o match.scn 2>err || complain 'matched for SOFA'
+grep -q '<!-- matched to hapsim: .*learned at 1 other' match.scn || complain 'the scene says so'
+awk '$2 == "{" { name = $1 } $1 == "\"value\":" { v[name] = $2 + 0 }
+  END { exit !(v["\"order\":"] == 1 && v["\"modulus_factor\":"] < 0.95 && v["\"largest_held_out_error\":"] < 0.05 && v["\"tetrahedra\":"] > 1000) }' match.json || complain 'first order is softened'
+"$bin/hs-tetmesh" -q match.scn -o back.ply 2>err || complain 'comments are passed over'
+cp match.scn out && well_formed SOFA
+export_to 2 'export to calculix, febio or sofa' gmsh elastic.csv --match
 export_to 0 '20 steps' calculix finite.csv --press 4
 grep -q 'NEO HOOKE' out && grep -q 'NLGEOM' out && grep -q '^TOOL, 1, 1, 6.0' out || complain 'finite strain, the other press'
 export_to 0 'steps' febio viscoelastic.csv

@@ -89,8 +89,26 @@ grep -q 'hs-simulate: deep.csv:7: the body was deformed to' err || complain 'no 
 { cat linear.csv; printf 'damper,0,c,1,N s/m,,0,1000000,fixed\n'; } >damped.csv
 "$bin/hs-simulate" --full motion.csv --body body.ply --model damped.csv -q 2>err >/dev/null
 [[ $? == 3 ]] && grep -q damper err || complain 'an effect without such a form is not refused'
-"$bin/hs-simulate" --force-control motion.csv --body body.ply --model linear.csv -q 2>err >/dev/null
-[[ $? == 2 ]] || complain '--force-control without --full is not refused'
+# Forces that are given without elements at every step, on the contacts' meshes and on the body's own by either solver.
+grep -v '^sensor' linear.csv >pure.csv
+round() { # NAME ARGUMENTS...: the forces of the motion find the motion
+  "$bin/hs-simulate" motion.csv --body body.ply --model pure.csv -q "${@:2}" -o there.csv 2>err &&
+    "$bin/hs-simulate" --force-control there.csv --body body.ply --model pure.csv -q "${@:2}" -o back.csv 2>err ||
+    complain "given forces failed, $1"
+  below "$(apart motion.csv back.csv ux uy uz)" 1e-9 || complain "the forces of $1 do not find the motion"
+  below "$(apart there.csv back.csv fx fy fz)" 1e-12 || complain "the forces given to $1 are not kept"
+}
+round 'the contact meshes'
+round 'the own mesh, direct' --own-mesh --solver direct
+round 'the own mesh, iterative' --own-mesh --solver iterative
+refused() { # TEXT ARGUMENTS...
+  "$bin/hs-simulate" --force-control "${@:2}" --body body.ply -q 2>err >/dev/null
+  [[ $? == 3 ]] && grep -q "$1" err || complain "$1"
+}
+refused "column 'fx' is missing" motion.csv --model pure.csv
+refused 'without sensor-bias' there.csv --model linear.csv
+grep -v '^sensor' damped.csv >pure-damped.csv
+refused 'not linear' there.csv --model pure-damped.csv
 
 ((failures == 0)) && echo ok
 exit $((failures > 0))

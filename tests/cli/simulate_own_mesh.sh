@@ -35,6 +35,7 @@ for order in 1 2; do
   for solver in direct iterative; do
     "$bin/hs-simulate" "${common[@]}" --solver $solver -o $solver.csv 2>err || complain "$solver failed"
     flat err | grep -q 'right-hand sides' || complain 'the solver is not told'
+    [[ $(flat err | grep -c '; [0-9]* iterations') == $([[ $solver == iterative ]] && echo 1 || echo 0) ]] || complain 'iterations are told where there are any'
   done
   same direct.csv iterative.csv 1e-7 || complain "the solvers differ, order $order"
 done

@@ -210,6 +210,12 @@ class Live(unittest.TestCase):
         live = hapsim.Live(prepared)
         one_by_one = np.array([live.step(tip, when) for when, tip in zip(t, tips)])
         np.testing.assert_array_equal(together, one_by_one)
+        pair = [hapsim.Live(prepared), hapsim.Live(prepared)]
+        beside = [hapsim.Live.step_all(pair, when, [tip, tip + (0.01, 0, 0)]) for when, tip in zip(t, tips)]
+        np.testing.assert_array_equal([both[0] for both in beside], one_by_one)
+        self.assertGreater(beside[-1][1][2], 0)
+        with self.assertRaisesRegex(hapsim.BadInputError, "there are 2 tools"):
+            hapsim.Live.step_all(pair, 0, [tips[0]])
         feel = live.feel
         self.assertTrue(feel.contact and feel.press == 1)
         np.testing.assert_array_equal(feel.force, one_by_one[-1])

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "effects/catalogue.h"
+#include "exchange/match.h"
 #include "exchange/scene.h"
 #include "simulate/full_simulation.h"
 #include "support/block_mesh.h"
@@ -146,6 +147,54 @@ TEST_F(Export, NeoHookeanForcesAreTheSame) {
     add(model, "elastic", {16800, 0.4});
     add(model, "hyperelastic", {0, 1});
     compare(order, model, kFinite, "neo-Hookean_" + std::to_string(order));
+  }
+}
+
+// A coarse body, two regions, presses at four places: the matched deck's force is hapsim's own,
+// from meshes with other elements, and CalculiX has the error that the match has told.
+TEST_F(Export, MatchedForcesAreHapsimsOwn) {
+  const TetMesh coarse = test::block_mesh({0.08, 0.06, 0.04}, 4, 3, 2, 1, 0);
+  Model model;
+  add(model, "elastic", {1e4, 0.45});
+  Recording motion;
+  motion.metadata.set("tool_radius", "0.004");
+  for (const Vec3& at : {Vec3(0.02, 0.02, 0.04), Vec3(0.06, 0.02, 0.04), Vec3(0.02, 0.045, 0.04),
+                         Vec3(0.055, 0.04, 0.04)}) {
+    motion.line.push_back(static_cast<long>(motion.line.size()) + 1);
+    motion.press.push_back(static_cast<int>(motion.press.size()) + 1);
+    motion.position.push_back(at);
+    motion.u.emplace_back(0.0005, 0, -0.002);
+  }
+  for (const bool regions : {false, true}) {
+    if (regions) {
+      Parameter stiff = model.parameters[0];
+      stiff.region = 1;
+      stiff.value = 3e4;
+      model.parameters.push_back(stiff);
+      for (int k = 0; k < 2; ++k) {
+        model.parameters.push_back({"regions", k, "x1", k == 0 ? 0.02 : 0.06, "m"});
+        model.parameters.push_back({"regions", k, "y1", 0.03, "m"});
+      }
+    }
+    for (const Press& press : {motion.presses().front(), motion.presses().back()}) {
+      const auto row = static_cast<std::size_t>(press.rows[0]);
+      Scene scene = make_scene(coarse, model, motion, press.rows, {});
+      const Match match = match_scene(scene, coarse, model, motion, press, {});
+      const GradedPress graded = graded_presses(coarse, model, motion, {press}, {})[0];
+      const Vec3 ours = -graded.K * motion.u[row];
+      const std::vector<Vec3> theirs = calculix(scene, "matched");
+      ASSERT_EQ(theirs.size(), 1U);
+      const double error = (theirs[0] - ours).norm() / ours.norm();
+      std::printf("press %d: hapsim %.4f N, CalculiX %.2f %% off, said %.2f %%, before %.0f %%\n",
+                  press.id, ours.norm(), 100 * error, 100 * match.presses[0].error,
+                  100 * match.before);
+      EXPECT_FALSE(match.presses[0].learned);
+      EXPECT_EQ(match.learned(), 2U);
+      EXPECT_GT(std::abs(match.before), 0.05);
+      EXPECT_LT(error, 0.02);
+      EXPECT_NEAR(error, std::abs(match.presses[0].error), 1e-4);
+      EXPECT_LE(error, match.largest_unseen() + 1e-4);
+    }
   }
 }
 

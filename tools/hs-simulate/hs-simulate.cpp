@@ -21,6 +21,7 @@
 #include "simulate/full_simulation.h"
 #include "simulate/own_mesh.h"
 #include "simulate/simulate.h"
+#include "simulate/traction.h"
 
 namespace hapsim {
 namespace {
@@ -95,7 +96,10 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
 
 int run_own_mesh(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
-  Dataset dataset = make_dataset(load_pressed(arguments, arguments.input(), false, model));
+  const bool forces_given = arguments[flag::force_control];
+  Recording motion = load_pressed(arguments, arguments.input(), forces_given, model);
+  if (forces_given) motion.u.assign(motion.rows(), Vec3::Zero());  // not known yet
+  Dataset dataset = make_dataset(std::move(motion));
   if (const double nu = material_of(model).nu; mesh.order == 1 && nu > 0.4)
     say(arguments, "hs-simulate",
         fmt::format("elements of first order are too stiff at nu {:g} where a body's own mesh is "
@@ -115,7 +119,9 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
   Recording out =
-      with_forces(dataset, all, model_forces(model, dataset, stiffness_at, all, false).f);
+      forces_given
+          ? with_displacements(model, dataset, stiffness_at)
+          : with_forces(dataset, all, model_forces(model, dataset, stiffness_at, all, false).f);
   write_simulated(arguments, effects_label(model), out);
   for (const FieldRow& row : fields) {
     Output output(fmt::format("{}-{}.vtu", arguments[flag::vtu], row.row + 1));
@@ -123,22 +129,24 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
     output.commit();
   }
   Summary summary = simulated_summary(arguments, dataset.rows(), effects_label(model),
-                                      !dataset.recording.f.empty());
+                                      !forces_given && !dataset.recording.f.empty());
   summary.items = {
       {"SOLVED",
        "",
        "",
-       {fmt::format("{} rows, {} positions on {} tetrahedra, {} nodes under the tool; {}",
-                    dataset.rows(), dataset.positions.size(), mesh.tets.size(), body.patch_size(0),
-                    body.solver().why)}}};
+       {fmt::format(
+           "{} rows, {} positions on {} tetrahedra, {} nodes under the tool; {}{}", dataset.rows(),
+           dataset.positions.size(), mesh.tets.size(), body.patch_size(0), body.solver().why,
+           body.iterations() > 0 ? fmt::format("; {} iterations", body.iterations()) : "")}}};
   summary.values.push_back({"positions", static_cast<double>(dataset.positions.size()), "1"});
+  summary.values.push_back({"iterations", static_cast<double>(body.iterations()), "1"});
   summary.values.push_back({"nodes_under_tool", static_cast<double>(body.patch_size(0)), "1"});
   tell_answer(arguments, summary);
   return 0;
 }
 
 int run_acfm(const Arguments& arguments, const Acfm& model) {
-  for (const AnyFlag& flag : AnyFlags{flag::full, flag::own_mesh})
+  for (const AnyFlag& flag : AnyFlags{flag::full, flag::own_mesh, flag::force_control})
     if (arguments.given(flag))
       fail_usage(flag + " is of finite elements, and this model has none", "leave it out");
   const Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
@@ -175,8 +183,10 @@ int run(const Arguments& arguments) {
     if (arguments.given(flag) && arguments[flag::full])
       fail_usage(flag + " is not of the full mode", "leave it out");
   }
-  if (arguments[flag::force_control] && !arguments[flag::full])
-    fail_usage("--force-control is of the full mode", "add --full, or leave it out");
+  if (arguments[flag::force_control] && arguments[flag::live])
+    fail_usage("--force-control is of the batch mode", "leave out --live or --force-control");
+  if (arguments[flag::force_control] && arguments.given(flag::vtu))
+    fail_usage("--vtu is of displacements that are given", "simulate the found motion with --vtu");
   if (arguments.given(flag::rows) && !arguments.given(flag::vtu))
     fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
   Input file(arguments[flag::model]);
@@ -205,13 +215,16 @@ int run(const Arguments& arguments) {
   const TetMesh body = load_body(arguments);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
-  Recording motion = load_recording(arguments, arguments.input(), false);
-  const bool measured = !motion.f.empty();
-  Simulated simulated =
-      simulate(body, model, std::move(motion), options, [&](const std::string& words) {
+  const Control control = arguments[flag::force_control] ? Control::kForce : Control::kDisplacement;
+  Recording motion = load_recording(arguments, arguments.input(), control == Control::kForce);
+  const bool measured = control == Control::kDisplacement && !motion.f.empty();
+  Simulated simulated = simulate(
+      body, model, std::move(motion), options,
+      [&](const std::string& words) {
         progress.reset();
         say(arguments, "hs-simulate", words);
-      });
+      },
+      control);
   progress.reset();
   Recording& out = simulated.recording;
   Summary summary = simulated_summary(arguments, out.rows(), effects_label(model), measured);

@@ -152,8 +152,8 @@ inline ToolSpec simulate_specification() {
                                   "ends it (exit 4).",
                           .group = "Solution"});
   spec.options.push_back({.flag = flag::force_control,
-                          .help = "Full: the motion's forces are given, its displacements are "
-                                  "found and written.",
+                          .help = "The motion's forces are given, its displacements are found and "
+                                  "written; --own-mesh by any --solver.",
                           .group = "Solution"});
   spec.options.push_back({.flag = flag::solver,
                           .value = "NAME",

@@ -1,6 +1,6 @@
 #!/bin/sh
-# virtual-reality.sh [FOLDER]: the virtual objects of Tables A.1 and A.2, a cuboid 120 x 210 x 60 mm
-# of six elastic and ten viscoelastic materials, pressed at the middle of its top; forces as CSV and
+# virtual-reality.sh [FOLDER]: the virtual objects of Tables A.1 and A.2 and of Figure 6.7, a cuboid 120 x 210 x 60 mm
+# of six elastic, ten viscoelastic and two more viscoelastic materials, pressed at the middle of its top; forces as CSV and
 # force over displacement as SVG. Needs the hs- tools on the PATH; writes into FOLDER (virtual).
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -70,6 +70,26 @@ done <<'END'
 10 ramp 0.05 0.2 0.2
 END
 
+# Figure 6.7: materials a and b beside c, which is row 6; what each cycle loses of the work put in, and its peak.
+motion ramp 0.01 >material-a.motion.csv
+simulate material-a 2000 0.3 20000 0.6 8000 0.1
+motion ramp 0.05 >material-b.motion.csv
+simulate material-b 20000 0.3 10000 0.6 8000 0.1
+motion ramp 0.01 >material-c.motion.csv
+simulate material-c 20000 0.3 10000 0.1 6000 0.2
+loss_of() { # NAME: of its second cycle, in %, and the largest force [N]
+  awk -F, '/^[0-9]/ { t[++n] = $2; u[n] = -$8; f[n] = $NF; if (f[n] > most) most = f[n] }
+    END {
+      for (i = int(n / 2) + 2; i <= n; ++i) { w = (f[i] + f[i - 1]) / 2 * (u[i] - u[i - 1]); net += w; if (w > 0) in_ += w }
+      printf "%.1f %.3f", 100 * net / in_, most
+    }' "$1.csv"
+}
+echo 'Figure 6.7: work lost of the work put in by the second cycle, largest force:'
+for material in a b c; do
+  loss=$(loss_of material-$material)
+  echo "material $material  ${loss% *} %  ${loss#* } N"
+done
+
 # An analytical model of two Maxwell elements from each row's forces, exact and with noise: its error
 # on them, and on a faster press with a hold that it has not seen, both without the noise.
 awk 'BEGIN {
@@ -81,7 +101,7 @@ awk 'BEGIN {
 }' >unseen.motion.csv
 error_of() { # FORCES MOTION: of acfm.csv, in % of the forces' rms
   hs-simulate "$2" --model acfm.csv -q |
-    hs-compare "$1" --simulated - -o residuals.csv 2>&1 | sed -n 's/.*pooled.*; \(.*\) % of the force.s rms.*/\1/p'
+    hs-compare "$1" --simulated - -o residuals.csv 2>&1 | sed -n "s/^ *ERROR *\([0-9.e-]*\) % of the force.s rms.*/\1/p"
 }
 echo 'Analytical model of Table A.2 against finite elements, error in % of the force:'
 echo '     from exact forces from forces with noise of 0.01 N'
@@ -109,6 +129,10 @@ figures() { # KIND READY FORCE: the thesis's, beside ours
   echo 'figure,thesis,ours'
   figures elastic 0.095 15
   figures viscoelastic 0.12 30
+  for material in a b c; do
+    loss=$(loss_of material-$material)
+    echo "virtual cuboid: material $material loses of a cycle's work [%],a loop,${loss% *}"
+  done
 } >summary.csv
 
 plot() { # FILE TITLE NAME...
@@ -122,4 +146,6 @@ plot rates.svg 'Table A.2, 1 and 4-6: rates 10 to 100 mm/s' \
 plot sines.svg 'Table A.2, 2 and 3: sinusoidal rates' viscoelastic-2.csv viscoelastic-3.csv
 plot times.svg 'Table A.2, 7-10: relaxation times' \
   viscoelastic-7.csv viscoelastic-8.csv viscoelastic-9.csv viscoelastic-10.csv
-echo "$out: elastic.svg rates.svg sines.svg times.svg"
+plot materials.svg 'Figure 6.7 (a): materials a, b and c' material-[abc].csv
+plot materials-time.svg 'Figure 6.7 (b): force over time' -v over=t material-[abc].csv
+echo "$out: elastic.svg rates.svg sines.svg times.svg materials.svg materials-time.svg"

@@ -177,6 +177,10 @@ static void test_live(const hs_body* body, const hs_model* model, hs_recording* 
   hs_live *live = NULL, *other = NULL;
   EXPECT(hs_live_new(prepared, NULL, &live) == HS_DONE &&
          hs_live_new(prepared, NULL, &other) == HS_DONE);
+  hs_live *pair[2] = {NULL, NULL}, *alone[2] = {NULL, NULL};
+  for (int k = 0; k < 2; ++k)
+    EXPECT(hs_live_new(prepared, NULL, &pair[k]) == HS_DONE &&
+           hs_live_new(prepared, NULL, &alone[k]) == HS_DONE);
   EXPECT(hs_prepared_off_contacts(prepared) > 0);
   hs_prepared_free(prepared);
 
@@ -208,6 +212,17 @@ static void test_live(const hs_body* body, const hs_model* model, hs_recording* 
     fprintf(out, "%.17g %.17g %.17g\n", force[0], force[1], force[2]);
   }
   fclose(out);
+
+  /* Two at once as each by itself. */
+  for (int i = 0; i < 50; ++i) {
+    const double tips[6] = {0.03, 0.025, 0.0405 - 5e-5 * i, 0.02, 0.03, 0.041 - 6e-5 * i};
+    double together[6], apart[6];
+    hs_live_step_all(pair, 2, 0.001 * i, tips, together);
+    for (int k = 0; k < 2; ++k) hs_live_step(alone[k], 0.001 * i, tips + 3 * k, apart + 3 * k);
+    EXPECT(memcmp(together, apart, sizeof apart) == 0 &&
+           (i < 49 || (apart[2] > 0 && apart[5] > 0)));
+  }
+  for (int k = 0; k < 2; ++k) hs_live_free(pair[k]), hs_live_free(alone[k]);
   hs_live_free(live);
   hs_live_free(other);
 }
