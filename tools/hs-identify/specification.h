@@ -196,6 +196,7 @@ inline ToolSpec identify_specification() {
        .group = "Output",
        .writes = kTableExtensions},
       image_flag(),
+      lumps_flag(),
       {.flag = flag::robust,
        .value = "LOSS",
        .help = "Discounts readings that lie far off: huber little by little, tukey in the end "
