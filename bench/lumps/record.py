@@ -28,12 +28,25 @@ def visible(pure, empty, noise):
     return float(np.linalg.norm(pure - empty * (empty @ pure) / (empty @ empty)) / noise)
 
 
-def loaded(out, phantom):
-    return np.array([np.loadtxt(solve.file_of(out, phantom, place)) for place in phantom.places])
+def loaded(out, phantom, bare):
+    """Stiffness of the body at its places, and of that without lumps (n, 3, 3): what lumps do is taken from one mesh,
+    K = S K_lumps S' with S such that the evened mesh has the stiffness of the empty body's own."""
+    K, K0 = [], []
+    for place in phantom.places:
+        plain = np.loadtxt(solve.file_of(out, bare, place))
+        with_lumps = np.loadtxt(solve.file_of(out, phantom, place))
+        if phantom.lumps:
+            even = np.loadtxt(solve.file_of(out, phantom, place, ".even")) if solve.near_a_lump(phantom, place) else plain
+            root = [np.linalg.cholesky((m + m.T) / 2) for m in (plain, even)]
+            S = root[0] @ np.linalg.inv(root[1])
+            with_lumps = S @ with_lumps @ S.T
+        K.append(with_lumps)
+        K0.append(plain)
+    return np.array(K), np.array(K0)
 
 
 def write(out, phantom, bare):
-    K, K0 = loaded(out, phantom), loaded(out, bare)
+    K, K0 = loaded(out, phantom, bare)
     share = np.arange(1, SAMPLES + 1) / SAMPLES
     presses, pure, empty = [], [], []
     for k, place in enumerate(phantom.places):

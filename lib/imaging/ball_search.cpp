@@ -168,17 +168,27 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   const std::vector<Candidate> all = candidates(J, grid, w);
 
   // Errors that grow, alike everywhere, until the best ball leaves no more than they allow.
+  const auto errors = [&](double extra) -> Eigen::VectorXd {
+    return (noise.array().square() + extra * extra).sqrt();
+  };
+  const auto too_small = [&](double extra) {
+    const Scan scan(data, errors(extra), w.free);
+    const double left = (scan.chi2() - best_ball(scan, all, 1).drop) /
+                        std::max<double>(1, static_cast<double>(n) - 6);
+    return left > 1.05;
+  };
   double extra = w.least_error;
-  Eigen::VectorXd error = noise;
-  for (int round = 0; round < 4; ++round) {
-    error = (noise.array().square() + extra * extra).sqrt();
-    Scan scan(data, error, w.free);
-    const FoundBall ball = best_ball(scan, all, 1);
-    const double left = (scan.chi2() - ball.drop) / std::max<double>(1, double(n) - 6);
-    if (left <= 1.05) break;
-    const double mean = error.cwiseAbs2().mean();
-    extra = std::sqrt(extra * extra + (left - 1) * mean);
+  if (too_small(extra)) {
+    double high = std::max(2 * extra, 0.01);
+    while (too_small(high) && high < 10) {
+      extra = high;
+      high *= 2;
+    }
+    while (high - extra > 0.05 * high)
+      (too_small(0.5 * (extra + high)) ? extra : high) = 0.5 * (extra + high);
+    extra = high;
   }
+  const Eigen::VectorXd error = errors(extra);
   image.error = std::sqrt(error.cwiseAbs2().mean());
   Scan scan(data, error, w.free);
   image.misfit_before = std::sqrt(scan.chi2() / double(n)) * image.error;

@@ -17,8 +17,8 @@ using State = Eigen::Matrix<double, 5, 1>;  // x, y, z, log radius, log ratio
 
 constexpr double kLeastRatio = 0.02, kMostRatio = 50;
 constexpr int kBurn = 4000, kKept = 12000, kEvery = 4, kRounds = 3;
-constexpr double kSettled = 4;           // of chi^2, at the balls that are solved anew
-constexpr std::size_t kMostSolved = 20;  // positions about a ball
+constexpr double kSettled = 4;  // of chi^2, at the balls that are solved anew
+constexpr std::size_t kMostSolved = 16, kMostBeside = 10;  // positions about a ball
 
 struct Sample {
   State at;
@@ -160,7 +160,7 @@ class Search {
 
   // Positions whose gains such a ball changes by some share of their errors, the most changed
   // first.
-  std::vector<int> touched(const State& s, const LumpErrors& errors) const {
+  std::vector<int> touched(const State& s, const LumpErrors& errors, std::size_t count) const {
     const Eigen::VectorXd change = signal(s).cwiseQuotient(errors.standard()).cwiseAbs();
     std::vector<double> most(scene_.contacts.size(), 0);
     for (Eigen::Index v = 0; v < change.size(); ++v) {
@@ -171,7 +171,7 @@ class Search {
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return most[a] > most[b]; });
     std::erase_if(order, [&](int p) { return most[p] < 0.3; });
-    if (order.size() > kMostSolved) order.resize(kMostSolved);
+    if (order.size() > count) order.resize(count);
     return order;
   }
 
@@ -242,11 +242,14 @@ LumpPosterior fit_lump(const LumpData& data, const LumpScene& scene, const Lump&
     errors = LumpErrors(data, common, slopes);
     std::vector<SolvedBall> solved;
     double change = 0;  // of chi^2, at the balls that were solved
-    for (const State& s : along_ridge(chain.samples, round == 0)) {
+    const std::vector<State> ridge = along_ridge(chain.samples, round == 0);
+    for (const State& s : ridge) {
+      const bool beside = ridge.size() > 1 && &s != &ridge[1];
       const Vec3 centre = s.head<3>();
       const double radius = std::min(std::exp(s[3]), 0.93 * -scene.surface.at(centre).distance);
       const std::vector<double> ratios = solved_ratios(stiffer);
-      const Eigen::MatrixXd gains = solve(centre, radius, ratios, search.touched(s, errors));
+      const Eigen::MatrixXd gains = solve(
+          centre, radius, ratios, search.touched(s, errors, beside ? kMostBeside : kMostSolved));
       const SolvedBall ball =
           solved_ball(radius, stiffer, gains, search.model().share(centre, radius));
       State same = s;

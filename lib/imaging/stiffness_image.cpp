@@ -172,6 +172,9 @@ std::vector<ImageView> image_views(const Model& model, const Experiment& experim
     views.push_back(
         {s.position, K.inverse() * s.ff / power, s.ft / power, noise / std::sqrt(power)});
   }
+  std::stable_sort(views.begin(), views.end(), [](const ImageView& a, const ImageView& b) {
+    return a.position < b.position;
+  });
   return views;
 }
 
@@ -180,7 +183,9 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                                const ImageOptions& options) {
   const double tool = experiment.dataset.recording.disc_radius();
   const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
-  const std::vector<ImageView> views = image_views(model, experiment, about);
+  std::vector<ImageView> views = image_views(model, experiment, about);
+  constexpr double kUseless = 0.3;  // relative error from which on a logarithm says nothing
+  std::erase_if(views, [](const ImageView& v) { return v.error > kUseless * v.gain; });
   const auto n = static_cast<Eigen::Index>(views.size());
   const std::vector<PreparedContact>& pressed = experiment.places.setup(0)->contacts();
   const FieldGrid grid =

@@ -38,7 +38,7 @@ struct StiffnessImage {
 };
 
 // Gains by position and direction (presses within 15 degrees are one view) by regression on the
-// model's forces; effects of the sensor are kept.
+// model's forces, in the order of the positions; effects of the sensor are kept.
 std::vector<ImageView> image_views(const Model& model, const Experiment& experiment,
                                    const Linearisation& about);
 
