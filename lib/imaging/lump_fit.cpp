@@ -16,7 +16,7 @@ namespace {
 using State = Eigen::Matrix<double, 5, 1>;  // x, y, z, log radius, log ratio
 
 constexpr double kLeastRatio = 0.02, kMostRatio = 50;
-constexpr int kBurn = 4000, kKept = 12000, kEvery = 4, kRounds = 3;
+constexpr int kBurn = 4000, kKept = 12000, kEvery = 4, kRounds = 4;
 constexpr double kSettled = 4;  // of chi^2, at the balls that are solved anew
 constexpr std::size_t kMostSolved = 16, kMostBeside = 10;  // positions about a ball
 
@@ -240,27 +240,22 @@ LumpPosterior fit_lump(const LumpData& data, const LumpScene& scene, const Lump&
     slopes = search.slopes(chain.best);
     common = search.common_error(chain.best, slopes);
     errors = LumpErrors(data, common, slopes);
-    std::vector<SolvedBall> solved;
-    double change = 0;  // of chi^2, at the balls that were solved
+    double change = 0;  // of chi^2, at the balls that are solved
     const std::vector<State> ridge = along_ridge(chain.samples, round == 0);
     for (const State& s : ridge) {
       const bool beside = ridge.size() > 1 && &s != &ridge[1];
       const Vec3 centre = s.head<3>();
       const double radius = std::min(std::exp(s[3]), 0.93 * -scene.surface.at(centre).distance);
-      const std::vector<double> ratios = solved_ratios(stiffer);
-      const Eigen::MatrixXd gains = solve(
-          centre, radius, ratios, search.touched(s, errors, beside ? kMostBeside : kMostSolved));
-      const SolvedBall ball =
-          solved_ball(radius, stiffer, gains, search.model().share(centre, radius));
+      const Eigen::MatrixXd gains =
+          solve(centre, radius, solved_ratios(stiffer),
+                search.touched(s, errors, beside ? kMostBeside : kMostSolved));
       State same = s;
-      same[3] = ball.log_radius;
+      same[3] = std::log(radius);
       const Eigen::VectorXd before = search.signal(same);
-      LumpSignal exact(data);
-      exact.set_solved({ball});
-      change = std::max(change, errors.chi2(before - exact.at(centre, radius, std::exp(s[4]))));
-      solved.push_back(ball);
+      search.model().add(
+          solved_ball(centre, radius, stiffer, gains, search.model().share(centre, radius)));
+      change = std::max(change, errors.chi2(before - search.signal(same)));
     }
-    search.model().set_solved(std::move(solved));
     chain = search.run(errors, chain.best, kBurn, kKept);
     if (round > 0 && change < kSettled) break;
   }

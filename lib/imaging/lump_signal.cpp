@@ -11,13 +11,13 @@ std::vector<double> solved_ratios(bool stiffer) {
   return stiffer ? std::vector<double>{3, 15} : std::vector<double>{0.4, 0.05};
 }
 
-SolvedBall solved_ball(double radius, bool stiffer, const Eigen::MatrixXd& log_gains,
-                       const Eigen::VectorXd& share) {
+SolvedBall solved_ball(const Vec3& centre, double radius, bool stiffer,
+                       const Eigen::MatrixXd& log_gains, const Eigen::VectorXd& share) {
   // Below that of the largest share a quotient says nothing.
   constexpr double kLeast = 0.03;
   const std::vector<double> ratios = solved_ratios(stiffer);
   const double t1 = ratios[0] - 1, t2 = ratios[1] - 1, most = share.cwiseAbs().maxCoeff();
-  SolvedBall ball{std::log(radius), Eigen::VectorXd::Constant(share.size(), 1),
+  SolvedBall ball{centre, radius, Eigen::VectorXd::Constant(share.size(), 1),
                   Eigen::VectorXd::Constant(share.size(), 0.4)};
   double weight = 0, factor = 0, b = 0;
   std::vector<Eigen::Index> lacking;
@@ -56,17 +56,18 @@ Eigen::VectorXd LumpSignal::share(const Vec3& centre, double radius) const {
 Eigen::VectorXd LumpSignal::at(const Vec3& centre, double radius, double ratio) const {
   const Eigen::VectorXd e = share(centre, radius);
   if (solved_.empty()) return ball_effect(ratio) * e;
-  const double log_radius = std::log(radius), t = ratio - 1;
-  std::size_t after = 0;
-  while (after < solved_.size() && solved_[after].log_radius < log_radius) ++after;
-  const SolvedBall& a = solved_[after == 0 ? 0 : after - 1];
-  const SolvedBall& b = solved_[std::min(after, solved_.size() - 1)];
-  const double way = b.log_radius - a.log_radius;
-  const double w = way > 0 ? (log_radius - a.log_radius) / way : 0;
-  const auto of = [&](const SolvedBall& s) {
-    return (t * e.array() * s.factor.array() / (1 + t * s.B.array())).matrix();
-  };
-  return w > 0 ? Eigen::VectorXd((1 - w) * of(a) + w * of(b)) : Eigen::VectorXd(of(a));
+  const double t = ratio - 1;
+  double weight = 0;
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(e.size());
+  for (const SolvedBall& s : solved_) {
+    constexpr double kSame = 1e-4;  // so near that it is the same ball
+    const double aside = (centre - s.centre).squaredNorm() / (radius * s.radius);
+    const double square = aside + std::pow(std::log(radius / s.radius), 2) + kSame;
+    const double w = 1 / (square * square);
+    weight += w;
+    sum += w * s.factor.array() / (1 + t * s.B.array());
+  }
+  return (t / weight * e.array() * sum).matrix();
 }
 
 }  // namespace hapsim

@@ -11,7 +11,8 @@ namespace hapsim {
 // A ball that was solved. The log gain of a view is A t / (1 + B t), t = ratio - 1 (exact for a
 // small ball in an even strain), with A as a factor on the ball's share of the energies.
 struct SolvedBall {
-  double log_radius = 0;
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;       // [m]
   Eigen::VectorXd factor;  // by view
   Eigen::VectorXd B;
 };
@@ -20,14 +21,15 @@ struct SolvedBall {
 std::vector<double> solved_ratios(bool stiffer);
 // From log gains at these ratios (views x 2, NaN where not solved: there the mean of the others
 // over `share`, the ball's own).
-SolvedBall solved_ball(double radius, bool stiffer, const Eigen::MatrixXd& log_gains,
-                       const Eigen::VectorXd& share);
+SolvedBall solved_ball(const Vec3& centre, double radius, bool stiffer,
+                       const Eigen::MatrixXd& log_gains, const Eigen::VectorXd& share);
 
 class LumpSignal {
  public:
   explicit LumpSignal(const LumpData& data) : data_(data) {}
-  // In ascending order of their radius; between them the factors are interpolated by its logarithm.
-  void set_solved(std::vector<SolvedBall> solved) { solved_ = std::move(solved); }
+  // Between solved balls what they say is weighted by the fourth power of their nearness (Shepard,
+  // ACM National Conference, 1968), in centres over the radius and logarithms of the radius.
+  void add(SolvedBall solved) { solved_.push_back(std::move(solved)); }
   Eigen::VectorXd share(const Vec3& centre, double radius) const;
   Eigen::VectorXd at(const Vec3& centre, double radius, double ratio) const;
 

@@ -63,9 +63,9 @@ constexpr double kLeastLumpError = 0.0025;
 Eigen::MatrixXd free_directions(const Model& model, const Experiment& experiment,
                                 const std::vector<ImageView>& views) {
   const auto n = static_cast<Eigen::Index>(views.size());
-  const bool known = model.find("elastic", 0, "nu")->state == ParameterState::kFixed;
-  Eigen::MatrixXd free = Eigen::MatrixXd::Ones(n, known ? 1 : 2);
   const MaterialSpec material = material_of(model);
+  const bool known = material.nu_column < 0;
+  Eigen::MatrixXd free = Eigen::MatrixXd::Ones(n, known ? 1 : 2);
   for (Eigen::Index v = 0; v < n && !known; ++v) {
     const ImageView& view = views[static_cast<std::size_t>(v)];
     Eigen::Matrix3d K, by_nu;
@@ -172,9 +172,8 @@ std::vector<ImageView> image_views(const Model& model, const Experiment& experim
     views.push_back(
         {s.position, K.inverse() * s.ff / power, s.ft / power, noise / std::sqrt(power)});
   }
-  std::stable_sort(views.begin(), views.end(), [](const ImageView& a, const ImageView& b) {
-    return a.position < b.position;
-  });
+  std::stable_sort(views.begin(), views.end(),
+                   [](const ImageView& a, const ImageView& b) { return a.position < b.position; });
   return views;
 }
 

@@ -114,8 +114,8 @@ TEST_F(LumpFitTest, TheSignalIsThatOfTheElementsWhereTheyWereSolved) {
   const Vec3 centre(0.05, 0.05, 0.048);
   const std::vector<double> ratios = solved_ratios(true);
   LumpSignal signal(d);
-  signal.set_solved(
-      {solved_ball(6e-3, true, solved(centre, 6e-3, ratios), signal.share(centre, 6e-3))});
+  signal.add(
+      solved_ball(centre, 6e-3, true, solved(centre, 6e-3, ratios), signal.share(centre, 6e-3)));
   for (const double ratio : {3.0, 8.0, 15.0}) {
     const Eigen::VectorXd is = signal.at(centre, 6e-3, ratio);
     const Eigen::VectorXd should = solved(centre, 6e-3, {ratio});
