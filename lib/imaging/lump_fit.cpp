@@ -15,7 +15,6 @@ namespace {
 
 using State = Eigen::Matrix<double, 5, 1>;  // x, y, z, log radius, log ratio
 
-constexpr double kLeastRatio = 0.02, kMostRatio = 50;
 constexpr int kBurn = 4000, kKept = 12000, kEvery = 4, kRounds = 4;
 constexpr double kSettled = 4;  // of chi^2, at the balls that are solved anew
 constexpr std::size_t kMostSolved = 16, kMostBeside = 10;  // positions about a ball

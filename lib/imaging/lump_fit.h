@@ -16,7 +16,10 @@ struct Interval {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-// A ball, and the middle 95 % of what its number may be.
+// Ratios that are asked: beyond them a ball does what a rigid one, or a cavity, does.
+constexpr double kLeastRatio = 0.02, kMostRatio = 50;
+
+// A ball, and the middle 95 % of what its numbers may be.
 struct Lump {
   Vec3 centre = Vec3::Zero();    // [m]
   double depth = 0;              // of the centre below the surface [m]

@@ -220,14 +220,20 @@ std::vector<std::string> words_of(const StiffnessImage& image) {
   const auto mm = [](const Interval& i) {
     return fmt::format("{:.1f} to {:.1f} mm", 1e3 * i.low, 1e3 * i.high);
   };
+  // The bounds of what is asked say nothing of the body.
+  const auto ratio = [](const Interval& i) {
+    if (i.high > 0.8 * kMostRatio) return fmt::format("{:.2g} or more", i.low);
+    if (i.low < 1.5 * kLeastRatio) return fmt::format("{:.2g} or less", i.high);
+    return fmt::format("{:.2g} to {:.2g}", i.low, i.high);
+  };
   for (const Lump& l : image.lumps)
     words.push_back(fmt::format(
         "something {} at ({:.1f}, {:.1f}, {:.1f}) mm, x {}, y {}, z {}; its centre {:.1f} mm deep, "
-        "{}; as a ball of {:.1f} mm radius, {}, and {:.2g} times the modulus, {:.2g} to {:.2g} "
+        "{}; as a ball of {:.1f} mm radius, {}, and {:.2g} times the modulus, {} "
         "(95 % each; size and modulus trade for each other); a body without one looks so {}",
         l.ratio > 1 ? "stiffer" : "softer", 1e3 * l.centre.x(), 1e3 * l.centre.y(),
         1e3 * l.centre.z(), mm(l.x), mm(l.y), mm(l.z), 1e3 * l.depth, mm(l.depth_in),
-        1e3 * l.radius, mm(l.radius_in), l.ratio, l.ratio_in.low, l.ratio_in.high,
+        1e3 * l.radius, mm(l.radius_in), l.ratio, ratio(l.ratio_in),
         l.chance < 1e-6 ? "in less than one of a million"
                         : fmt::format("with a chance of {:.1g}", l.chance)));
   if (image.lumps.empty())

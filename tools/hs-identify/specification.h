@@ -242,7 +242,7 @@ inline ToolSpec identify_specification() {
         {"x, y, z", "its centre [m]"},
         {"depth", "of the centre below the surface [m]"},
         {"radius", "as a ball [m]"},
-        {"ratio", "its modulus over that around it, 0.02 to 50"},
+        {"ratio", "its modulus over that around it, 0.02 to 50: beyond, nothing changes"},
         {"..._low, ..._high", "of each of these: between them it lies in 95 of 100"},
         {"chance", "that a body without a lump looks so at some place"}}}};
   spec.examples = {
