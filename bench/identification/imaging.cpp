@@ -86,6 +86,11 @@ double thread_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// A standard error whose 95 % are as wide.
+double standard(const Interval& in) {
+  return (in.high - in.low) / (2 * 1.96);
+}
+
 std::vector<Result> trial(const std::string& name, const Setting& s, bool seen, int draw) {
   const double begin = thread_seconds();
   const double noise = s.undrawn->noise.value;
@@ -103,22 +108,23 @@ std::vector<Result> trial(const std::string& name, const Setting& s, bool seen, 
       stiffness_image(fitted.model, w, fitted.about, s.object.meshed, options);
   const double none = std::nan("");
   std::vector<Result> results{
-      {name, draw, "balls", seen ? 1.0 : 0.0, double(image.found.balls.size()), none, 0.5},
+      {name, draw, "balls", seen ? 1.0 : 0.0, double(image.lumps.size()), none, 0.5},
       {name, draw, "cpu s", 0, thread_seconds() - begin, none, 30},
-      {name, draw, "error %", 0, 100 * image.found.error, none, 0},
+      {name, draw, "error %", 0, 100 * image.error, none, 0},
       {name, draw, "field left", 0, 100 * image.field.held_out, none, 0}};
   for (const Sight& sight : image.found.sight)
     if (sight.radius == kRadius && sight.ratio == kRatio)
       results.push_back({name, draw, "sight mm", 0, 1e3 * sight.depth, none, 0});
   if (draw == 1) results.push_back({name, draw, "gradient", 1, cost_of_gradient(s), none, 0.5});
-  if (image.found.balls.empty()) return results;
-  const FoundBall& ball = image.found.balls.front();
+  if (image.lumps.empty()) return results;
+  const Lump& ball = image.lumps.front();
   const Vec3 off = ball.centre - s.centre;
   results.push_back({name, draw, "sideways mm", 0, 1e3 * off.head<2>().norm(), none, 4});
   results.push_back({name, draw, "depth mm", 1e3 * (0.06 - s.centre.z()),
-                     1e3 * (0.06 - ball.centre.z()), 1e3 * ball.depth_error, 4});
-  results.push_back({name, draw, "radius mm", 1e3 * kRadius, 1e3 * ball.radius, none, 0});
-  results.push_back({name, draw, "ratio", kRatio, ball.ratio, none, 0});
+                     1e3 * (0.06 - ball.centre.z()), 1e3 * standard(ball.depth_in), 4});
+  results.push_back({name, draw, "radius mm", 1e3 * kRadius, 1e3 * ball.radius,
+                     1e3 * standard(ball.radius_in), 0});
+  results.push_back({name, draw, "ratio", kRatio, ball.ratio, standard(ball.ratio_in), 0});
   return results;
 }
 

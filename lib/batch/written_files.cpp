@@ -11,7 +11,7 @@ namespace {
 
 // Of the tools of kBatchStages; hs-compare reads its --history, from where hs-identify wrote it.
 // What is forgotten here is refused when the step runs (io/allowed_outputs.h).
-constexpr std::array<std::string_view, 17> kWriting{"--contact-meshes",
+constexpr std::array<std::string_view, 18> kWriting{"--contact-meshes",
                                                     "--events",
                                                     "--gmsh",
                                                     "--history",
@@ -21,6 +21,7 @@ constexpr std::array<std::string_view, 17> kWriting{"--contact-meshes",
                                                     "--json",
                                                     "--junit",
                                                     "--locations",
+                                                    "--lumps",
                                                     "--ply",
                                                     "--plan",
                                                     "--scan",

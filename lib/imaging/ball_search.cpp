@@ -6,49 +6,19 @@
 #include <limits>
 #include <numbers>
 
+#include "base/random.h"
+#include "imaging/ball_signal.h"
 #include "mesh/signed_distance.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kLinear = 0.25;   // share of a strong ball's signal that the linear one may miss
-constexpr double kLeastDrop = 30;  // of chi^2 for a ball, among the many places it could be
+constexpr double kLinear = 0.25;  // share of a strong ball's signal that the linear one may miss
 
-// What a ball of ratio q adds to the stiffness, over what its volume would at small contrast.
-double effective(double ratio) {
-  return (ratio - 1) / (1 + 0.4 * (ratio - 1));
-}
 double ratio_of(double effect) {
   constexpr double kMost = 2.4;  // a rigid ball has 2.5
   const double e = std::min(effect, kMost);
   return std::max(0.02, 1 + e / (1 - 0.4 * e));
-}
-
-// What a ball of unit effect does to the log gains: the share of the energy inside it.
-Eigen::VectorXd ball_signal(const Eigen::MatrixXd& J, const FieldGrid& grid, const Vec3& centre,
-                            double radius) {
-  // Nodes stand for their cells; cells that the boundary cuts count by how far they reach in. The
-  // whole has the ball's volume.
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(J.rows());
-  double volume = 0;
-  std::array<int, 3> from{}, to{};
-  for (int c = 0; c < 3; ++c) {
-    const double at = (centre[c] - grid.low[c]) / grid.step, reach = radius / grid.step + 0.5;
-    from[c] = std::max(0, static_cast<int>(std::ceil(at - reach)));
-    to[c] = std::min(grid.count[c] - 1, static_cast<int>(std::floor(at + reach)));
-  }
-  for (int k = from[2]; k <= to[2]; ++k)
-    for (int j = from[1]; j <= to[1]; ++j)
-      for (int i = from[0]; i <= to[0]; ++i) {
-        const std::size_t n = grid.index(i, j, k);
-        const double inside = (radius - (grid.node(n) - centre).norm()) / grid.step + 0.5;
-        const double share = std::clamp(inside, 0.0, 1.0);
-        if (share == 0) continue;
-        sum += share * J.col(static_cast<Eigen::Index>(n));
-        volume += share * std::pow(grid.step, 3);
-      }
-  const double wanted = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
-  return volume > 0 ? Eigen::VectorXd(wanted / volume * sum) : sum;
 }
 
 struct Candidate {
@@ -82,14 +52,16 @@ std::vector<Candidate> candidates(const Eigen::MatrixXd& J, const FieldGrid& gri
 // Least squares of the gains on a common gain, the balls so far and one more of unknown effect.
 class Scan {
  public:
-  Scan(const Eigen::VectorXd& data, const Eigen::VectorXd& error)
+  Scan(const Eigen::VectorXd& data, const Eigen::VectorXd& error, const Eigen::MatrixXd& free)
       : weight_(error.cwiseInverse()), data_(data.cwiseProduct(weight_)) {
-    explain(Eigen::VectorXd::Ones(data.size()));
+    if (free.cols() == 0) explain(Eigen::VectorXd::Ones(data.size()));
+    for (Eigen::Index c = 0; c < free.cols(); ++c) explain(free.col(c));
   }
   // Takes a signal out of everything that follows.
   void explain(const Eigen::VectorXd& signal) {
-    Eigen::VectorXd q = out(signal.cwiseProduct(weight_));
-    if (q.norm() <= 0) return;
+    const Eigen::VectorXd whole = signal.cwiseProduct(weight_);
+    Eigen::VectorXd q = out(whole);
+    if (!(q.norm() > 1e-3 * whole.norm())) return;  // the others span it
     q.normalize();
     data_ -= q * q.dot(data_);
     basis_.push_back(q);
@@ -104,8 +76,10 @@ class Scan {
     const double power = s.squaredNorm(), product = s.dot(data_);
     return power > 0 ? std::pair(product / power, product * product / power) : std::pair(0.0, 0.0);
   }
-  double size(const Eigen::VectorXd& signal) const {
-    return out(signal.cwiseProduct(weight_)).norm();
+  double size(const Eigen::VectorXd& signal) const { return left(signal).norm(); }
+  // Of a signal over its errors, what is not explained.
+  Eigen::VectorXd left(const Eigen::VectorXd& signal) const {
+    return out(signal.cwiseProduct(weight_));
   }
 
  private:
@@ -123,7 +97,7 @@ FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all, double 
   std::vector<std::pair<double, double>> fits;
   for (const Candidate& c : all) {
     fits.push_back(scan.fit(c.signal));
-    const bool possible = fits.back().first > effective(0.02) && fits.back().first < 2.4;
+    const bool possible = fits.back().first > ball_effect(0.02) && fits.back().first < 2.4;
     if (!possible) fits.back().second = 0;
     most = std::max(most, fits.back().second);
   }
@@ -152,6 +126,37 @@ FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all, double 
   return ball;
 }
 
+// The largest drop of chi^2 over all places that noise alone makes: Gumbel's law of the greatest,
+// from draws.
+struct ByChance {
+  double mode = 0, scale = 1;
+  double critical(double chance) const { return mode - scale * std::log(-std::log1p(-chance)); }
+  double chance(double drop) const { return -std::expm1(-std::exp(-(drop - mode) / scale)); }
+};
+
+ByChance by_chance(const Scan& scan, const std::vector<Candidate>& all) {
+  constexpr std::size_t kMost = 4000;  // neighbours say nearly the same
+  constexpr int kDraws = 300;
+  if (all.empty()) return {};
+  const Eigen::Index n = all.front().signal.size();
+  const std::size_t every = (all.size() + kMost - 1) / kMost;
+  Eigen::MatrixXd signals(n, static_cast<Eigen::Index>((all.size() + every - 1) / every));
+  for (Eigen::Index k = 0; k < signals.cols(); ++k) {
+    signals.col(k) = scan.left(all[static_cast<std::size_t>(k) * every].signal);
+    const double norm = signals.col(k).norm();
+    if (norm > 0) signals.col(k) /= norm;
+  }
+  Random random(1);
+  Eigen::MatrixXd draws(n, kDraws);
+  for (Eigen::Index k = 0; k < draws.size(); ++k) draws.data()[k] = random.normal();
+  const Eigen::VectorXd most =
+      (signals.transpose() * draws).cwiseAbs2().colwise().maxCoeff().transpose();
+  const double mean = most.mean();
+  const double deviation = std::sqrt((most.array() - mean).square().mean());
+  const double scale = deviation * std::sqrt(6.0) / std::numbers::pi;
+  return {mean - std::numbers::egamma * scale, scale};
+}
+
 }  // namespace
 
 BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
@@ -163,26 +168,38 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   const std::vector<Candidate> all = candidates(J, grid, w);
 
   // Errors that grow, alike everywhere, until the best ball leaves no more than they allow.
-  double extra = 0;
-  Eigen::VectorXd error = noise;
-  for (int round = 0; round < 4; ++round) {
-    error = (noise.array().square() + extra * extra).sqrt();
-    Scan scan(data, error);
-    const FoundBall ball = best_ball(scan, all, 1);
-    const double left = (scan.chi2() - ball.drop) / std::max<double>(1, double(n) - 6);
-    if (left <= 1.05) break;
-    const double mean = error.cwiseAbs2().mean();
-    extra = std::sqrt(extra * extra + (left - 1) * mean);
+  const auto errors = [&](double extra) -> Eigen::VectorXd {
+    return (noise.array().square() + extra * extra).sqrt();
+  };
+  const auto too_small = [&](double extra) {
+    const Scan scan(data, errors(extra), w.free);
+    const double left = (scan.chi2() - best_ball(scan, all, 1).drop) /
+                        std::max<double>(1, static_cast<double>(n) - 6);
+    return left > 1.05;
+  };
+  double extra = w.least_error;
+  if (too_small(extra)) {
+    double high = std::max(2 * extra, 0.01);
+    while (too_small(high) && high < 10) {
+      extra = high;
+      high *= 2;
+    }
+    while (high - extra > 0.05 * high)
+      (too_small(0.5 * (extra + high)) ? extra : high) = 0.5 * (extra + high);
+    extra = high;
   }
+  const Eigen::VectorXd error = errors(extra);
   image.error = std::sqrt(error.cwiseAbs2().mean());
-  Scan scan(data, error);
+  Scan scan(data, error, w.free);
   image.misfit_before = std::sqrt(scan.chi2() / double(n)) * image.error;
   image.held_out_before = image.misfit_before * double(n) / double(n - 1);
-  constexpr std::size_t kMost = 3;
-  while (image.balls.size() < kMost) {
+  const ByChance chance = by_chance(scan, all);
+  image.critical = chance.critical(kFalseAlarm);
+  while (image.balls.size() < w.most) {
     FoundBall ball = best_ball(scan, all, 1);
     const double first = image.balls.empty() ? 0 : image.balls.front().drop;
-    if (ball.drop < std::max(kLeastDrop, kLinear * kLinear * first)) break;
+    if (ball.drop < std::max(image.critical, kLinear * kLinear * first)) break;
+    ball.chance = chance.chance(ball.drop);
     // The candidates are a step apart, and the linear signal errs as well.
     ball.error = (ball.error.cwiseAbs2() + Vec3::Constant(grid.step * grid.step / 4)).cwiseSqrt();
     ball.depth_error = std::hypot(ball.depth_error, grid.step / 2);
@@ -196,13 +213,15 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   std::size_t at = 0;
   for (std::size_t p = 0; p < w.contacts.size(); ++p)
     if ((w.contacts[p].point - middle).norm() < (w.contacts[at].point - middle).norm()) at = p;
-  const Scan plain(data, error);
+  const Scan plain(data, error, w.free);
+  const double seen = std::sqrt(image.critical) + 1.645;  // found in 95 of 100
   for (const double radius : {tool, 1.5 * tool, 3 * tool})
-    for (const double ratio : {2.0, 5.0}) {
+    for (const double ratio : {0.02, 2.0, 5.0}) {
       Sight sight{radius, ratio, 0};
       for (double d = radius; d <= depth; d += 0.25 * tool) {
         const Vec3 centre = w.contacts[at].point - d * w.contacts[at].normal;
-        if (effective(ratio) * plain.size(ball_signal(J, grid, centre, radius)) < kSeen) break;
+        const double size = plain.size(ball_signal(J, grid, centre, radius));
+        if (std::abs(ball_effect(ratio)) * size < seen) break;
         sight.depth = d;
       }
       image.sight.push_back(sight);

@@ -16,21 +16,24 @@ struct FoundBall {
   Vec3 centre = Vec3::Zero(), error = Vec3::Zero();
   double depth = 0, depth_error = 0;  // of the centre below the surface [m]
   double radius = 0, ratio = 1;
-  double drop = 0;  // of chi^2
+  double drop = 0;    // of chi^2
+  double chance = 1;  // that a body without a ball has such a drop at some place
 };
 
-// Down to which depth of its centre a ball changes the gains by kSeen standard errors: four, since
-// hundreds of places of a ball are asked, of which chance gives some three.
+// One body in so many that has no ball is said to have one: kFalseAlarm of them.
+constexpr double kFalseAlarm = 0.005;
+
+// Down to which depth of its centre such a ball is found in 95 of 100.
 struct Sight {
   double radius = 0, ratio = 1, depth = 0;  // [m]; depth 0: nowhere
 };
-constexpr double kSeen = 4;
 
 struct BallSearch {
   std::vector<FoundBall> balls;  // strongest first; none: nothing compact is seen
   std::vector<Sight> sight;
   Eigen::VectorXd errors;  // relative standard error of each gain, with what the best ball leaves
   double error = 0;        // their root mean square
+  double critical = 0;     // the drop of chi^2 from which on a ball is claimed
   double misfit_before = 0, held_out_before = 0;  // of the log gains without balls or field
 };
 
@@ -39,14 +42,17 @@ struct BallScene {
   const Surface& surface;    // of the body
   double tool_radius = 0;    // [m]
   double largest_depth = 0;  // [m]
+  // Gains x directions that are not told from other causes; empty: a common gain.
+  Eigen::MatrixXd free = {};
+  std::size_t most = 3;    // balls
+  double least_error = 0;  // of a gain, beside its noise
 };
 
 // `J`: derivatives of the log gains `data` by log E at the nodes of the grid; `noise`: their
-// standard errors. A ball of ratio q counts as (q - 1) / (1 + 0.4 (q - 1)) of its volume, for
-// inside a stiff ball the strain falls (Eshelby, Proc. R. Soc. A 241, 1957, nearly incompressible).
-// Balls are looked for one after the other under the presses; each must drop chi^2 by 30 (a further
-// one also by what the linear signal of the first may miss) at errors that grow until the best ball
-// leaves no misfit, and lies wholly inside the body.
+// standard errors. Balls (ball_signal.h) are looked for one after the other under the presses, at
+// errors that grow until the best ball leaves no misfit; each lies wholly inside the body and must
+// drop chi^2 by more than all places together do by chance in kFalseAlarm of the bodies without one
+// (drawn), a further one also by what the linear signal of the first may miss.
 BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
                         const Eigen::VectorXd& data, const Eigen::VectorXd& noise,
                         const BallScene& scene);

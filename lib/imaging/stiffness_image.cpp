@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "effects/catalogue.h"
 #include "imaging/field_contacts.h"
+#include "imaging/lump_solver.h"
 
 namespace hapsim {
 namespace {
@@ -53,6 +54,76 @@ Eigen::MatrixXd sensitivities(FieldContacts& contacts, std::size_t positions,
     if (options.progress) options.progress();
   });
   return J;
+}
+
+// The least error that the views of a position have in common, beside noise: of the meshes.
+constexpr double kLeastLumpError = 0.0025;
+
+// What all gains have in common, and what another Poisson's ratio does where it is not known.
+Eigen::MatrixXd free_directions(const Model& model, const Experiment& experiment,
+                                const std::vector<ImageView>& views) {
+  const auto n = static_cast<Eigen::Index>(views.size());
+  const MaterialSpec material = material_of(model);
+  const bool known = material.nu_column < 0;
+  Eigen::MatrixXd free = Eigen::MatrixXd::Ones(n, known ? 1 : 2);
+  for (Eigen::Index v = 0; v < n && !known; ++v) {
+    const ImageView& view = views[static_cast<std::size_t>(v)];
+    Eigen::Matrix3d K, by_nu;
+    experiment.places.contact(static_cast<std::size_t>(view.position))
+        .stiffness.evaluate(material.nu, K, by_nu);
+    free(v, 1) = (by_nu * view.B).trace() / (K * view.B).trace();
+  }
+  return free;
+}
+
+Lump as_start(const FoundBall& ball) {
+  Lump lump;
+  lump.centre = ball.centre;
+  lump.depth = ball.depth;
+  lump.radius = ball.radius;
+  lump.ratio = ball.ratio;
+  return lump;
+}
+
+// One after the other, each in what the others leave and what their own values may still do; with
+// several, all once more.
+void find_lumps(const LumpData& whole, BallScene scene, const BallSolver& solver,
+                StiffnessImage& image) {
+  constexpr std::size_t kMost = 3;
+  constexpr double kLeft = 0.01;  // share of the first's drop of chi^2 that its signal may miss
+  const SignedDistance surface(scene.surface);
+  const LumpScene about{scene.contacts, surface, scene.tool_radius, scene.largest_depth};
+  std::vector<LumpPosterior> found;
+  const auto left_by_others = [&](std::size_t own) {
+    LumpData data = whole;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (k != own) data.gain -= found[k].signal;
+    return data;
+  };
+  scene.most = 1;
+  scene.free = whole.free;
+  scene.least_error = whole.floor;
+  while (true) {
+    const LumpData data = left_by_others(found.size());
+    image.found = search_balls(whole.J, whole.grid, data.gain, whole.noise, scene);
+    if (found.empty()) image.misfit_before = image.found.misfit_before;
+    if (image.found.balls.empty() || found.size() == kMost) break;
+    const FoundBall& ball = image.found.balls.front();
+    if (!found.empty() && ball.drop < kLeft * found.front().lump.drop) break;
+    LumpPosterior next = fit_lump(data, about, as_start(ball), solver);
+    if (next.lump.drop < image.found.critical) break;
+    next.lump.chance = ball.chance;
+    scene.free.conservativeResize(Eigen::NoChange, scene.free.cols() + next.tangent.cols());
+    scene.free.rightCols(next.tangent.cols()) = next.tangent;
+    found.push_back(std::move(next));
+  }
+  for (std::size_t k = 0; k < found.size() && found.size() > 1; ++k) {
+    const double chance = found[k].lump.chance;
+    found[k] = fit_lump(left_by_others(k), about, found[k].lump, solver);
+    found[k].lump.chance = chance;
+  }
+  image.error = image.found.error;
+  for (const LumpPosterior& f : found) image.lumps.push_back(f.lump);
 }
 
 }  // namespace
@@ -101,6 +172,8 @@ std::vector<ImageView> image_views(const Model& model, const Experiment& experim
     views.push_back(
         {s.position, K.inverse() * s.ff / power, s.ft / power, noise / std::sqrt(power)});
   }
+  std::stable_sort(views.begin(), views.end(),
+                   [](const ImageView& a, const ImageView& b) { return a.position < b.position; });
   return views;
 }
 
@@ -109,7 +182,9 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                                const ImageOptions& options) {
   const double tool = experiment.dataset.recording.disc_radius();
   const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
-  const std::vector<ImageView> views = image_views(model, experiment, about);
+  std::vector<ImageView> views = image_views(model, experiment, about);
+  constexpr double kUseless = 0.3;  // relative error from which on a logarithm says nothing
+  std::erase_if(views, [](const ImageView& v) { return v.error > kUseless * v.gain; });
   const auto n = static_cast<Eigen::Index>(views.size());
   const std::vector<PreparedContact>& pressed = experiment.places.setup(0)->contacts();
   const FieldGrid grid =
@@ -125,45 +200,69 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
   }
   StiffnessImage image;
   image.views = views.size();
-  image.found = search_balls(J, grid, data, noise, {pressed, contacts.base().fine, tool, depth});
+  LumpData lump_data{data,
+                     noise,
+                     position,
+                     free_directions(model, experiment, views),
+                     experiment.shape.after,
+                     kLeastLumpError,
+                     J,
+                     grid};
+  const LumpSolver solver(contacts.base(), experiment.places, tool, material_of(model).nu, views,
+                          options.threads);
+  find_lumps(lump_data, {pressed, contacts.base().fine, tool, depth}, solver, image);
   image.field = image_field(J, grid, position, data, image.found.errors, options.penalty);
   return image;
 }
 
 std::vector<std::string> words_of(const StiffnessImage& image) {
   std::vector<std::string> words;
-  for (const FoundBall& b : image.found.balls)
+  const auto mm = [](const Interval& i) {
+    return fmt::format("{:.1f} to {:.1f} mm", 1e3 * i.low, 1e3 * i.high);
+  };
+  // The bounds of what is asked say nothing of the body.
+  const auto ratio = [](const Interval& i) {
+    if (i.high > 0.8 * kMostRatio) return fmt::format("{:.2g} or more", i.low);
+    if (i.low < 1.5 * kLeastRatio) return fmt::format("{:.2g} or less", i.high);
+    return fmt::format("{:.2g} to {:.2g}", i.low, i.high);
+  };
+  for (const Lump& l : image.lumps)
     words.push_back(fmt::format(
-        "something {} at ({:.1f}, {:.1f}, {:.1f}) ± ({:.1f}, {:.1f}, {:.1f}) mm, its centre {:.1f} "
-        "± "
-        "{:.1f} mm deep: as a ball of {:.0f} mm diameter and {:.2g} times the modulus (size and "
-        "modulus trade for each other)",
-        b.ratio > 1 ? "stiffer" : "softer", 1e3 * b.centre.x(), 1e3 * b.centre.y(),
-        1e3 * b.centre.z(), 1e3 * b.error.x(), 1e3 * b.error.y(), 1e3 * b.error.z(), 1e3 * b.depth,
-        1e3 * b.depth_error, 2e3 * b.radius, b.ratio));
-  if (image.found.balls.empty())
-    words.push_back("nothing compact is seen: no ball explains the presses better than none");
+        "something {} at ({:.1f}, {:.1f}, {:.1f}) mm, x {}, y {}, z {}; its centre {:.1f} mm deep, "
+        "{}; as a ball of {:.1f} mm radius, {}, and {:.2g} times the modulus, {} "
+        "(95 % each; size and modulus trade for each other); a body without one looks so {}",
+        l.ratio > 1 ? "stiffer" : "softer", 1e3 * l.centre.x(), 1e3 * l.centre.y(),
+        1e3 * l.centre.z(), mm(l.x), mm(l.y), mm(l.z), 1e3 * l.depth, mm(l.depth_in),
+        1e3 * l.radius, mm(l.radius_in), l.ratio, ratio(l.ratio_in),
+        l.chance < 1e-6 ? "in less than one of a million"
+                        : fmt::format("with a chance of {:.1g}", l.chance)));
+  if (image.lumps.empty())
+    words.push_back(
+        fmt::format("nothing compact is seen: no ball explains the presses better than "
+                    "chance does in {:.2g} % of the bodies without one",
+                    100 * kFalseAlarm));
   for (const Sight& s : image.found.sight) {
     const std::string ball =
-        fmt::format("a ball of {:.0f} mm diameter, {:g} times as stiff, ", 2e3 * s.radius, s.ratio);
+        s.ratio < 0.05 ? fmt::format("a cavity of {:.0f} mm diameter ", 2e3 * s.radius)
+                       : fmt::format("a ball of {:.0f} mm diameter, {:g} times as stiff, ",
+                                     2e3 * s.radius, s.ratio);
     words.push_back(s.depth > 0 ? ball + fmt::format("is seen with its centre down to {:.0f} mm; "
                                                      "deeper it cannot be seen by these presses",
                                                      1e3 * s.depth)
                                 : ball + "cannot be seen by these presses at any depth");
   }
-  words.push_back(
-      fmt::format("gains differ by {:.2g} % from place to place, {:.2g} % on positions left out; "
-                  "with the field "
-                  "{:.2g} % and {:.2g} %; their errors are {:.2g} %",
-                  100 * image.found.misfit_before, 100 * image.found.held_out_before,
-                  100 * image.field.misfit, 100 * image.field.held_out, 100 * image.found.error));
+  words.push_back(fmt::format(
+      "gains differ by {:.2g} % from place to place; with the field by {:.2g} %, {:.2g} "
+      "% on positions left out; their errors are {:.2g} %",
+      100 * image.misfit_before, 100 * image.field.misfit, 100 * image.field.held_out,
+      100 * image.error));
   return words;
 }
 
 double modulus_ratio(const StiffnessImage& image, const Vec3& p) {
-  if (image.found.balls.empty()) return std::exp(image.field.grid.value(image.field.log_ratio, p));
+  if (image.lumps.empty()) return std::exp(image.field.grid.value(image.field.log_ratio, p));
   double ratio = 1;
-  for (const FoundBall& b : image.found.balls)
+  for (const Lump& b : image.lumps)
     if ((p - b.centre).norm() < b.radius) ratio *= b.ratio;
   return ratio;
 }

@@ -8,6 +8,7 @@
 #include "experiment/forces.h"
 #include "imaging/ball_search.h"
 #include "imaging/image_field.h"
+#include "imaging/lump_fit.h"
 
 namespace hapsim {
 
@@ -29,18 +30,22 @@ struct ImageOptions {
 
 struct StiffnessImage {
   ImageField field;
-  BallSearch found;
+  std::vector<Lump> lumps;   // strongest first; none: nothing compact is seen
+  BallSearch found;          // of what the lumps leave: how deep these presses see, and errors
+  double misfit_before = 0;  // of the log gains without lumps or field
+  double error = 0;          // relative, of a gain
   std::size_t views = 0;
 };
 
 // Gains by position and direction (presses within 15 degrees are one view) by regression on the
-// model's forces; effects of the sensor are kept.
+// model's forces, in the order of the positions; effects of the sensor are kept.
 std::vector<ImageView> image_views(const Model& model, const Experiment& experiment,
                                    const Linearisation& about);
 
 // The sensitivities of all gains are the energies of the unit fields in every element: one solution
 // a position on the body of `model` with its modulus alone, linear from there on. From them come
-// the field (image_field.h) and the balls (ball_search.h). One setup only.
+// the field (image_field.h) and where lumps may be (ball_search.h); lumps are then solved for by
+// finite elements, with all that is left open about them (lump_fit.h). One setup only.
 StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                                const Linearisation& about, const TetMesh& body,
                                const ImageOptions& options);
@@ -48,7 +53,7 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
 // In words: what was found and how deep these presses see.
 std::vector<std::string> words_of(const StiffnessImage& image);
 
-// The modulus over the model's at a point: the balls', or where none was found the field's.
+// The modulus over the model's at a point: the lumps', or where none was found the field's.
 double modulus_ratio(const StiffnessImage& image, const Vec3& p);
 // The modulus [Pa] in the middle of each tetrahedron of a body whose model has the one `modulus`.
 std::vector<double> image_moduli(const StiffnessImage& image, const TetMesh& body, double modulus);

@@ -1,5 +1,3 @@
-#include "tetmesh/contact_mesh.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -15,6 +13,7 @@
 #include "mesh/between_plates.h"
 #include "mesh/support.h"
 #include "mesh/surface_tree.h"
+#include "tetmesh/contact_mesh_around.h"
 #include "tetmesh/contact_patch.h"
 #include "tetmesh/contact_unfit.h"
 #include "tetmesh/plates_mesh.h"
@@ -114,6 +113,16 @@ void move_middles_to_quarters(TetMesh& mesh, const std::vector<Triangle>& patch)
     }
 }
 
+// Takes away the seeds that are nearer to a surface than half of its edges.
+void keep_clear(std::vector<Vec3>& seeds, const Surface& inner) {
+  const SurfaceTree tree(inner);
+  double edges = 0;
+  for (const Triangle& t : inner.faces)
+    edges += (inner.vertices[t[0]] - inner.vertices[t[1]]).norm();
+  const double clear = 0.5 * edges / static_cast<double>(inner.faces.size());
+  std::erase_if(seeds, [&](const Vec3& p) { return tree.nearest(p).distance < clear; });
+}
+
 ContactMesh finish(const TetgenResult& result, const ContactFrame& frame) {
   ContactMesh contact;
   contact.mesh = to_second_order(result.mesh);
@@ -141,6 +150,12 @@ ContactMesh finish(const TetgenResult& result, const ContactFrame& frame) {
 
 ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, double radius,
                               double rim_edge, double growth) {
+  return make_contact_mesh_around(base, contact, radius, rim_edge, growth, {});
+}
+
+ContactMesh make_contact_mesh_around(const ContactBase& base, const Vec3& contact, double radius,
+                                     double rim_edge, double growth,
+                                     const std::vector<Surface>& inner) {
   const SurfacePoint nearest = on_surface(base, contact, radius);
   if (auto covered = between_plates(base, nearest, radius, rim_edge, growth)) return *covered;
   check_bonded(base, contact, nearest, radius);
@@ -158,6 +173,8 @@ ContactMesh make_contact_mesh(const ContactBase& base, const Vec3& contact, doub
     Imprint imprint = imprint_disc(coarse, frame, *region, sheet, radius, grading);
     TetgenInput input;
     input.seeds = rim_seeds(imprint.surface, frame, sheet, radius, grading, kSeedDepth * radius);
+    input.inner = inner;
+    for (const Surface& part : inner) keep_clear(input.seeds, part);
     input.surface = std::move(imprint.surface);
     input.face_marker = std::move(imprint.marker);
     TetgenOptions options;

@@ -68,7 +68,7 @@ paste -d, <(grep -v '^#' whole.csv) <(grep -v '^#' out.csv) | awk -F, '/^(el|vis
 expect 2 'regions cannot be shared; its parameters belong to one body' "${bodies[@]}" --add regions
 expect 2 'tip cannot be shared; its parameters belong to one tool' first.csv --data wide.csv \
   --body block.ply "${two[@]}" --add tip
-for mode in '--effects auto' '--acfm 1' '--image i.vtu' '--refine-boundary 8' '--library lab.db'; do
+for mode in '--effects auto' '--acfm 1' '--image i.vtu' '--lumps l.csv' '--refine-boundary 8' '--library lab.db'; do
   read -ra flags <<<"$mode"
   expect 2 'is for one body and one tool, and these recordings have several bodies' "${bodies[@]}" \
     "${flags[@]}"
@@ -89,7 +89,7 @@ awk -F, -v OFS=, '/^[0-9]/ { $5 = 0.09 } 1' data.csv >outside.csv
 awk -F, -v OFS=, '/^[0-9]/ { $9 = $10 = $11 = 0 } 1' data.csv >unmeasured.csv
 wrong=(--body block.ply --rim-edge 0.3 -o out.csv)
 for mode in '' '--add viscoelastic --terms auto' '--add regions' '--acfm 1' '--locations l.csv' \
-  '--image i.csv' '--model whole.csv --refine-boundary 8' '--effects auto' '--library lab.db' \
+  '--image i.csv' '--lumps lumps.csv' '--model whole.csv --refine-boundary 8' '--effects auto' '--library lab.db' \
   '--data first.csv'; do
   read -ra flags <<<"$mode"
   expect 3 'no row presses the body' still.csv "${wrong[@]}" "${flags[@]}"
@@ -102,13 +102,14 @@ for mode in '' '--acfm 1' '--effects auto' '--locations l.csv'; do
   read -ra flags <<<"$mode"
   expect 3 'off the surface, more than 3 tool radii' outside.csv "${wrong[@]}" "${flags[@]}"
 done
-[[ ! -e l.csv && ! -e i.csv && ! -e lab.db ]] || complain 'a refused run leaves nothing beside the model'
+[[ ! -e l.csv && ! -e i.csv && ! -e lumps.csv && ! -e lab.db ]] || complain 'a refused run leaves nothing beside the model'
 awk -F, '/^[0-9]/ { if ($1 > 1) next } 1' data.csv >place.csv
 expect 0 'all presses are at one place' place.csv --body block.ply --rim-edge 0.3 --folds 0 -o placed.csv
 expect 3 'too few contact positions' place.csv "${common[@]}" --add regions
 expect 3 '--refine-boundary needs presses at four places or more' place.csv "${common[@]}" --model whole.csv \
   --refine-boundary 8
 expect 3 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
+expect 3 '--lumps needs presses at four places or more' place.csv "${common[@]}" --lumps no.csv
 [[ ! -e out.csv ]] || complain 'a refused run leaves nothing behind'
 
 ((failures == 0)) && echo 'all as expected'

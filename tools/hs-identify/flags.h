@@ -7,9 +7,9 @@ namespace hapsim {
 
 namespace flag {
 inline constexpr TimeFlag until{"--until"};
-inline constexpr FileFlag image{"--image"}, library{"--library"}, diagnosis{"--diagnosis"},
-    history{"--history"}, locations{"--locations"}, field{"--field"}, curves{"--curves"},
-    data{"--data"};
+inline constexpr FileFlag image{"--image"}, lumps{"--lumps"}, library{"--library"},
+    diagnosis{"--diagnosis"}, history{"--history"}, locations{"--locations"}, field{"--field"},
+    curves{"--curves"}, data{"--data"};
 inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"--effects"},
     add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, constrain{"--constrain"},
     terms{"--terms"}, regions{"--regions"};

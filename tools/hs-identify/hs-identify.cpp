@@ -179,7 +179,7 @@ int run(const Arguments& arguments) {
     write_curves(curves.stream(), model);
     curves.commit();
   }
-  if (arguments.given(flag::image) && cut_short.empty())
+  if ((arguments.given(flag::image) || arguments.given(flag::lumps)) && cut_short.empty())
     write_asked_image(arguments, result, w, body);
   if (library)
     library->store(model, [&] { output.commit(); });

@@ -73,9 +73,9 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
 // there are several.
 inline void require_fit_for(const Arguments& arguments, const FitRequest& plan,
                             const Dataset& dataset) {
-  for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image, flag::library})
+  for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image, flag::lumps, flag::library})
     if (arguments.given(flag)) require_one_setup(dataset, flag.name);
-  for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image})
+  for (const AnyFlag& flag : AnyFlags{flag::boundary, flag::image, flag::lumps})
     if (arguments.given(flag) && dataset.positions.size() < 4)
       fail_input(dataset.recording.name, flag + " needs presses at four places or more",
                  "press at more places");

@@ -196,6 +196,7 @@ inline ToolSpec identify_specification() {
        .group = "Output",
        .writes = kTableExtensions},
       image_flag(),
+      lumps_flag(),
       {.flag = flag::robust,
        .value = "LOSS",
        .help = "Discounts readings that lie far off: huber little by little, tukey in the end "
@@ -235,7 +236,15 @@ inline ToolSpec identify_specification() {
         {"state", "free, or derived where these data did not move that way"}}},
       {"--image (CSV)",
        {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
-        {"E", "Young's modulus there [Pa]"}}}};
+        {"E", "Young's modulus there [Pa]"}}},
+      {"--lumps (output)",
+       {{"lump", "number, the most certain first; no row: none is seen"},
+        {"x, y, z", "its centre [m]"},
+        {"depth", "of the centre below the surface [m]"},
+        {"radius", "as a ball [m]"},
+        {"ratio", "its modulus over that around it, 0.02 to 50: beyond, nothing changes"},
+        {"..._low, ..._high", "of each of these: between them it lies in 95 of 100"},
+        {"chance", "that a body without a lump looks so at some place"}}}};
   spec.examples = {
       {"hs-identify data.csv --body body.ply --effects elastic -o m0.csv", "A first model."},
       {"hs-identify data.csv --body body.ply --model m0.csv --add viscoelastic -o m1.csv",
@@ -244,6 +253,8 @@ inline ToolSpec identify_specification() {
        "Finds what is missing and adds it, until nothing is."},
       {"hs-identify data.csv --body body.ply --model m0.csv --diagnosis effects.csv -o m1.csv",
        "Adds what hs-diagnose found missing."},
+      {"hs-identify data.csv --body body.ply --lumps lumps.csv -o m0.csv",
+       "Says what lies inside, how deep, how large and how stiff."},
       {"hs-identify block.csv --body block.ply --data ball.csv --body ball.ply -o m.csv",
        "One material of two bodies."},
       {"hs-identify data.csv --body body.ply --model m1.csv --constrain 'E1 <= E/2' -o m2.csv",

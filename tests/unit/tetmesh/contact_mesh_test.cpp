@@ -18,6 +18,7 @@
 #include "support/needs.h"
 #include "support/shapes.h"
 #include "tetmesh/body_mesh.h"
+#include "tetmesh/contact_mesh_around.h"
 #include "tetmesh/tetgen.h"
 
 namespace hapsim {
@@ -251,6 +252,23 @@ TEST_P(Independent, EveryPositionCanBeMeshed) {
 
 INSTANTIATE_TEST_SUITE_P(Bodies, Independent,
                          ::testing::Values("ball.stl", "blob.stl", "cuboid.stl"));
+
+TEST(ContactMesh, ElementsEndAtASurfaceInside) {
+  const ContactBase base = block_base();
+  Surface inner = test::box({0.01, 0.012, 0.008});
+  for (Vec3& v : inner.vertices) v += Vec3(0.055, 0.1, 0.045);  // 7 mm below the tool
+  const ContactMesh contact =
+      make_contact_mesh_around(base, {0.06, 0.105, 0.06}, kRadius, kRadius / 4, 0.4, {inner});
+  expect_sound(contact, base);
+  double inside = 0;
+  for (const auto& n : contact.mesh.tets) {
+    const auto& x = contact.mesh.nodes;
+    const Vec3 middle = (x[n[0]] + x[n[1]] + x[n[2]] + x[n[3]]) / 4 - Vec3(0.055, 0.1, 0.045);
+    if ((middle.array() > 0).all() && (middle - Vec3(0.01, 0.012, 0.008)).maxCoeff() < 0)
+      inside += std::abs((x[n[1]] - x[n[0]]).cross(x[n[2]] - x[n[0]]).dot(x[n[3]] - x[n[0]])) / 6;
+  }
+  EXPECT_NEAR(inside / signed_volume(inner), 1, 1e-9);
+}
 
 }  // namespace
 }  // namespace hapsim

@@ -1,0 +1,134 @@
+#include "imaging/lump_solver.h"
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "imaging/stiffness_image.h"
+#include "solid/elastic_body.h"
+#include "tetmesh/contact_mesh_around.h"
+
+namespace hapsim {
+namespace {
+
+constexpr double kRim = 0.35, kCoarseGrowth = 0.5;  // the mesh's own error falls out
+
+// Which tetrahedra have their middle inside a convex surface.
+std::vector<char> inside_convex(const TetMesh& mesh, const Surface& convex) {
+  std::vector<char> inside;
+  for (const auto& n : mesh.tets) {
+    const Vec3 p = (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+    bool in = true;
+    for (std::size_t f = 0; in && f < convex.faces.size(); ++f)
+      in =
+          face_normal(convex, static_cast<int>(f)).dot(p - convex.vertices[convex.faces[f][0]]) < 0;
+    inside.push_back(in);
+  }
+  return inside;
+}
+
+}  // namespace
+
+Surface ball_surface(const Vec3& centre, double radius) {
+  // An icosahedron, its faces cut in four, on the unit ball.
+  const double g = std::numbers::phi;
+  Surface s;
+  for (const double a : {-1.0, 1.0})
+    for (const double b : {-g, g}) {
+      s.vertices.push_back({0, a, b});
+      s.vertices.push_back({a, b, 0});
+      s.vertices.push_back({b, 0, a});
+    }
+  std::vector<Triangle> faces;
+  for (int i = 0; i < 12; ++i)
+    for (int j = i + 1; j < 12; ++j)
+      for (int k = j + 1; k < 12; ++k) {
+        const Vec3 &a = s.vertices[i], &b = s.vertices[j], &c = s.vertices[k];
+        if (std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()}) > 2.1) continue;
+        faces.push_back((b - a).cross(c - a).dot(a) > 0 ? Triangle{i, j, k} : Triangle{i, k, j});
+      }
+  std::map<std::pair<int, int>, int> middle;
+  const auto between = [&](int a, int b) {
+    const auto [it, fresh] = middle.emplace(std::minmax(a, b), static_cast<int>(s.vertices.size()));
+    if (fresh) s.vertices.push_back(s.vertices[a] + s.vertices[b]);
+    return it->second;
+  };
+  for (const auto& [a, b, c] : faces) {
+    const int ab = between(a, b), bc = between(b, c), ca = between(c, a);
+    for (const Triangle& t : {Triangle{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}})
+      s.faces.push_back(t);
+  }
+  for (Vec3& v : s.vertices) v.normalize();
+  const double wanted = 4.0 / 3 * std::numbers::pi;
+  const double scale = radius * std::cbrt(wanted / signed_volume(s));
+  for (Vec3& v : s.vertices) v = centre + scale * v;
+  return s;
+}
+
+LumpSolver::LumpSolver(const ContactBase& base, const Places& places, double tool_radius, double nu,
+                       const std::vector<ImageView>& views, int threads)
+    : base_(base),
+      places_(places),
+      tool_radius_(tool_radius),
+      nu_(nu),
+      views_(views),
+      threads_(threads) {}
+
+Eigen::MatrixXd LumpSolver::operator()(const Vec3& centre, double radius,
+                                       const std::vector<double>& ratios,
+                                       const std::vector<int>& positions) const {
+  Eigen::MatrixXd gains = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(views_.size()),
+                                                    static_cast<Eigen::Index>(ratios.size()),
+                                                    std::numeric_limits<double>::quiet_NaN());
+  in_parallel(positions.size(), threads_, [&](std::size_t k) {
+    try {
+      solve(positions[k], centre, radius, ratios, gains);
+    } catch (const Error&) {
+      // No mesh holds this ball and the tool here: the other places tell.
+    }
+  });
+  return gains;
+}
+
+void LumpSolver::solve(int position, const Vec3& centre, double radius,
+                       const std::vector<double>& ratios, Eigen::MatrixXd& gains) const {
+  const auto p = static_cast<std::size_t>(position);
+  const Surface ball = ball_surface(centre, radius);
+  const ContactMesh contact = make_contact_mesh_around(base_, places_.position(p), tool_radius_,
+                                                       kFieldRim * tool_radius_, kGrowth, {ball});
+  const std::vector<char> inside = inside_convex(contact.mesh, ball);
+  std::vector<int> handle(contact.mesh.nodes.size(), kFreeNode);
+  for (std::size_t n = 0; n < handle.size(); ++n)
+    if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
+  for (const int n : contact.patch_nodes) handle[n] = 0;
+  ElasticBody body(contact.mesh, handle, Dilatation::kElement);
+  const auto stiffness = [&](double ratio) -> Eigen::Matrix3d {
+    const Lame unit = lame(1, nu_);
+    std::vector<Lame> constants;
+    for (const char in : inside)
+      constants.push_back(in ? Lame{ratio * unit.lambda, ratio * unit.mu} : unit);
+    body.factorise(constants);
+    return body.solve(Eigen::Matrix3d::Identity()).reaction;
+  };
+  const Eigen::Matrix3d bare = stiffness(1);
+  Eigen::Matrix3d fine, by_nu;
+  places_.contact(p).stiffness.evaluate(nu_, fine, by_nu);
+  const Eigen::Matrix3d S =
+      fine.llt().matrixL().toDenseMatrix() * bare.llt().matrixL().toDenseMatrix().inverse();
+  for (std::size_t r = 0; r < ratios.size(); ++r) {
+    const Eigen::Matrix3d K = stiffness(ratios[r]);
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      if (views_[v].position != position) continue;
+      const Eigen::Matrix3d C = S.transpose() * views_[v].B * S;
+      gains(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(r)) =
+          std::log((C * K).trace() / (C * bare).trace());
+    }
+  }
+}
+
+}  // namespace hapsim
