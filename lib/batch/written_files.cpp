@@ -11,24 +11,10 @@ namespace {
 
 // Of the tools of kBatchStages; hs-compare reads its --history, from where hs-identify wrote it.
 // What is forgotten here is refused when the step runs (io/allowed_outputs.h).
-constexpr std::array<std::string_view, 18> kWriting{"--contact-meshes",
-                                                    "--events",
-                                                    "--gmsh",
-                                                    "--history",
-                                                    "--html",
-                                                    "--image",
-                                                    "--inp",
-                                                    "--json",
-                                                    "--junit",
-                                                    "--locations",
-                                                    "--lumps",
-                                                    "--ply",
-                                                    "--plan",
-                                                    "--scan",
-                                                    "--surface",
-                                                    "--vtu",
-                                                    "--output",
-                                                    "-o"};
+constexpr std::array<std::string_view, 18> kWriting{
+    "--contact-meshes", "--events", "--gmsh",      "--history", "--html", "--image", "--inp",
+    "--json",           "--junit",  "--locations", "--lumps",   "--ply",  "--plan",  "--scan",
+    "--surface",        "--vtu",    "--output",    "-o"};
 
 // Calls `visit` for each path, which may change it.
 void for_each_written(
