@@ -46,7 +46,7 @@ class FieldSampling {
   const PlaceViews& views() const { return *views_; }
   std::size_t samples() const { return samples_.size(); }
   double expected_error() const { return expected_; }  // over the surface, root mean square
-  // Whether the tool lies well clear of what is bonded, and was not refused where it was tried near.
+  // Whether the tool lies well clear of what is bonded, and was not refused where tried near.
   bool is_touchable(const Vec3& point) const;
 
   // Another material at up to `most` of the same places.

@@ -23,7 +23,7 @@ constexpr int kMostSteps = 64;
 // Relative change between entries that is taken as straight: of what the samples leave unknown, a
 // quarter, but not below the least.
 constexpr double kStraight = 0.004, kStraightShare = 0.25;
-constexpr double kClosest = 0.15;     // entries are not closer than this, in tool radii
+constexpr double kClosest = 0.15;    // entries are not closer than this, in tool radii
 constexpr std::size_t kBlock = 256;  // places estimated at a time
 
 constexpr std::size_t kNumbers = 14;  // of an entry in a file
