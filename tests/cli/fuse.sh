@@ -65,6 +65,7 @@ refuse() { # CODE TEXT ARGUMENTS...
 refuse 2 '--slow is required' fast.csv
 refuse 2 '--live needs --acfm-model' --live motion.csv --body body.ply --model model.csv
 refuse 2 'is of whole recordings' --live motion.csv --body body.ply --model model.csv --acfm-model acfm.csv --delay 0.1
+refuse 2 '--stepped is of whole recordings' --live motion.csv --body body.ply --model model.csv --acfm-model acfm.csv --stepped slow.csv
 refuse 2 'is of the live mode' fast.csv --slow slow.csv --rate 100
 refuse 2 'leave one of them out' fast.csv --slow slow.csv --learn a.csv --parameters filter.csv
 sed 's/^3,/4,/' slow.csv >other.csv
@@ -75,6 +76,10 @@ awk -F, 'NR == 1 { print $0 ",arrives"; next } { print $0 "," $2 - 0.01 }' slow.
 refuse 3 'early.csv:2: arrives is' fast.csv --slow early.csv
 awk -F, -v OFS=, 'NR > 1 { $8 = -0.005 * sin(9 * $2) ^ 2 } 1' slow.csv >other.csv
 refuse 3 'off those of fast.csv at the same times' fast.csv --slow other.csv --parameters filter.csv
+head -40 slow.csv >short.csv
+refuse 3 'short.csv: it has 39 rows, slow.csv has 138' fast.csv --slow slow.csv --stepped short.csv --parameters filter.csv
+awk -F, -v OFS=, 'NR == 9 { $2 += 0.001 } 1' slow.csv >shifted.csv
+refuse 3 'shifted.csv:9: its press or t is not that of the row in slow.csv' fast.csv --slow slow.csv --stepped shifted.csv --parameters filter.csv
 sed 's/^noise,x,[^,]*/noise,x,-1/' filter.csv >bad.csv
 refuse 3 'noise = -1 is out of its bounds' fast.csv --slow slow.csv --parameters bad.csv
 
