@@ -10,7 +10,7 @@ quiet hs-tetmesh box.off --edge 0.03 -o digits.inp
 quiet hs-tetmesh digits.inp -o body.ply
 printf 'effect,region,parameter,value,unit\nelastic,0,E,20000,Pa\nelastic,0,nu,0.45,1\n' >model.csv
 extensions() { # TOOL: those of its --output
-  "$bin/$1" --help | sed -n '/--output FILE/,/--quiet/p' | tr -s ' \n' ' ' | sed -n 's/.*Extensions: \([^.]*\)\..*/\1/p' | tr -d ,
+  "$bin/$1" --help | sed -n '/--output FILE/,/^ \{2,6\}-\|^$/p' | tr -s ' \n' ' ' | sed -n 's/.*Extensions: \([^.]*\)\..*/\1/p' | tr -d ,
 }
 bodies=(text.ply text.vtu four.msh split.node split.ele febio.feb sofa.scn)
 for extension in $(extensions hs-tetmesh); do
