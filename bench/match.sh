@@ -6,6 +6,7 @@
 # itself, and its size. Ends with 1 where a matched force is more than 5 % off, or more than 1 % from what was said.
 # Recorded in bench/results/match.txt (bench/record.sh).
 set -euo pipefail
+[[ -n ${1-} && -x $1/hs-export ]] || { echo "usage: match.sh BIN [NU,NU...]" >&2; exit 2; }
 bin=$(cd "$1" && pwd) nus=${2:-0.3,0.45}
 examples=$(cd "$(dirname "${BASH_SOURCE[0]}")/../share/examples" && pwd)
 command -v ccx >/dev/null || { echo 'match.sh: ccx is not installed (apt-get install calculix-ccx)' >&2; exit 5; }

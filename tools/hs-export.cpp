@@ -54,7 +54,8 @@ ToolSpec specification() {
       "to the tool's rim, of straight elements (second order; first for SOFA), and all moduli "
       "times one factor for what these elements are stiffer by without hapsim's averaging. The "
       "factor is learned at other places of the recording, each on its own mesh; the press itself "
-      "and every second place are held out. Deck and summary say how far the force is from "
+      "and every second place are held out, where the recording has others. Deck and summary say "
+      "how far the force is from "
       "hapsim's there, by elements integrated as the program does it: at rest and small strain, "
       "along the deepest displacement of each press.",
       "MuJoCo has no such bodies: of an elastic one it gets the tool on three springs, which are "
@@ -174,7 +175,8 @@ void tell_error(const Arguments& arguments, const TetMesh& body, const Model& mo
                                     {.order = sofa ? 1 : 2, .prepare = prepare});
     summary.notes.push_back(match_words(match));
     summary.values.push_back({"force_error", match.presses[0].error, "1"});
-    summary.values.push_back({"largest_held_out_error", match.largest_unseen(), "1"});
+    if (match.learned() < match.presses.size())
+      summary.values.push_back({"largest_held_out_error", match.largest_unseen(), "1"});
     summary.values.push_back({"force_error_without", match.before, "1"});
     summary.values.push_back({"modulus_factor", match.factor, "1"});
     scene.remarks.push_back("matched to hapsim: " + summary.notes.back());

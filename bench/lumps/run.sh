@@ -9,10 +9,12 @@ set -euo pipefail
 bin=$1 out=$2
 shift 2
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-for program in ccx gmsh /usr/bin/python3; do
-  command -v "$program" >/dev/null || { echo "lumps: skipped, $program is missing" >&2; exit 0; }
+programs=(/usr/bin/python3)
+[[ ${HAPSIM_SOLVE:-yes} == yes ]] && programs+=(ccx gmsh)
+for program in "${programs[@]}"; do
+  command -v "$program" >/dev/null || { echo "lumps: $program is missing" >&2; exit 5; }
 done
-/usr/bin/python3 -c 'import numpy' || { echo "lumps: skipped, python3-numpy is missing" >&2; exit 0; }
+/usr/bin/python3 -c 'import numpy' || { echo "lumps: python3-numpy is missing" >&2; exit 5; }
 [[ $# -gt 0 ]] && numbers=("$@") || numbers=({0..19})
 export PYTHONPATH=$here/../independent
 mkdir -p "$out/found"

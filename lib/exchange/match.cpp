@@ -141,12 +141,12 @@ std::string match_words(const Match& match) {
                                   percent(match.presses[0].error));
   const std::size_t learned = match.learned(), unseen = match.presses.size() - learned;
   if (unseen > 1)
-    words += fmt::format(" and {} at {} more that were held out", percent(match.largest_unseen()),
-                         unseen - 1);
+    words += fmt::format(" and {} at {} other{} held out", percent(match.largest_unseen()),
+                         unseen - 1, unseen == 2 ? "" : "s");
   words += fmt::format("; the moduli are {:.4f} times the model's, learned ", match.factor);
   words += unseen == 0 ? "here, for the recording has no other place"
                        : fmt::format("at {} other{}", learned, learned == 1 ? "" : "s");
-  return words + fmt::format("; unmatched it were {} too {}", percent(match.before),
+  return words + fmt::format("; unmatched it were {} off, too {}", percent(match.before),
                              match.before < 0 ? "soft" : "stiff");
 }
 

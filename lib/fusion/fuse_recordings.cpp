@@ -67,11 +67,13 @@ void require_same_rows(const Recording& stepped, const Recording& slow) {
     fail_input(stepped.name,
                fmt::format("it has {} rows, {} has {}", stepped.rows(), slow.name, slow.rows()),
                mend);
+  double largest = 0;
+  for (const Vec3& u : slow.u) largest = std::max(largest, u.norm());
   for (std::size_t i = 0; i < slow.rows(); ++i)
-    if (stepped.press[i] != slow.press[i] || stepped.t.empty() ||
-        std::abs(stepped.t[i] - slow.t[i]) > 1e-9 * (1 + std::abs(slow.t[i])))
+    if (stepped.press[i] != slow.press[i] || (stepped.u[i] - slow.u[i]).norm() > 1e-6 * largest ||
+        stepped.t.empty() || std::abs(stepped.t[i] - slow.t[i]) > 1e-9 * (1 + std::abs(slow.t[i])))
       fail_input(fmt::format("{}:{}", stepped.name, stepped.line[i]),
-                 "its press or t is not that of the row in " + slow.name, mend);
+                 "its press, t or displacement is not that of the row in " + slow.name, mend);
 }
 
 SlowRows slow_rows(const Recording& fast, const SlowSource& slow) {

@@ -34,7 +34,7 @@ FusedForces fuse(const Recording& fast, const SlowSource& slow, const FusionPara
 // The parameters under which the slow forces are most likely, each under what was given out for its
 // time before it came (the logarithmic score of the forecasts; of innovations it is the likelihood
 // of Schweppe, IEEE Trans. Inform. Theory 11, 1965); F is the largest fast force of the component;
-// `blend` is left as it is. Error(kBadInput): fewer than 20 slow rows. Some 500 runs.
+// `blend` is left as it is. Error(kBadInput): fewer than 20 slow rows. Some thousand runs.
 struct LearnedFusion {
   FusionParameters parameters;
   bool converged = false;

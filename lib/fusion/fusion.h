@@ -14,7 +14,7 @@ namespace hapsim {
 // What the fast source may err by, and the slow one. Each force component by itself:
 //   slow = fast + b + c f |f| / F + noise,   db = g df + r dt + w,   f the fast force:
 // an offset b that goes on with the fast force by the local gain g and with time by the drift r,
-// and wanders; g wanders along the way that the force goes; r decays; c, a stiffening, stays.
+// and wanders; g wanders along the way that the force goes; b and r decay; c, a stiffening, stays.
 // In SI and the frame of the forces; every component has its own.
 struct AxisFusion {
   double offset_walk = 0.1;  // of b at rest [N/s^0.5]

@@ -192,7 +192,6 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   image.error = std::sqrt(error.cwiseAbs2().mean());
   Scan scan(data, error, w.free);
   image.misfit_before = std::sqrt(scan.chi2() / double(n)) * image.error;
-  image.held_out_before = image.misfit_before * double(n) / double(n - 1);
   const ByChance chance = by_chance(scan, all);
   image.critical = chance.critical(kFalseAlarm);
   while (image.balls.size() < w.most) {

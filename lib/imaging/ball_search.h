@@ -31,10 +31,10 @@ struct Sight {
 struct BallSearch {
   std::vector<FoundBall> balls;  // strongest first; none: nothing compact is seen
   std::vector<Sight> sight;
-  Eigen::VectorXd errors;  // relative standard error of each gain, with what the best ball leaves
-  double error = 0;        // their root mean square
-  double critical = 0;     // the drop of chi^2 from which on a ball is claimed
-  double misfit_before = 0, held_out_before = 0;  // of the log gains without balls or field
+  Eigen::VectorXd errors;    // relative standard error of each gain, with what the best ball leaves
+  double error = 0;          // their root mean square
+  double critical = 0;       // the drop of chi^2 from which on a ball is claimed
+  double misfit_before = 0;  // of the log gains without balls or field
 };
 
 struct BallScene {

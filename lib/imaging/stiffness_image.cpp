@@ -5,7 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "effects/catalogue.h"
 #include "imaging/field_contacts.h"
@@ -111,7 +113,7 @@ void find_lumps(const LumpData& whole, BallScene scene, const BallSolver& solver
     const FoundBall& ball = image.found.balls.front();
     if (!found.empty() && ball.drop < kLeft * found.front().lump.drop) break;
     LumpPosterior next = fit_lump(data, about, as_start(ball), solver);
-    if (next.lump.drop < image.found.critical) break;
+    if (!(next.lump.drop >= image.found.critical)) break;
     next.lump.chance = ball.chance;
     scene.free.conservativeResize(Eigen::NoChange, scene.free.cols() + next.tangent.cols());
     scene.free.rightCols(next.tangent.cols()) = next.tangent;
@@ -122,6 +124,9 @@ void find_lumps(const LumpData& whole, BallScene scene, const BallSolver& solver
     found[k] = fit_lump(left_by_others(k), about, found[k].lump, solver);
     found[k].lump.chance = chance;
   }
+  std::stable_sort(found.begin(), found.end(), [](const LumpPosterior& a, const LumpPosterior& b) {
+    return a.lump.drop > b.lump.drop;
+  });
   image.error = image.found.error;
   for (const LumpPosterior& f : found) image.lumps.push_back(f.lump);
 }
@@ -184,7 +189,15 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
   const double depth = options.largest_depth > 0 ? options.largest_depth : 15 * tool;
   std::vector<ImageView> views = image_views(model, experiment, about);
   constexpr double kUseless = 0.3;  // relative error from which on a logarithm says nothing
-  std::erase_if(views, [](const ImageView& v) { return v.error > kUseless * v.gain; });
+  constexpr std::size_t kFewestPlaces = 4;
+  std::erase_if(views, [](const ImageView& v) { return !(v.error <= kUseless * v.gain); });
+  std::set<int> told;
+  for (const ImageView& v : views) told.insert(v.position);
+  if (told.size() < kFewestPlaces)
+    fail_input(experiment.dataset.recording.name,
+               fmt::format("the noise leaves {} of {} places whose stiffness is known to {:.0f} %",
+                           told.size(), experiment.dataset.positions.size(), 100 * kUseless),
+               fmt::format("an image needs {}: press deeper, or longer", kFewestPlaces));
   const auto n = static_cast<Eigen::Index>(views.size());
   const std::vector<PreparedContact>& pressed = experiment.places.setup(0)->contacts();
   const FieldGrid grid =

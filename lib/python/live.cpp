@@ -70,7 +70,10 @@ class Live {
     std::vector<hs_live*> lives;
     std::vector<double> tips;
     for (py::ssize_t i = 0; i < at.shape(0); ++i) {
-      lives.push_back(tools[static_cast<std::size_t>(i)]->live_.get());
+      const Live* tool = tools[static_cast<std::size_t>(i)];
+      if (tool == nullptr)
+        fail(HS_BAD_INPUT, "tool " + std::to_string(i) + " is None; give a Live");
+      lives.push_back(tool->live_.get());
       for (py::ssize_t k = 0; k < 3; ++k) tips.push_back(at(i, k));
     }
     py::array_t<double> forces({at.shape(0), py::ssize_t{3}});

@@ -60,7 +60,7 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
   Experiment w = make_experiment(body, std::move(motion), options);
   for (const std::string& words : left_out_words(w, true)) told(words);
   const Selection all = all_episodes(w.dataset);
-  told(beyond_depth(w.depth, model));
+  if (control == Control::kDisplacement) told(beyond_depth(w.depth, model));
   told(tools_together(w.dataset.recording));
   Simulated simulated;
   simulated.mesh_uncertainty = w.places.mesh_uncertainty();
@@ -68,6 +68,7 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
   if (control == Control::kForce) {
     simulated.recording =
         with_displacements(model, w.dataset, contact_mesh_stiffness(model, w, told));
+    told(beyond_depth(press_depth(body, simulated.recording), model));
     mark_simulated(simulated.recording.metadata, effects_label(model));
     return simulated;
   }

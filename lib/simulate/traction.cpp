@@ -73,6 +73,7 @@ std::vector<Vec3> displacements_of_forces(const Model& model, const Dataset& dat
 Recording with_displacements(const Model& model, const Dataset& dataset,
                              const StiffnessAt& stiffness_at) {
   Recording out = dataset.recording;
+  out.metadata.remove("mesh_uncertainty");  // of the forces that were given
   out.u = displacements_of_forces(model, dataset, stiffness_at);
   // An effect of the body that is not linear, whatever it is, shows in the forces of this motion.
   Dataset moved = dataset;

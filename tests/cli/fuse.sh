@@ -79,7 +79,9 @@ refuse 3 'off those of fast.csv at the same times' fast.csv --slow other.csv --p
 head -40 slow.csv >short.csv
 refuse 3 'short.csv: it has 39 rows, slow.csv has 138' fast.csv --slow slow.csv --stepped short.csv --parameters filter.csv
 awk -F, -v OFS=, 'NR == 9 { $2 += 0.001 } 1' slow.csv >shifted.csv
-refuse 3 'shifted.csv:9: its press or t is not that of the row in slow.csv' fast.csv --slow slow.csv --stepped shifted.csv --parameters filter.csv
+refuse 3 'shifted.csv:9: its press, t or displacement is not that of the row in slow.csv' fast.csv --slow slow.csv --stepped shifted.csv --parameters filter.csv
+awk -F, -v OFS=, 'NR > 1 { $8 /= 2 } 1' slow.csv >half.csv
+refuse 3 'its press, t or displacement is not that of the row in slow.csv' fast.csv --slow slow.csv --stepped half.csv --parameters filter.csv
 sed 's/^noise,x,[^,]*/noise,x,-1/' filter.csv >bad.csv
 refuse 3 'noise = -1 is out of its bounds' fast.csv --slow slow.csv --parameters bad.csv
 

@@ -238,7 +238,7 @@ inline ToolSpec identify_specification() {
        {{"x, y, z", "centre of the tetrahedron [m], in the body's order"},
         {"E", "Young's modulus there [Pa]"}}},
       {"--lumps (output)",
-       {{"lump", "number, the most certain first; no row: none is seen"},
+       {{"lump", "number, the strongest first; no row: none is seen"},
         {"x, y, z", "its centre [m]"},
         {"depth", "of the centre below the surface [m]"},
         {"radius", "as a ball [m]"},

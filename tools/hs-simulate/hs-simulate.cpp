@@ -47,12 +47,14 @@ void write_simulated(const Arguments& arguments, const std::string& label, Recor
   output.commit();
 }
 
-// Forces of how many rows, and a comparison with what was measured, where the motion has that.
+// Forces of how many rows (with --force-control displacements), and a comparison with what was
+// measured, where the motion has that.
 Summary simulated_summary(const Arguments& arguments, std::size_t rows, const std::string& label,
                           bool measured) {
   Summary s;
-  s.verdict = fmt::format("{}: forces of {}",
-                          arguments.input() == "-" ? "standard input" : arguments.input(), label);
+  s.verdict =
+      fmt::format("{}: {} of {}", arguments.input() == "-" ? "standard input" : arguments.input(),
+                  arguments[flag::force_control] ? "displacements" : "forces", label);
   s.size = counted(static_cast<std::ptrdiff_t>(rows), "row", "rows");
   s.values = {{"rows", static_cast<double>(rows), "1"}};
   if (!measured || arguments.output() == "-" || arguments.input() == "-" ||
@@ -114,7 +116,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
   dataset = on_body(std::move(dataset), body.stands());
-  say_beyond(arguments, press_depth(std::span(&mesh, 1), dataset), model);
+  if (!forces_given) say_beyond(arguments, press_depth(std::span(&mesh, 1), dataset), model);
   say_together(arguments, "hs-simulate", dataset.recording);
   const Selection all = all_episodes(dataset);
   const auto stiffness_at = [&](std::size_t p) { return body.at(p); };
@@ -122,6 +124,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
       forces_given
           ? with_displacements(model, dataset, stiffness_at)
           : with_forces(dataset, all, model_forces(model, dataset, stiffness_at, all, false).f);
+  if (forces_given) say_beyond(arguments, press_depth(mesh, out), model);
   write_simulated(arguments, effects_label(model), out);
   for (const FieldRow& row : fields) {
     Output output(fmt::format("{}-{}.vtu", arguments[flag::vtu], row.row + 1));

@@ -153,7 +153,8 @@ inline ToolSpec simulate_specification() {
                           .group = "Solution"});
   spec.options.push_back({.flag = flag::force_control,
                           .help = "The motion's forces are given, its displacements are found and "
-                                  "written; --own-mesh by any --solver.",
+                                  "written in the place of its columns ux, uy, uz; --own-mesh by "
+                                  "any --solver.",
                           .group = "Solution"});
   spec.options.push_back({.flag = flag::solver,
                           .value = "NAME",

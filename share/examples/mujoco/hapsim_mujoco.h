@@ -6,7 +6,8 @@
  *   mjcb_passive = hapsim_mujoco_passive;
  *   hapsim_mujoco_own(&soft, number, data);                      this mjData is that one
  *
- * and mj_step() as ever. The site's position in the soft body's frame is the tool's tip; the force
+ * and mj_step() as ever; after mj_resetData(), which forgets whose an mjData is, own() again: until
+ * then it feels nothing. The site's position in the soft body's frame is the tool's tip; the force
  * acts there on the site's body. The model needs <size nuserdata="1"/>, in which an mjData keeps
  * its number; the frame of the body is that of the world, moved by `origin`. Use the integrators
  * Euler or implicit: RK4 asks for passive forces at times that do not come, and a body that
@@ -58,8 +59,9 @@ static inline hs_status hapsim_mujoco_ready(hapsim_mujoco* soft, const hs_prepar
   return HS_DONE;
 }
 
+/* Kept as the number and one, so that what MuJoCo has zeroed is nobody's. */
 static inline void hapsim_mujoco_own(const hapsim_mujoco* soft, size_t number, mjData* data) {
-  data->userdata[0] = (mjtNum)(number < soft->count ? number : 0);
+  data->userdata[0] = (mjtNum)(number < soft->count ? number + 1 : 0);
 }
 
 /* Adds a force at the site to `qfrc`. */
@@ -70,12 +72,15 @@ static inline void hapsim_mujoco_push(const hapsim_mujoco* soft, const mjModel* 
     mj_applyFT(m, d, force, none, d->site_xpos + 3 * soft->site, soft->body, qfrc);
 }
 
-/* One step of the tool of this mjData, its force among the passive ones. */
+/* One step of the tool of this mjData, its force among the passive ones; nothing for an mjData that
+ * is not owned. */
 static inline void hapsim_mujoco_press(const hapsim_mujoco* soft, const mjModel* m, mjData* d) {
+  const size_t owned = d->userdata[0] > 0 ? (size_t)d->userdata[0] : 0;
+  if (owned < 1 || owned > soft->count) return;
   const mjtNum* at = d->site_xpos + 3 * soft->site;
   const double tip[3] = {at[0] - soft->origin[0], at[1] - soft->origin[1], at[2] - soft->origin[2]};
   double force[3];
-  hs_live_step(soft->tools[(size_t)d->userdata[0]], d->time, tip, force);
+  hs_live_step(soft->tools[owned - 1], d->time, tip, force);
   hapsim_mujoco_push(soft, m, d, force, d->qfrc_passive);
 }
 
@@ -85,7 +90,8 @@ static inline void hapsim_mujoco_passive(const mjModel* m, mjData* d) {
 }
 
 /* All simulations at once, instead of the callback: between mj_step1() and mj_step2() of each, at
- * the same time in all. `tips` and `forces` have room for 3 numbers a simulation. */
+ * the same time in all. `tips` and `forces` have room for 3 numbers a simulation. The force stands
+ * in qfrc_applied, in the place of what was there: add your own after it. */
 static inline void hapsim_mujoco_tips(const hapsim_mujoco* soft, mjData* const* data,
                                       double* tips) {
   for (size_t i = 0; i < soft->count; ++i)

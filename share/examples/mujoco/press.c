@@ -3,6 +3,7 @@
  *   X Y Z [m]: where the tool begins, in the body's frame; RADIUS of the tool: 0.004 or 4mm. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "hapsim_mujoco.h"
 
@@ -11,10 +12,25 @@ int main(int argc, char** argv) {
     fprintf(stderr, "usage: %s X Y Z press.xml body.ply m.csv RADIUS\n", argv[0]);
     return HS_USAGE;
   }
+  double begin[3];
+  for (int k = 0; k < 3; ++k) {
+    char* end = argv[1 + k];
+    begin[k] = strtod(argv[1 + k], &end);
+    if (end == argv[1 + k] || *end != 0) {
+      fprintf(stderr, "%s: not a number of metres\n", argv[1 + k]);
+      return HS_USAGE;
+    }
+  }
   char error[1000] = "";
   mjModel* m = mj_loadXML(argv[4], NULL, error, sizeof error);
   if (!m) {
     fprintf(stderr, "%s: %s\n", argv[4], error);
+    return HS_BAD_INPUT;
+  }
+  if (mj_name2id(m, mjOBJ_SITE, "tip") < 0 || m->nuserdata < 1 || m->nq < 3) {
+    fprintf(stderr, "%s: no site \"tip\", no <size nuserdata=\"1\"/>, or no three joints\n",
+            argv[4]);
+    mj_deleteModel(m);
     return HS_BAD_INPUT;
   }
   mjData* d = mj_makeData(m);
@@ -33,7 +49,7 @@ int main(int argc, char** argv) {
   if (status == HS_DONE) {
     mjcb_passive = hapsim_mujoco_passive;
     hapsim_mujoco_own(&soft, 0, d);
-    for (int k = 0; k < 3; ++k) d->qpos[k] = atof(argv[1 + k]);
+    for (int k = 0; k < 3; ++k) d->qpos[k] = begin[k];
     for (int i = 0; i < 4000; ++i) mj_step(m, d);
     mj_forward(m, d);
     hs_feel feel;
