@@ -26,6 +26,8 @@ constexpr double kBesideSupport = 2.5;
 constexpr double kClear = 1.2;
 // Where the surface about turns so much, two radii from a right-angled edge, coarse meshes scatter.
 constexpr double kBesideEdge = 0.03;
+// What yields as a whole by more than its contact does: coarse meshes of limbs scatter, too.
+constexpr double kLimb = 2;
 // A place that was refused says little of those beyond that share of a radius, which are tried.
 constexpr double kNearRefused = 0.3;
 // The share of the pool that may be less sure than this, in tolerances: twice that is the worst.
@@ -174,7 +176,8 @@ std::vector<PlaceView> FieldSampling::views_of(const std::vector<Vec3>& places) 
 
 ContactLevel FieldSampling::level_at(const PlaceView& view) const {
   if (clearance(*bonded_, view.point) < kBesideSupport * radius_) return ContactLevel::kFine;
-  return view.turned > kBesideEdge ? ContactLevel::kCoarse : ContactLevel::kSample;
+  return view.turned > kBesideEdge || view.yields > kLimb ? ContactLevel::kCoarse
+                                                          : ContactLevel::kSample;
 }
 
 void FieldSampling::add(const std::vector<Vec3>& places) {

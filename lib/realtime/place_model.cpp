@@ -174,6 +174,7 @@ PlaceView PlaceViews::at(const Vec3& point) const {
     const Matrix3d C = of_eigenvalues(disc, root), back = C.inverse();
     const Matrix3d over = back * (scale * far_->at(point, n)) * back;
     const Matrix3d share = of_eigenvalues(over, [](double x) { return positive_share(x); });
+    view.yields = Eigen::SelfAdjointEigenSolver<Matrix3d>(share).eigenvalues()[2];
     beyond = pack(of_eigenvalues(share, [](double x) { return std::log(x); }));
     expected = C * share * C;
   }

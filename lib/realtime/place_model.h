@@ -28,6 +28,7 @@ struct PlaceView {
   Eigen::VectorXd features;                        // scalars
   Eigen::Matrix<double, 6, Eigen::Dynamic> basis;  // tensors that turn with the body, packed
   Eigen::Matrix3d reference;                       // root of the stiffness to be expected
+  double yields = 1;  // largest compliance over a half-space's: much above one on limbs
   double turned = 0;  // what the surface within some two tool radii lacks of facing one way
 };
 
