@@ -8,6 +8,7 @@
 #include "cli/shared_flags.h"
 #include "common_options.h"
 #include "fusion/fused_loop.h"
+#include "fusion/fusion_file.h"
 #include "fusion/fusion_summary.h"
 #include "fusion/fusion_words.h"
 #include "hand.h"

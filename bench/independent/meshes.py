@@ -6,6 +6,19 @@ import numpy as np
 import bodies
 
 
+# By the background field alone, of straight second-order elements.
+SETTINGS = """Mesh.CharacteristicLengthMax = 14;
+Mesh.CharacteristicLengthExtendFromBoundary = 0;
+Mesh.CharacteristicLengthFromPoints = 0;
+Mesh.CharacteristicLengthFromCurvature = 0;
+Mesh.ElementOrder = 2;
+Mesh.SecondOrderLinear = 1;
+Mesh.Optimize = 1;
+Mesh.SaveAll = 1;
+Mesh.MshFileVersion = 2.2;
+"""
+
+
 def geometry(body, place, radius, rim, growth, fine, skin):
     """Gmsh's script [mm]; edge length `rim` at the tool's rim, growing by `growth` per length;
     `fine`: (middle, radius, edge length) of a ball to be resolved as well; `skin`: thickness of one whose
@@ -36,16 +49,7 @@ Field[2].VOut = 14;
 Field[3] = Min;
 Field[3].FieldsList = {1, 2};
 Background Field = 3;
-Mesh.CharacteristicLengthMax = 14;
-Mesh.CharacteristicLengthExtendFromBoundary = 0;
-Mesh.CharacteristicLengthFromPoints = 0;
-Mesh.CharacteristicLengthFromCurvature = 0;
-Mesh.ElementOrder = 2;
-Mesh.SecondOrderLinear = 1;
-Mesh.Optimize = 1;
-Mesh.SaveAll = 1;
-Mesh.MshFileVersion = 2.2;
-""" % (bodies.shape(body), *a, *b, radius, parts, size, *fine[0], *fine[1:])
+""" % (bodies.shape(body), *a, *b, radius, parts, size, *fine[0], *fine[1:]) + SETTINGS
 
 
 def read_msh(name):

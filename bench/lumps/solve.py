@@ -57,16 +57,7 @@ Field[1].F = "%s";
 %sField[3] = Min;
 Field[3].FieldsList = {%s};
 Background Field = 3;
-Mesh.CharacteristicLengthMax = 14;
-Mesh.CharacteristicLengthExtendFromBoundary = 0;
-Mesh.CharacteristicLengthFromPoints = 0;
-Mesh.CharacteristicLengthFromCurvature = 0;
-Mesh.ElementOrder = 2;
-Mesh.SecondOrderLinear = 1;
-Mesh.Optimize = 1;
-Mesh.SaveAll = 1;
-Mesh.MshFileVersion = 2.2;
-""" % (bodies.shape(body), *a, *b, phantoms.TOOL, spheres, ", ".join(names), size, fields, numbers)
+""" % (bodies.shape(body), *a, *b, phantoms.TOOL, spheres, ", ".join(names), size, fields, numbers) + meshes.SETTINGS
 
 
 class PlaceMesh:

@@ -6,113 +6,14 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include "base/error.h"
 #include "estimate/simplex_search.h"
-#include "io/csv.h"
+#include "fusion/fusion_file.h"
+#include "fusion/slow_rows.h"
 
 namespace hapsim {
 namespace {
-
-struct SlowRow {
-  double t = 0, arrives = 0;
-  Vec3 force = Vec3::Zero();
-};
-
-// A row's place between two samples of the fast recording's press.
-struct Between {
-  std::size_t before, after;
-  double share;  // of the way to `after`
-};
-
-std::optional<Between> between(const Recording& fast, const std::vector<int>& rows, double t) {
-  const auto after = std::lower_bound(rows.begin(), rows.end(), t, [&](int row, double when) {
-    return fast.t[static_cast<std::size_t>(row)] < when;
-  });
-  if (after == rows.end()) return std::nullopt;
-  const auto b = static_cast<std::size_t>(*after);
-  if (after == rows.begin())
-    return fast.t[b] == t ? std::optional<Between>({b, b, 1}) : std::nullopt;
-  const auto a = static_cast<std::size_t>(*(after - 1));
-  const double step = fast.t[b] - fast.t[a];
-  return Between{a, b, step > 0 ? (t - fast.t[a]) / step : 1};
-}
-
-using SlowRows = std::map<int, std::vector<SlowRow>>;  // by press, in the order of arrival
-
-// Slow forces of another motion, or of times counted otherwise, are off by its size; those of a
-// sampling or a clock of their own by far less.
-void require_same_motion(const Recording& fast, const Recording& slow) {
-  double off = 0, size = 0;
-  std::map<int, Press> presses;
-  for (const Press& p : fast.presses()) presses[p.id] = p;
-  for (std::size_t i = 0; i < slow.rows(); ++i) {
-    const auto at = between(fast, presses[slow.press[i]].rows, slow.t[i]);
-    if (!at) continue;
-    off += ((1 - at->share) * fast.u[at->before] + at->share * fast.u[at->after] - slow.u[i])
-               .squaredNorm();
-    size += slow.u[i].squaredNorm();
-  }
-  if (off > 0.25 * size)
-    fail_input(slow.name,
-               fmt::format("its displacements are {:.0f} % off those of {} at the same times",
-                           100 * std::sqrt(off / size), fast.name),
-               "give the slow forces of the same motion, their t counted alike");
-}
-
-void require_same_rows(const Recording& stepped, const Recording& slow) {
-  const std::string mend = "simulate the slow recording's own rows with the fast model";
-  if (stepped.rows() != slow.rows())
-    fail_input(stepped.name,
-               fmt::format("it has {} rows, {} has {}", stepped.rows(), slow.name, slow.rows()),
-               mend);
-  double largest = 0;
-  for (const Vec3& u : slow.u) largest = std::max(largest, u.norm());
-  for (std::size_t i = 0; i < slow.rows(); ++i)
-    if (stepped.press[i] != slow.press[i] || (stepped.u[i] - slow.u[i]).norm() > 1e-6 * largest ||
-        stepped.t.empty() || std::abs(stepped.t[i] - slow.t[i]) > 1e-9 * (1 + std::abs(slow.t[i])))
-      fail_input(fmt::format("{}:{}", stepped.name, stepped.line[i]),
-                 "its press, t or displacement is not that of the row in " + slow.name, mend);
-}
-
-SlowRows slow_rows(const Recording& fast, const SlowSource& slow) {
-  const Recording& r = *slow.recording;
-  for (const Recording* needed : {&fast, &r})
-    if (needed->t.empty())
-      fail_input(needed->name, "there is no column t", "forces are fused by their times");
-  SlowRows rows;
-  for (const Press& p : fast.presses()) rows[p.id];
-  if (slow.stepped) require_same_rows(*slow.stepped, r);
-  std::map<int, std::vector<int>> samples;
-  for (const Press& p : fast.presses()) samples[p.id] = p.rows;
-  const auto column = std::find(r.extra_header.begin(), r.extra_header.end(), "arrives");
-  for (std::size_t i = 0; i < r.rows(); ++i) {
-    const std::string where = fmt::format("{}:{}", r.name, r.line[i]);
-    const auto found = rows.find(r.press[i]);
-    if (found == rows.end())
-      fail_input(where, fmt::format("press {} is not in {}", r.press[i], fast.name),
-                 "give both recordings the same presses");
-    if (r.in_air(i)) continue;
-    SlowRow row{r.t[i], r.t[i] + slow.delay, r.f[i]};
-    if (column != r.extra_header.end()) {
-      const auto c = static_cast<std::size_t>(column - r.extra_header.begin());
-      if (!parse_number(r.extra[c][i], row.arrives) || row.arrives < row.t)
-        fail_input(where, "arrives is " + shown(r.extra[c][i]),
-                   "give the time at which the row is there, not before its own [s]");
-    }
-    if (slow.stepped)
-      if (const auto at = between(fast, samples[r.press[i]], r.t[i]))
-        row.force += (1 - at->share) * fast.f[at->before] + at->share * fast.f[at->after] -
-                     slow.stepped->f[i];
-    found->second.push_back(row);
-  }
-  require_same_motion(fast, r);
-  for (auto& [press, list] : rows)
-    std::stable_sort(list.begin(), list.end(),
-                     [](const SlowRow& a, const SlowRow& b) { return a.arrives < b.arrives; });
-  return rows;
-}
 
 // Where the data say nothing, parameters stay within a factor of about e^3 of the start.
 constexpr double kPrior = 3;
@@ -169,31 +70,6 @@ class Run {
   Fusion fusion_;
 };
 
-// What is learned and written of each component, in one table.
-struct Entry {
-  const char* name;
-  const char* unit;
-  double AxisFusion::*value;
-  double lower, upper;
-};
-constexpr std::size_t kLearned = 9;  // the first ones
-const std::array<Entry, 10>& entries() {
-  static const std::array<Entry, 10> table{{
-      {"offset_walk", "N/s^0.5", &AxisFusion::offset_walk, 1e-9, 1e3},
-      {"walk_rate", "m/s", &AxisFusion::walk_rate, 1e-3, 1e6},
-      {"offset_time", "s", &AxisFusion::offset_time, 1e-3, 1e6},
-      {"drift_walk", "N/s^1.5", &AxisFusion::drift_walk, 1e-9, 1e3},
-      {"drift_time", "s", &AxisFusion::drift_time, 1e-3, 1e3},
-      {"gain_walk", "1", &AxisFusion::gain_walk, 1e-9, 1e3},
-      {"gain_spread", "1", &AxisFusion::gain_spread, 1e-6, 1e3},
-      {"noise", "N", &AxisFusion::noise, 1e-9, 1e3},
-      {"noise_rise", "N s/m", &AxisFusion::noise_rise, 1e-9, 1e3},
-      {"force_scale", "N", &AxisFusion::force_scale, 1e-6, 1e6},
-  }};
-  return table;
-}
-constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-
 std::vector<LessonPress> lessons_of(const Recording& fast, const SlowRows& slow) {
   std::vector<LessonPress> lessons;
   for (const Press& press : fast.presses()) {
@@ -214,24 +90,6 @@ std::vector<LessonPress> lessons_of(const Recording& fast, const SlowRows& slow)
   return lessons;
 }
 
-// Slow forces as they come, and so many times as seldom and as late: what is learned of them serves
-// at any of these paces.
-std::vector<SlowRows> paces_of(const SlowRows& rows) {
-  std::vector<SlowRows> paces;
-  for (const std::size_t times : {1, 3, 10}) {
-    SlowRows& pace = paces.emplace_back();
-    for (const auto& [press, list] : rows) {
-      std::vector<SlowRow>& kept = pace[press];
-      for (std::size_t k = 0; k < list.size(); k += times) {
-        SlowRow row = list[k];
-        row.arrives = row.t + static_cast<double>(times) * (row.arrives - row.t);
-        kept.push_back(row);
-      }
-    }
-  }
-  return paces;
-}
-
 CorrectionShares shares_of(const Recording& fast, const std::vector<SlowRows>& paces,
                            const FusionParameters& parameters) {
   CorrectionWorth worth;
@@ -241,34 +99,6 @@ CorrectionShares shares_of(const Recording& fast, const std::vector<SlowRows>& p
     worth.add(run.worth());
   }
   return worth.shares(parameters.share);
-}
-
-double* share_named(CorrectionShares& shares, const std::string& name) {
-  for (std::size_t c = 0; c < kWayBands; ++c)
-    if (name == fmt::format("share{}", c)) return &shares.way[c];
-  for (std::size_t c = 0; c < kAgeBands; ++c)
-    if (name == fmt::format("age_share{}", c)) return &shares.age[c];
-  return nullptr;
-}
-
-// What was taught, in the table: its scale and times, then the weights.
-struct TaughtEntry {
-  std::string name, axis, unit;
-  double* value;
-};
-std::vector<TaughtEntry> taught_entries(TaughtCorrection& taught) {
-  std::vector<TaughtEntry> entries;
-  for (std::size_t a = 0; a < 3; ++a)
-    entries.push_back({"taught_scale", kAxes[a], "m", &taught.scale[static_cast<int>(a)]});
-  for (std::size_t a = 0; a < 3; ++a)
-    entries.push_back({"taught_place", kAxes[a], "m", &taught.place[static_cast<int>(a)]});
-  entries.push_back({"taught_reach", "", "m", &taught.reach});
-  for (std::size_t m = 0; m < TaughtCorrection::kTimes; ++m)
-    entries.push_back({fmt::format("taught_time{}", m + 1), "", "s", &taught.time[m]});
-  for (std::size_t a = 0; a < 3; ++a)
-    for (std::size_t k = 0; k < TaughtCorrection::kWeights; ++k)
-      entries.push_back({fmt::format("taught{}", k + 1), kAxes[a], "N", &taught.weight[a][k]});
-  return entries;
 }
 
 }  // namespace
@@ -315,14 +145,15 @@ LearnedFusion learn_fusion(const Recording& source, const SlowSource& slow,
       FusionParameters p = result.parameters;
       AxisFusion& here = p.axis[static_cast<std::size_t>(a)];
       for (std::size_t i = 0; i < kLearned; ++i)
-        here.*(entries()[i].value) = std::clamp(std::exp(x[static_cast<Eigen::Index>(i)]),
-                                                entries()[i].lower, entries()[i].upper);
+        here.*(fusion_entries()[i].value) =
+            std::clamp(std::exp(x[static_cast<Eigen::Index>(i)]), fusion_entries()[i].lower,
+                       fusion_entries()[i].upper);
       here.noise = std::max(here.noise, 1e-5 * here.force_scale);  // numbers as they are written
       return p;
     };
     Eigen::VectorXd x(static_cast<Eigen::Index>(kLearned));
     for (std::size_t i = 0; i < kLearned; ++i)
-      x[static_cast<Eigen::Index>(i)] = std::log(from.*(entries()[i].value));
+      x[static_cast<Eigen::Index>(i)] = std::log(from.*(fusion_entries()[i].value));
     SimplexSearchOptions options;
     options.tolerance = 0.02;
     options.value_tolerance = 0.1;  // of twice a log likelihood
@@ -371,74 +202,6 @@ ForceQuality force_quality(const Recording& motion, const std::vector<Vec3>& for
     }
   if (rows > 0) quality.rms = std::sqrt(squares / rows);
   return quality;
-}
-
-FusionParameters read_fusion(Input& input) {
-  const CsvTable csv = read_csv(input);
-  FusionParameters parameters;
-  const std::vector<TaughtEntry> taught = taught_entries(parameters.taught);
-  const std::vector<double> value = csv.numbers("value");
-  const int column = csv.find("parameter"), axes = csv.find("axis");
-  for (const auto& [found, name] : {std::pair{column, "parameter"}, std::pair{axes, "axis"}})
-    if (found < 0) fail_missing_column(csv.name, name, csv.header);
-  for (std::size_t row = 0; row < csv.rows(); ++row) {
-    const std::string& name = csv.columns[static_cast<std::size_t>(column)][row];
-    const std::string& axis = csv.columns[static_cast<std::size_t>(axes)][row];
-    const std::string where = csv.name + ":" + std::to_string(csv.line[row]);
-    const auto bounded = [&](double lower, double upper) {
-      if (value[row] < lower || value[row] > upper)
-        fail_input(where, name + " = " + format_number(value[row]) + " is out of its bounds",
-                   fmt::format("give {:g} to {:g}", lower, upper));
-      return value[row];
-    };
-    if (double* share = share_named(parameters.share, name)) {
-      *share = bounded(0, 1);
-      continue;
-    }
-    if (name == "share_known") {
-      parameters.share_known = bounded(0.1, 1e6);
-      continue;
-    }
-    if (name == "blend") {
-      parameters.blend = bounded(0, 10);
-      continue;
-    }
-    const auto lesson = std::find_if(taught.begin(), taught.end(), [&](const TaughtEntry& e) {
-      return e.name == name && e.axis == axis;
-    });
-    if (lesson != taught.end()) {
-      *lesson->value = lesson->unit == "N"   ? bounded(-1e9, 1e9)
-                       : lesson->unit == "s" ? bounded(1e-9, 1e6)
-                                             : bounded(-1e3, 1e3);
-      continue;
-    }
-    const auto found = std::find_if(entries().begin(), entries().end(),
-                                    [&](const Entry& e) { return name == e.name; });
-    const auto a =
-        static_cast<std::size_t>(std::find(kAxes.begin(), kAxes.end(), axis) - kAxes.begin());
-    if (found == entries().end() || a == kAxes.size())
-      fail_input(where, "parameter " + shown(name) + " of axis " + shown(axis) + " is not known",
-                 "see hs-fuse(1)");
-    parameters.axis[a].*(found->value) = bounded(found->lower, found->upper);
-  }
-  return parameters;
-}
-
-void write_fusion(std::ostream& out, const FusionParameters& parameters) {
-  CsvWriter csv(out, {}, {"parameter", "axis", "value", "unit"});
-  for (std::size_t a = 0; a < 3; ++a)
-    for (const Entry& e : entries())
-      csv.row({e.name, kAxes[a], format_number(parameters.axis[a].*(e.value)), e.unit});
-  csv.row({"blend", "", format_number(parameters.blend), "s"});
-  for (std::size_t c = 0; c < kWayBands; ++c)
-    csv.row({fmt::format("share{}", c), "", format_number(parameters.share.way[c]), "1"});
-  for (std::size_t c = 0; c < kAgeBands; ++c)
-    csv.row({fmt::format("age_share{}", c), "", format_number(parameters.share.age[c]), "1"});
-  csv.row({"share_known", "", format_number(parameters.share_known), "1"});
-  TaughtCorrection taught = parameters.taught;
-  if (!taught.taught()) return;
-  for (const TaughtEntry& e : taught_entries(taught))
-    csv.row({e.name, e.axis, format_number(*e.value), e.unit});
 }
 
 }  // namespace hapsim

@@ -51,8 +51,4 @@ struct ForceQuality {
 ForceQuality force_quality(const Recording& motion, const std::vector<Vec3>& force,
                            const std::vector<Vec3>& exact);
 
-// The table parameter,axis,value,unit. Error(kBadInput) with line: an unknown one, out of bounds.
-FusionParameters read_fusion(Input& input);
-void write_fusion(std::ostream& out, const FusionParameters& parameters);
-
 }  // namespace hapsim

@@ -13,8 +13,6 @@
 namespace hapsim {
 namespace {
 
-constexpr double kLinear = 0.25;  // share of a strong ball's signal that the linear one may miss
-
 double ratio_of(double effect) {
   constexpr double kMost = 2.4;  // a rigid ball has 2.5
   const double e = std::min(effect, kMost);
@@ -49,7 +47,7 @@ std::vector<Candidate> candidates(const Eigen::MatrixXd& J, const FieldGrid& gri
   return result;
 }
 
-// Least squares of the gains on a common gain, the balls so far and one more of unknown effect.
+// Least squares of the gains on what is free and a ball of unknown effect.
 class Scan {
  public:
   Scan(const Eigen::VectorXd& data, const Eigen::VectorXd& error, const Eigen::MatrixXd& free)
@@ -67,9 +65,6 @@ class Scan {
     basis_.push_back(q);
   }
   double chi2() const { return data_.squaredNorm(); }
-  Eigen::Index freedom() const {
-    return std::max<Eigen::Index>(1, data_.size() - static_cast<Eigen::Index>(basis_.size()));
-  }
   // Effect of a signal and what it takes from chi^2.
   std::pair<double, double> fit(const Eigen::VectorXd& signal) const {
     const Eigen::VectorXd s = out(signal.cwiseProduct(weight_));
@@ -92,7 +87,7 @@ class Scan {
 };
 
 // The best ball; its numbers are means over all candidates by their likelihood.
-FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all, double variance) {
+FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all) {
   double most = 0;
   std::vector<std::pair<double, double>> fits;
   for (const Candidate& c : all) {
@@ -102,11 +97,11 @@ FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all, double 
     most = std::max(most, fits.back().second);
   }
   FoundBall ball;
-  ball.drop = most / variance;
+  ball.drop = most;
   double sum = 0, log_radius = 0, log_ratio = 0, squares = 0;
   Vec3 square = Vec3::Zero();
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const double likelihood = std::exp(0.5 * (fits[i].second - most) / variance);
+    const double likelihood = std::exp(0.5 * (fits[i].second - most));
     if (fits[i].second == 0 || likelihood < 1e-6) continue;
     sum += likelihood;
     ball.centre += likelihood * all[i].centre;
@@ -159,9 +154,8 @@ ByChance by_chance(const Scan& scan, const std::vector<Candidate>& all) {
 
 }  // namespace
 
-BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
-                        const Eigen::VectorXd& data, const Eigen::VectorXd& noise,
-                        const BallScene& w) {
+BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid, const Eigen::VectorXd& data,
+                       const Eigen::VectorXd& noise, const BallScene& w) {
   const Eigen::Index n = data.size();
   const double tool = w.tool_radius, depth = w.largest_depth;
   BallSearch image;
@@ -173,8 +167,8 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   };
   const auto too_small = [&](double extra) {
     const Scan scan(data, errors(extra), w.free);
-    const double left = (scan.chi2() - best_ball(scan, all, 1).drop) /
-                        std::max<double>(1, static_cast<double>(n) - 6);
+    const double left =
+        (scan.chi2() - best_ball(scan, all).drop) / std::max<double>(1, static_cast<double>(n) - 6);
     return left > 1.05;
   };
   double extra = w.least_error;
@@ -190,20 +184,17 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   }
   const Eigen::VectorXd error = errors(extra);
   image.error = std::sqrt(error.cwiseAbs2().mean());
-  Scan scan(data, error, w.free);
+  const Scan scan(data, error, w.free);
   image.misfit_before = std::sqrt(scan.chi2() / double(n)) * image.error;
   const ByChance chance = by_chance(scan, all);
   image.critical = chance.critical(kFalseAlarm);
-  while (image.balls.size() < w.most) {
-    FoundBall ball = best_ball(scan, all, 1);
-    const double first = image.balls.empty() ? 0 : image.balls.front().drop;
-    if (ball.drop < std::max(image.critical, kLinear * kLinear * first)) break;
+  FoundBall ball = best_ball(scan, all);
+  if (ball.drop >= image.critical) {
     ball.chance = chance.chance(ball.drop);
     // The candidates are a step apart, and the linear signal errs as well.
     ball.error = (ball.error.cwiseAbs2() + Vec3::Constant(grid.step * grid.step / 4)).cwiseSqrt();
     ball.depth_error = std::hypot(ball.depth_error, grid.step / 2);
-    image.balls.push_back(ball);
-    scan.explain(ball_signal(J, grid, ball.centre, ball.radius));
+    image.ball = ball;
   }
 
   // How deep: under the position nearest to the middle of all.
@@ -212,14 +203,13 @@ BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
   std::size_t at = 0;
   for (std::size_t p = 0; p < w.contacts.size(); ++p)
     if ((w.contacts[p].point - middle).norm() < (w.contacts[at].point - middle).norm()) at = p;
-  const Scan plain(data, error, w.free);
   const double seen = std::sqrt(image.critical) + 1.645;  // found in 95 of 100
   for (const double radius : {tool, 1.5 * tool, 3 * tool})
     for (const double ratio : {0.02, 2.0, 5.0}) {
       Sight sight{radius, ratio, 0};
       for (double d = radius; d <= depth; d += 0.25 * tool) {
         const Vec3 centre = w.contacts[at].point - d * w.contacts[at].normal;
-        const double size = plain.size(ball_signal(J, grid, centre, radius));
+        const double size = scan.size(ball_signal(J, grid, centre, radius));
         if (std::abs(ball_effect(ratio)) * size < seen) break;
         sight.depth = d;
       }

@@ -1,7 +1,8 @@
-// Balls of another modulus inside a body that explain what each press asks for.
+// A ball of another modulus inside a body that explains what each press asks for.
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "contact/contact_library.h"
@@ -29,7 +30,7 @@ struct Sight {
 };
 
 struct BallSearch {
-  std::vector<FoundBall> balls;  // strongest first; none: nothing compact is seen
+  std::optional<FoundBall> ball;  // none: nothing compact is seen
   std::vector<Sight> sight;
   Eigen::VectorXd errors;    // relative standard error of each gain, with what the best ball leaves
   double error = 0;          // their root mean square
@@ -44,17 +45,14 @@ struct BallScene {
   double largest_depth = 0;  // [m]
   // Gains x directions that are not told from other causes; empty: a common gain.
   Eigen::MatrixXd free = {};
-  std::size_t most = 3;    // balls
   double least_error = 0;  // of a gain, beside its noise
 };
 
 // `J`: derivatives of the log gains `data` by log E at the nodes of the grid; `noise`: their
-// standard errors. Balls (ball_signal.h) are looked for one after the other under the presses, at
-// errors that grow until the best ball leaves no misfit; each lies wholly inside the body and must
-// drop chi^2 by more than all places together do by chance in kFalseAlarm of the bodies without one
-// (drawn), a further one also by what the linear signal of the first may miss.
-BallSearch search_balls(const Eigen::MatrixXd& J, const FieldGrid& grid,
-                        const Eigen::VectorXd& data, const Eigen::VectorXd& noise,
-                        const BallScene& scene);
+// standard errors. The best ball (ball_signal.h) under the presses, at errors that grow until it
+// leaves no misfit; it lies wholly inside the body and must drop chi^2 by more than all places
+// together do by chance in kFalseAlarm of the bodies without one (drawn).
+BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid, const Eigen::VectorXd& data,
+                       const Eigen::VectorXd& noise, const BallScene& scene);
 
 }  // namespace hapsim

@@ -102,15 +102,14 @@ void find_lumps(const LumpData& whole, BallScene scene, const BallSolver& solver
       if (k != own) data.gain -= found[k].signal;
     return data;
   };
-  scene.most = 1;
   scene.free = whole.free;
   scene.least_error = whole.floor;
   while (true) {
     const LumpData data = left_by_others(found.size());
-    image.found = search_balls(whole.J, whole.grid, data.gain, whole.noise, scene);
+    image.found = search_ball(whole.J, whole.grid, data.gain, whole.noise, scene);
     if (found.empty()) image.misfit_before = image.found.misfit_before;
-    if (image.found.balls.empty() || found.size() == kMost) break;
-    const FoundBall& ball = image.found.balls.front();
+    if (!image.found.ball || found.size() == kMost) break;
+    const FoundBall& ball = *image.found.ball;
     if (!found.empty() && ball.drop < kLeft * found.front().lump.drop) break;
     LumpPosterior next = fit_lump(data, about, as_start(ball), solver);
     if (!(next.lump.drop >= image.found.critical)) break;

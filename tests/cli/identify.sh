@@ -110,6 +110,10 @@ expect 3 '--refine-boundary needs presses at four places or more' place.csv "${c
   --refine-boundary 8
 expect 3 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
 expect 3 '--lumps needs presses at four places or more' place.csv "${common[@]}" --lumps no.csv
+awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"; for (p = 0; p < 5; ++p) for (i = 1; i <= 2; ++i)
+  printf "%d,%.2f,%.3f,0.03,0.03,0,0,%.6f\n", p, 0.05 * i, 0.018 + 0.006 * p, -0.0002 * i }' >few.csv
+"$bin/hs-simulate" -q few.csv --body block.ply --model truth.csv --rim-edge 0.3 -o shallow.csv || complain 'no shallow presses'
+expect 3 'an image needs 4: press deeper, or longer' shallow.csv "${common[@]}" --effects elastic --fix nu=0.4 --noise 0.028 --lumps no.csv
 [[ ! -e out.csv ]] || complain 'a refused run leaves nothing behind'
 
 ((failures == 0)) && echo 'all as expected'

@@ -15,6 +15,7 @@
 #include "formats/off.h"
 #include "formats/pcd.h"
 #include "fusion/fuse_recordings.h"
+#include "fusion/fusion_file.h"
 #include "import/import.h"
 #include "io/csv.h"
 #include "io/stream.h"

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "fusion/fuse_recordings.h"
+#include "fusion/fusion_file.h"
 
 namespace hapsim {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "fusion/fuse_recordings.h"
+#include "fusion/fusion_file.h"
 
 namespace hapsim {
 namespace {

@@ -14,8 +14,8 @@ namespace {
 class BallSearchTest : public MadePresses {
  protected:
   BallSearch search(const Eigen::VectorXd& data) const {
-    return search_balls(J, grid, data, Eigen::VectorXd::Constant(data.size(), kNoise),
-                        {contacts, surface, kTool, kDepth});
+    return search_ball(J, grid, data, Eigen::VectorXd::Constant(data.size(), kNoise),
+                       {contacts, surface, kTool, kDepth});
   }
   static double sight(const BallSearch& found, double radius, double ratio) {
     for (const Sight& s : found.sight)
@@ -27,8 +27,8 @@ class BallSearchTest : public MadePresses {
 TEST_F(BallSearchTest, FindsOneWithinItsErrors) {
   const Vec3 centre(0.052, 0.047, 0.049);
   const BallSearch found = search(gains(centre, 6e-3, 1.5, 1));
-  ASSERT_EQ(found.balls.size(), 1u);
-  const FoundBall& ball = found.balls[0];
+  ASSERT_TRUE(found.ball);
+  const FoundBall& ball = *found.ball;
   EXPECT_LT((ball.centre - centre).head<2>().norm(), 2e-3);
   EXPECT_NEAR(ball.depth, 0.011, 3 * ball.depth_error);
   EXPECT_GT(ball.ratio, 1);
@@ -38,16 +38,16 @@ TEST_F(BallSearchTest, FindsOneWithinItsErrors) {
 
 TEST_F(BallSearchTest, ASoftOneIsSofter) {
   const BallSearch found = search(gains({0.045, 0.055, 0.05}, 6e-3, -0.8, 2));
-  ASSERT_FALSE(found.balls.empty());
-  EXPECT_LT(found.balls[0].ratio, 1);
+  ASSERT_TRUE(found.ball);
+  EXPECT_LT(found.ball->ratio, 1);
 }
 
 TEST_F(BallSearchTest, SeesNothingWhereThereIsNothingOrTooDeep) {
   int seen = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    seen += search(gains({0.05, 0.05, 0.03}, 6e-3, 0, seed)).balls.size() > 0;
+    seen += search(gains({0.05, 0.05, 0.03}, 6e-3, 0, seed)).ball ? 1 : 0;
     const BallSearch deep = search(gains({0.05, 0.05, 0.02}, 6e-3, 1.5, seed));
-    seen += deep.balls.size() > 0;
+    seen += deep.ball ? 1 : 0;
     EXPECT_LT(sight(deep, 6e-3, 5), 0.04) << "and it says so";
   }
   EXPECT_EQ(seen, 0) << "of 8";
