@@ -12,9 +12,9 @@
 
 namespace hapsim {
 
-// The budget of a body with limbs and thin parts: some four minutes of two processors. Others reach
+// The budget of a body with limbs and thin parts: some seven minutes of two processors. Others reach
 // the tolerance with some 350 at most.
-constexpr std::size_t kMostSamples = 2500;
+constexpr std::size_t kMostSamples = 4000;
 
 struct FieldSamplingOptions {
   double tolerance = 0.02;  // relative error of the force, root mean square over the surface

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "realtime/direction_doubt.h"
 
@@ -18,12 +19,12 @@ using Eigen::VectorXd;
 using Packed = Eigen::Matrix<double, 6, 1>;
 
 constexpr std::array<double, 4> kWidths{0.7, 1.5, 3, 6};  // of the windows, in tool radii
-// Of few samples cross-validation knows nothing where the trend goes through nearly all of them.
-constexpr double kMostFreedom = 0.7;
 // L keeps within the samples' eigenvalues by so much: beyond, a trend that was not asked for
 // explodes.
 constexpr double kBeyondSamples = 1;
 constexpr double kPrior = 4;  // samples that stand for the global variance where few are near
+
+constexpr Index kNearest = 6;  // samples that count in full, at least
 
 constexpr double kThin = 0.5;  // of a half-space's compliance may be missing, without more ado
 
@@ -55,9 +56,9 @@ double positive_share(double x) {
   return x > -kThin ? 1 + x : (1 - kThin) * std::exp((x + kThin) / (1 - kThin));
 }
 
-// The trend with the ridge of the least generalised cross-validation (Golub, Heath and Wahba,
-// Technometrics 21, 1979): its weights, and by how much squared residuals of samples that are left
-// out are larger than those that are not.
+// The trend with the ridge under which places that are left out, with all six components of each,
+// are off least (Allen, Technometrics 16, 1974, by blocks): its weights, and by how much their
+// squared residuals are larger than those of places that are not.
 struct Ridge {
   VectorXd weights;
   double optimism = 1;
@@ -77,36 +78,27 @@ Ridge ridge_fit(const std::vector<StiffnessSample>& samples, const std::vector<P
   A = A * scale.asDiagonal();
   const MatrixXd H = A.transpose() * A;
   const VectorXd b = A.transpose() * y;
-  const auto rows = static_cast<double>(6 * n);
   Ridge best;
-  double least = std::numeric_limits<double>::infinity(), lambda = 0;
-  for (double trial = 1e-6; trial < 2; trial *= 10) {  // the last serves where no other does
+  double least = std::numeric_limits<double>::infinity();
+  for (double trial = 1e-6; trial < 2; trial *= 10) {
     MatrixXd regular = H;
-    regular.diagonal().array() += trial * rows;
+    regular.diagonal().array() += trial * static_cast<double>(6 * n);
     const Eigen::LLT<MatrixXd> factor(regular);
-    // tr((H + l I)^-1 H) = columns - l tr((H + l I)^-1), from the factor's inverse.
-    MatrixXd inverse = MatrixXd::Identity(columns, columns);
-    factor.matrixL().solveInPlace(inverse);
-    const double freedom = static_cast<double>(columns) - trial * rows * inverse.squaredNorm();
-    if (freedom > kMostFreedom * rows && trial < 0.9) continue;
     const VectorXd w = factor.solve(b);
-    const double score = (y - A * w).squaredNorm() / std::pow(1 - freedom / rows, 2);
-    if (score < least) least = score, lambda = trial, best.weights = w;
+    const VectorXd off = y - A * w;
+    const MatrixXd leverage = factor.matrixL().solve(A.transpose());
+    double outside = 0;
+    for (Index i = 0; i < n; ++i) {
+      const auto own = leverage.middleCols<6>(6 * i);
+      const Eigen::Matrix<double, 6, 6> left =
+          Eigen::Matrix<double, 6, 6>::Identity() - own.transpose() * own;
+      outside += left.ldlt().solve(off.segment<6>(6 * i)).squaredNorm();
+    }
+    if (outside >= least) continue;
+    least = outside;
+    best.weights = w.cwiseProduct(scale);
+    best.optimism = off.squaredNorm() > 0 ? std::clamp(outside / off.squaredNorm(), 1.0, 9.0) : 1;
   }
-  MatrixXd regular = H;
-  regular.diagonal().array() += lambda * rows;
-  const Eigen::LLT<MatrixXd> factor(regular);
-  double inside = 0, outside = 0;
-  for (Index i = 0; i < n; ++i) {
-    const MatrixXd a = A.middleRows<6>(6 * i);
-    const Packed r = y.segment<6>(6 * i) - a * best.weights;
-    const Eigen::Matrix<double, 6, 6> left =
-        Eigen::Matrix<double, 6, 6>::Identity() - a * factor.solve(a.transpose());
-    inside += r.squaredNorm();
-    outside += left.ldlt().solve(r).squaredNorm();
-  }
-  if (inside > 0) best.optimism = std::clamp(outside / inside, 1.0, 9.0);
-  best.weights = best.weights.cwiseProduct(scale);
   return best;
 }
 
@@ -265,8 +257,20 @@ Packed PlaceModel::trend(const PlaceView& view) const {
 }
 
 VectorXd PlaceModel::inflation(const MatrixXd& covariance) const {
-  const MatrixXd near = covariance.array().pow(4).matrix();
-  return optimism_ * ((near * squares_).array() + kPrior) / (near.rowwise().sum().array() + kPrior);
+  // By the samples that are alike, and by the nearest however little these have in common: what
+  // varies fast, as on rough limbs, has none that are alike. The larger holds.
+  MatrixXd alike = covariance, nearest = covariance;
+  const Index nth = std::min<Index>(kNearest, covariance.cols()) - 1;
+  for (Index i = 0; i < covariance.rows(); ++i) {
+    VectorXd row = covariance.row(i).transpose();
+    std::nth_element(row.data(), row.data() + nth, row.data() + row.size(), std::greater<>());
+    nearest.row(i) = (nearest.row(i).array() / std::max(row[nth], 1e-12)).min(1.0);
+  }
+  const auto mean_square = [this](MatrixXd& weights) -> VectorXd {
+    weights = weights.array().pow(4);
+    return ((weights * squares_).array() + kPrior) / (weights.rowwise().sum().array() + kPrior);
+  };
+  return optimism_ * mean_square(alike).cwiseMax(mean_square(nearest));
 }
 
 std::vector<PlaceEstimate> PlaceModel::at(const std::vector<PlaceView>& views,
