@@ -55,6 +55,9 @@ class EffectStep {
   virtual void take_place(const StepPlace& /*place*/) noexcept {}
   // Of a law that takes the linear one's place: its own range, in tool radii.
   virtual LawRange law() const { return {}; }
+  // Of the last sample: how many times as large as in the stiffness of its place, relatively, an
+  // error is in its force.
+  virtual double share_of_stiffness() const noexcept { return 1; }
   // How far over the surface it still acts on a tool that has touched [m].
   virtual double reach() const { return 0; }
   // Motion effects (Effect::move): changes sample.u.

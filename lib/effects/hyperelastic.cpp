@@ -128,6 +128,7 @@ class HyperelasticStep : public EffectStep {
   void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
     Eigen::Map<Vec3> way(memory);
     if (sample.first) way.setZero();
+    share_ = 1;
     if (sample.in_air || !contact_) return;
     Vec3 x = sample.u + way;
     LocalForce force;
@@ -137,11 +138,14 @@ class HyperelasticStep : public EffectStep {
       force = law_.at(x);
     }
     way = x - sample.u;
+    share_ = contact_->share_of_stiffness(force);
     f += stiffness_.K * sample.u - force.F;
   }
+  double share_of_stiffness() const noexcept override { return share_; }
 
  private:
   Law law_;
+  double share_ = 1;
   ContactStiffness stiffness_;
   std::optional<LocalContact> contact_;  // of stiffness_
 };

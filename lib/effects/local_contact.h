@@ -49,6 +49,15 @@ class LocalContact {
     return force;
   }
 
+  // How many times as large, relative to the force, an error of K is in it: one for the linear law,
+  // more where the law has become so stiff that what lies beyond the disc gives way most.
+  double share_of_stiffness(const LocalForce& force) const noexcept {
+    const double size = force.F.norm();
+    if (size <= 0) return 1;
+    const Eigen::Matrix3d& T = force.tangent;
+    return (T * ((contact_.K + rest_ * T).inverse() * force.F)).norm() / size;
+  }
+
   // Derivatives of the disc's stiffnesses by the columns: made once, used for every sample.
   struct DiscByColumns {
     Eigen::RowVectorXd normal, tangential;

@@ -68,6 +68,7 @@ class TipStep : public EffectStep {
       path.clear();
     }
     const Vec3 tool = sample.u;
+    share_ = 1;
     if (sample.in_air || !contact_ || tool.dot(normal_) >= 0) {
       path.clear();
       sample.u.setZero();
@@ -77,15 +78,17 @@ class TipStep : public EffectStep {
     }
     before = tool;
   }
+  double share_of_stiffness() const noexcept override { return share_; }
 
  private:
   // Where no equilibrium is found the tool is a flat one for that sample.
-  void press(const Vec3& tool, PathMemory& path, Vec3& u) const noexcept {
+  void press(const Vec3& tool, PathMemory& path, Vec3& u) noexcept {
     const TipLaw<PathMemory> law{path, *contact_, normal_, kappa_, radius_};
     Vec3 x = tool;
     LocalForce force;
     if (!contact_->find(law, tool, x, force)) return;
     u = tool - x + contact_->disc_way(force.F);
+    share_ = contact_->share_of_stiffness(force);
     const double z = std::max(0.0, -x.dot(normal_));
     const Tangential t = tangential(path, z, law.across * x, kappa_, radius_);
     if (t.leaving) {
@@ -95,7 +98,7 @@ class TipStep : public EffectStep {
     path.go_on({z, law.across * x, t.value}, 1e-13 * radius_);
   }
 
-  double kappa_, radius_;
+  double kappa_, radius_, share_ = 1;
   Vec3 normal_ = Vec3::UnitZ();
   ContactStiffness stiffness_;
   std::optional<LocalContact> contact_;  // of stiffness_

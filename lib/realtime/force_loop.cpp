@@ -139,8 +139,6 @@ Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {
   double* memory = state_.memory.data();
   for (const Running& s : steps_) s.step->move(sample, memory + s.memory);
   const Vec3 pressed = in_air ? Vec3(Vec3::Zero()) : sample.u;
-  set_quality(state_.uncertainty * direction_doubt(state_.place.contact.K, pressed),
-              state_.sampled);
   Vec3 f = -(state_.place.contact.K * pressed);
   if (body_.is_regional()) f += regional_memory(sample, pressed);
   auto s = steps_.begin();
@@ -151,6 +149,10 @@ Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {
     s->step->apply(sample, memory + s->memory, f);
   if (in_air) f.setZero();  // whatever the body remembers
   for (; s != steps_.end(); ++s) s->step->apply(sample, memory + s->memory, f);
+  double share = 1;
+  for (const Running& r : steps_) share = std::max(share, r.step->share_of_stiffness());
+  set_quality(state_.uncertainty * direction_doubt(state_.place.contact.K, pressed) * share,
+              state_.sampled);
   return f;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "effects/local_contact.h"
 #include "experiment/forces.h"
 #include "realtime/force_loop.h"
 #include "support/allocations.h"
@@ -82,6 +83,55 @@ TEST_P(EveryEffectLive, GoesOnFromAStoredState) {
     test::run_live(second, dataset, at,
                    [&](std::size_t i, const Vec3& f) { ASSERT_EQ(f, forces[i]) << i; });
   }
+}
+
+// The force at the end of a press into the body and along it, of a place `factor` times as stiff,
+// and what the steps say of an error of that.
+std::pair<Vec3, double> pressed(const PreparedBody& body, double factor) {
+  StepPlace place;
+  const double radius = body.tool_radius();
+  const DiscStiffness disc = bonded_disc(body.modulus(), 0.4, radius);
+  const Eigen::Matrix3d along = Vec3::UnitZ() * Vec3::UnitZ().transpose();
+  place.contact.modulus = body.modulus();
+  place.contact.nu = 0.4;
+  place.contact.K = factor * 0.9 *
+                    (disc.normal * along + disc.tangential * (Eigen::Matrix3d::Identity() - along));
+  std::vector<std::unique_ptr<EffectStep>> steps;
+  std::vector<std::vector<double>> memories;
+  for (const EffectInstance& i : body.effects()) {
+    if (i.effect->card().stage == Stage::kSensor) continue;
+    auto step = i.effect->step(i.values, {radius, body.modulus(), false});
+    if (!step) continue;
+    step->take_place(place);
+    memories.emplace_back(step->memory(), 0.0);
+    steps.push_back(std::move(step));
+  }
+  Vec3 f = Vec3::Zero();
+  double share = 1;
+  for (int k = 0; k <= 50; ++k) {
+    StepSample sample;
+    sample.first = k == 0;
+    sample.t = 0.01 * k;
+    sample.dt = k == 0 ? 0 : 0.01;
+    sample.recorded = sample.u = radius * k / 50 * Vec3(0.05, 0.1, -0.8);
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i]->move(sample, memories[i].data());
+    f = -place.contact.K * sample.u;
+    for (std::size_t i = 0; i < steps.size(); ++i) steps[i]->apply(sample, memories[i].data(), f);
+  }
+  for (const auto& step : steps) share = std::max(share, step->share_of_stiffness());
+  return {f, share};
+}
+
+TEST_P(EveryEffectLive, TellsWhatAnErrorOfTheStiffnessIsInTheForce) {
+  const EffectCard& card = GetParam()->card();
+  Random random(15);
+  const auto body = prepared(test::model_with(*GetParam(), random, 4));
+  if (body->is_regional()) GTEST_SKIP() << "regions have steps of their own";
+  const double by = 1e-5;
+  const auto [force, share] = pressed(*body, 1);
+  const double change = (pressed(*body, 1 + by).first - force).norm() / (by * force.norm());
+  EXPECT_LT(change, 1.05 * share) << card.name;  // adhesion takes off of the force
+  if (share > 1) EXPECT_GT(change, 0.98 * share) << card.name;
 }
 
 TEST_P(EveryEffectLive, TakesNoMemoryAndStaysFinite) {
