@@ -129,7 +129,7 @@ Packet Operator::move(std::int64_t now, const MotionLine& line) noexcept {
     body_.begin(line.point);
     press_began_ = sent_ + 1;
     safe_.begin_press();
-    measured_.setZero();
+    forget_measured();
   }
   press_ = line.press;
   const double dt = record_.size() == 0 ? 0 : 1 / options_.rate;
@@ -206,7 +206,7 @@ void Operator::receive(std::int64_t now, const Received& received) noexcept {
   }
   if ((force.flags & kSafeEnded) != 0) {
     left_ = true;
-    measured_.setZero();
+    forget_measured();
     return;
   }
   const std::uint64_t index = force.answers - 1;
@@ -224,7 +224,14 @@ void Operator::receive(std::int64_t now, const Received& received) noexcept {
   // Overtaken, or of another press: of use to the model, not to the hand.
   if (force.number <= newest_ || force.answers < press_began_) return;
   newest_ = force.number;
-  if (whole) measured_ = force.first;
+  if (!whole) return;
+  measured_ = force.first;
+  measured_at_ = force.t;
+}
+
+void Operator::forget_measured() noexcept {
+  measured_.setZero();
+  measured_at_ = std::numeric_limits<double>::quiet_NaN();
 }
 
 FeltQuality felt_quality(const FeltRecord& record, std::size_t from, std::size_t to, double rate) {

@@ -103,6 +103,9 @@ class Operator {
   const SafeSample& felt() const { return felt_; }
   const SafetyLimits& limits() const { return safe_.limits(); }
   const Vec3& measured() const { return measured_; }  // the newest that has come of this press
+  double measured_at() const {
+    return measured_at_;
+  }  // time of the sample it answers [s], NaN: none
   bool predicts() const { return identified_ >= 0; }
   // Whether forces have come, and stopped coming.
   bool lost() const { return safe_.lost() || left_; }
@@ -127,6 +130,7 @@ class Operator {
     UnitForces unit;
   };
   void identify() noexcept;
+  void forget_measured() noexcept;
 
   UnitResponse& body_;
   OperatorOptions options_;
@@ -140,6 +144,7 @@ class Operator {
   std::uint64_t sent_ = 0, newest_ = 0, press_began_ = 0;
   std::int32_t press_ = std::numeric_limits<std::int32_t>::min();
   Vec3 measured_ = Vec3::Zero(), place_ = Vec3::Zero();
+  double measured_at_ = std::numeric_limits<double>::quiet_NaN();
   std::int64_t heard_ = 0;
   bool heard_any_ = false, left_ = false;  // left: the teleoperator has said that it ends
   double share_ = 0;                       // of the prediction in what is felt

@@ -32,6 +32,8 @@ grep -q 'energy: the hand put in .* ahead (bound 75)' err || complain 'the energ
 awk -F, '/^1,/ { for (k = 0; k < 3; ++k) if (n) e -= f[k] * ($(6 + k) - u[k]); ++n
   for (k = 0; k < 3; ++k) { u[k] = $(6 + k); f[k] = $(9 + k) }
   if ($21 - e > 1e-9 || e - $21 > 1e-9) bad = 1 } END { exit bad || !n }' felt.csv || complain 'column energy is not the work of the hand'
+awk -F, '/^1,/ && $22 != "" { if ($2 - $22 < 0.0199 || $22 < last) bad = 1; last = $22; ++n } END { exit bad || n < 1000 }' felt.csv ||
+  complain 'column mt is not the time of what the force answers'
 
 # teleoperator ARGUMENTS...: in the background, its process in `far` and its port in `port`
 teleoperator() {

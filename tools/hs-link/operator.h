@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 #include "hs-link/closed.h"
@@ -139,7 +140,9 @@ class OperatorRun {
     text_ += near_.predicts() ? ",1," : ",0,";
     text_ += std::to_string(felt.flags);
     append_columns(text_, felt.unlimited);
-    text_ += ',' + format_number(near_.energy_in()) + '\n';
+    text_ += ',' + format_number(near_.energy_in()) + ',';
+    if (!std::isnan(near_.measured_at())) text_ += format_number(near_.measured_at());
+    text_ += '\n';
     out_ << text_;
     out_.flush();
   }
@@ -221,7 +224,7 @@ inline int run_operator(const Arguments& arguments) {
   Output output(arguments.output());
   std::vector<std::string> header = kForceColumns;
   header.insert(header.end(),
-                {"mx", "my", "mz", "predicted", "safety", "ax", "ay", "az", "energy"});
+                {"mx", "my", "mz", "predicted", "safety", "ax", "ay", "az", "energy", "mt"});
   CsvWriter(output.stream(), metadata, header);
   input.end_on_signals();  // what was felt and identified until then is written
   OperatorRun run(arguments, peer, end, near, output.stream());

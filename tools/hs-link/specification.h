@@ -187,7 +187,9 @@ inline ToolSpec link_specification() {
          "workspace, 16 no valid sample, 32 held, 64 on the way to zero and there, 128 "
          "ended, 256 damped or cut for its energy"},
         {"ax, ay, az", "the force that was asked for [N]"},
-        {"energy", "that the hand has put in so far [J]; below zero: that it has got"}}}};
+        {"energy", "that the hand has put in so far [J]; below zero: that it has got"},
+        {"mt",
+         "time of the row that mx, my, mz answer [s]; empty: nothing has come of this press"}}}};
   spec.examples = {
       {"hs-link --listen 9000 --body real.ply --model hidden.csv --tool-radius 0.004 --delay 0.15",
        "The far side, with half of the delay."},
