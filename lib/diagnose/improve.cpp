@@ -61,6 +61,24 @@ bool is_to_be_added(const Finding& finding) {
                                                   require_effect(finding.effect).card().is_field);
 }
 
+// What is to be added, in order. Of few presses, where none is: the first curve of no law that is
+// possible and foretells what was unseen; it states no cause either.
+std::vector<const Finding*> to_be_added(const Diagnosis& diagnosis, Judge* judge,
+                                        const Forecasts::Names& added) {
+  std::vector<const Finding*> result;
+  for (const Finding& finding : diagnosis.findings)
+    if (is_to_be_added(finding)) result.push_back(&finding);
+  if (!result.empty() || judge == nullptr) return result;
+  for (const Finding& finding : diagnosis.findings) {
+    if (finding.verdict != Verdict::kPossible || !require_effect(finding.effect).card().learned)
+      continue;
+    Forecasts::Names with = added;
+    with.insert(std::upper_bound(with.begin(), with.end(), finding.effect), finding.effect);
+    if (judge->admits(judge->of(added, with))) return {&finding};
+  }
+  return result;
+}
+
 struct Ended {};  // by the watch of the fits
 
 }  // namespace
@@ -108,8 +126,9 @@ Improvement improve(const Model& start, const Experiment& fine, const Experiment
       return result;
     }
     const std::size_t kept = result.steps.size();
-    for (const Finding& finding : result.last.findings) {
-      if (!is_to_be_added(finding)) continue;
+    for (const Finding* found :
+         to_be_added(result.last, judge ? &*judge : nullptr, added_by(result.steps))) {
+      const Finding& finding = *found;
       tell("adding " + finding.effect);
       const ImprovementStep& before = result.steps.back();
       extend.regions = finding.every_site ? kEverySite : kAutomaticRegions;

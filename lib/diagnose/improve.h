@@ -37,7 +37,8 @@ struct Improvement {
 // whole positions (presses, when there is one position) that the fit has not seen falls by the
 // gate of the diagnosis; of few presses, what is missing stays together when it foretells their
 // rest (diagnose/foretold.h). Of effects that the data cannot tell apart none is added but a
-// learned field, which states no cause. `draft` is `fine` with ExperimentOptions::draft, for the
+// learned field, which states no cause; nor of those that few presses make possible any but a
+// learned curve that foretells. `draft` is `fine` with ExperimentOptions::draft, for the
 // diagnosis. A start without parameters is elastic. Error(kNoConvergence) when the first model does
 // not fit.
 Improvement improve(const Model& start, const Experiment& fine, const Experiment& draft,
