@@ -50,7 +50,7 @@ later() { # NAMES: median error [% of the peak] of the model with these effects 
   for starts in 1 5; do
     step 120 hs-identify hold.csv --body body.ply --effects "$effects" --terms $((terms > 1 ? terms : 1)) --fix nu=0.45 \
       --starts $starts --until "$until" -o learned.csv || continue
-    sed -n 's/.*not seen by the fit: .*median \([0-9.e-]*\) %.*/\1/p' err
+    tr -s '\n ' '  ' <err | sed -n 's/.*not seen by the fit: .*median \([0-9.e-]*\) %.*/\1/p'
     return
   done
 }
