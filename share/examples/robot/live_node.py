@@ -1,10 +1,9 @@
-#!/usr/bin/env python3
 """A node of ROS 1 that answers poses of a tool with the forces of a model.
 
 hs-simulate --live is its child: a line t,x,y,z [s, m] in, a line with the force [N] out, before the next pose is
 read. In the frame of the body, which the poses must be in.
 
-    rosrun ... live_node.py _body:=body.ply _model:=model.csv _tool_radius:=4mm tip_pose:=/tip_pose
+    python3 live_node.py _body:=body.ply _model:=model.csv _tool_radius:=4mm tip_pose:=/tip_pose
 
 Subscribes to tip_pose (geometry_msgs/PoseStamped), publishes force (geometry_msgs/WrenchStamped: of the body on the
 tool). ~contacts may name a recording whose contact positions are solved finely before the first pose.
