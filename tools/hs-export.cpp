@@ -226,6 +226,7 @@ int run(const Arguments& arguments) {
   Scene scene = make_scene(
       body, model, recording, press.rows,
       {.steps = static_cast<std::size_t>(arguments[flag::steps]), .bare = arguments[flag::bare]});
+  scene.body_name = arguments[flag::body];
   const bool pressed = solved && !scene.tool.empty();
   Summary summary;
   if (pressed) tell_error(arguments, body, model, recording, press, scene, summary);

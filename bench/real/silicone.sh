@@ -7,8 +7,8 @@ set -euo pipefail
 [[ -n ${2-} && -x $1/hs-identify ]] || { echo "usage: silicone.sh BIN OUT" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export PATH="$(cd "$1" && pwd):$PATH"
-folder=${HAPSIM_SHARED:-$here/../../../shared}/realdata/silicone_compression
-[[ -d $folder ]] || { echo "silicone.sh: no recordings: $folder is missing; set HAPSIM_SHARED" >&2; exit 3; }
+. "$here/recordings.sh"
+folder=$(recordings silicone_compression) || exit
 mkdir -p "$2" && cd "$2"
 printf '%-10s | %10s | %8s | %12s | %s\n' recipe 'E [Pa]' '+-' 'published' 'largest difference to 30 % strain'
 for recipe in $(cd "$folder" && printf '%s\n' *_A1.csv | sed 's/_A1\.csv$//'); do

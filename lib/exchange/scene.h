@@ -13,6 +13,7 @@
 namespace hapsim {
 
 struct Scene {
+  std::string model_name, body_name;  // of the files, for error messages
   TetMesh mesh;                 // with the regions of the model, else with its own
   std::vector<double> modulus;  // Young's modulus by the model's regions [Pa], at rest
   double nu = 0.3;
