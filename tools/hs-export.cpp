@@ -61,7 +61,9 @@ ToolSpec specification() {
       "MuJoCo has no such bodies: of an elastic one it gets the tool on three springs, which are "
       "the "
       "body under it at that press, bonded and at small strain, from hapsim's own mesh; forces of "
-      "whole bodies it gets by a callback (share/examples/mujoco).",
+      "whole bodies it gets by a callback (share/examples/mujoco). Programs that take an FMU get "
+      "those "
+      "forces by share/examples/fmu.",
       "vtu and gmsh hold the mesh alone, the model's regions or else its own, and for vtu the "
       "moduli. "
       "Every tool that takes --body, and hs-tetmesh, reads any of these back but MuJoCo's: nodes, "
