@@ -70,7 +70,7 @@ def write_png(path, grey):
 def main():
     folder = sys.argv[1]
     count = int(sys.argv[2]) if len(sys.argv) > 2 else 36
-    width = int(sys.argv[3]) if len(sys.argv) > 3 else 1200
+    width = int(sys.argv[3]) if len(sys.argv) > 3 else 1000
     height, focus = width * 3 // 4, 0.95 * width
     os.makedirs(folder + "/photographs", exist_ok=True)
     chance, clicks = np.random.default_rng(5), np.random.default_rng(9)

@@ -141,17 +141,19 @@ def main():
     images = read_images(asked.model + "/images.txt")
     known = {row["mark"]: np.array([row["x"], row["y"], row["z"]])
              for row in table(asked.known, (["mark"], ["x", "y", "z"]))}
-    rays = {}
+    rays, lost = {}, set()
     for row in table(asked.marks, (["mark", "photograph"], ["u", "v"])):
         if row["mark"] not in known:
             fail("%s: the mark %s is not in %s" % (asked.marks, row["mark"], asked.known))
         if row["photograph"] not in images:  # COLMAP has found no place for it
-            print("scale_points.py: %s is not in the model: its marks are left out" % row["photograph"], file=sys.stderr)
+            lost.add(row["photograph"])
             continue
         R, t, camera = images[row["photograph"]]
         if camera not in cameras:
             fail("%s/images.txt: the camera %s is not in cameras.txt" % (asked.model, camera))
         rays.setdefault(row["mark"], []).append((-R.T @ t, R.T @ direction(cameras[camera], row["u"], row["v"])))
+    if lost:
+        print("scale_points.py: not in the model, their marks are left out: " + ", ".join(sorted(lost)), file=sys.stderr)
     seen = {}
     for mark, its in rays.items():
         point = triangulate(its) if len(its) > 1 else None
