@@ -1,6 +1,7 @@
-/* fmu_master LIBRARY GUID RESOURCES MOTION OTHER: an importer of FMI 2.0 that does what a simulation does and what it
- * must not. MOTION has rows t x y z. Writes t,fx,fy,fz,uncertainty,beyond,press,contact of each row to standard output,
- * and says on standard error what was wrong; exit code 1 then. OTHER: a folder with the same files. */
+/* fmu_master LIBRARY GUID RESOURCES MOTION OTHER: an importer of FMI 2.0 that does what a
+ * simulation does and what it must not. MOTION has rows t x y z. Writes
+ * t,fx,fy,fz,uncertainty,beyond,press,contact of each row to standard output, and says on standard
+ * error what was wrong; exit code 1 then. OTHER: a folder with the same files. */
 #include <dlfcn.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -12,8 +13,8 @@
 static int wrong, told;
 static char last[4000];
 
-static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
-                   fmi2String message, ...) {
+static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status,
+                   fmi2String category, fmi2String message, ...) {
   va_list words;
   va_start(words, message);
   vsnprintf(last, sizeof last, message, words);
@@ -25,34 +26,39 @@ static void logger(fmi2ComponentEnvironment environment, fmi2String instance, fm
   }
 }
 
-#define CHECK(condition)                                                                        \
-  do {                                                                                          \
-    if (!(condition)) {                                                                         \
-      fprintf(stderr, "line %d: not so: %s; last said: %s\n", __LINE__, #condition, last);      \
-      wrong = 1;                                                                                \
-    }                                                                                           \
+#define CHECK(condition)                                                                   \
+  do {                                                                                     \
+    if (!(condition)) {                                                                    \
+      fprintf(stderr, "line %d: not so: %s; last said: %s\n", __LINE__, #condition, last); \
+      wrong = 1;                                                                           \
+    }                                                                                      \
   } while (0)
 /* Refused, and said why in words that hold `text`. */
-#define REFUSED(call, text)                        \
-  do {                                             \
-    const int before = told;                       \
-    last[0] = 0;                                   \
-    CHECK((call) == fmi2Error);                    \
+#define REFUSED(call, text)                          \
+  do {                                               \
+    const int before = told;                         \
+    last[0] = 0;                                     \
+    CHECK((call) == fmi2Error);                      \
     CHECK(told == before + 1 && strstr(last, text)); \
   } while (0)
 
-#define FUNCTIONS(X)                                                                                               \
-  X(GetTypesPlatform) X(GetVersion) X(Instantiate) X(FreeInstance) X(SetDebugLogging) X(SetupExperiment)          \
-  X(EnterInitializationMode) X(ExitInitializationMode) X(Terminate) X(Reset) X(GetReal) X(GetInteger)             \
-  X(GetBoolean) X(GetString) X(SetReal) X(SetInteger) X(SetBoolean) X(SetString) X(GetFMUstate) X(SetFMUstate)    \
-  X(FreeFMUstate) X(SerializedFMUstateSize) X(SerializeFMUstate) X(DeSerializeFMUstate)                           \
-  X(GetDirectionalDerivative) X(SetRealInputDerivatives) X(GetRealOutputDerivatives) X(DoStep) X(CancelStep)      \
+/* clang-format off */
+#define FUNCTIONS(X)                                                                             \
+  X(GetTypesPlatform) X(GetVersion) X(Instantiate) X(FreeInstance) X(SetDebugLogging)            \
+  X(SetupExperiment) X(EnterInitializationMode) X(ExitInitializationMode) X(Terminate) X(Reset)  \
+  X(GetReal) X(GetInteger) X(GetBoolean) X(GetString)                                            \
+  X(SetReal) X(SetInteger) X(SetBoolean) X(SetString)                                            \
+  X(GetFMUstate) X(SetFMUstate) X(FreeFMUstate)                                                  \
+  X(SerializedFMUstateSize) X(SerializeFMUstate) X(DeSerializeFMUstate)                          \
+  X(GetDirectionalDerivative) X(SetRealInputDerivatives) X(GetRealOutputDerivatives)             \
+  X(DoStep) X(CancelStep)                                                                        \
   X(GetStatus) X(GetRealStatus) X(GetIntegerStatus) X(GetBooleanStatus) X(GetStringStatus)
+/* clang-format on */
 #define DECLARE(name) static __typeof__(&fmi2##name) name##_;
 FUNCTIONS(DECLARE)
 
-static const fmi2ValueReference kTip[] = {0, 1, 2}, kOut[] = {3, 4, 5, 6}, kInt[] = {0, 1}, kFirst[] = {0},
-                                kRadius[] = {7}, kNone[] = {99};
+static const fmi2ValueReference kTip[] = {0, 1, 2}, kOut[] = {3, 4, 5, 6}, kInt[] = {0, 1},
+                                kFirst[] = {0}, kRadius[] = {7}, kNone[] = {99};
 
 typedef struct {
   double t, tip[3];
@@ -64,7 +70,8 @@ static void row_out(fmi2Component c, double t) {
   CHECK(GetReal_(c, kOut, 4, f) == fmi2OK);
   CHECK(GetInteger_(c, kInt, 2, whole) == fmi2OK);
   CHECK(GetBoolean_(c, kFirst, 1, contact) == fmi2OK);
-  printf("%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d\n", t, f[0], f[1], f[2], f[3], whole[0], whole[1], contact[0]);
+  printf("%.17g,%.17g,%.17g,%.17g,%.17g,%d,%d,%d\n", t, f[0], f[1], f[2], f[3], whole[0], whole[1],
+         contact[0]);
 }
 
 /* Instantiated to the end of the motion; `early` asks for outputs while it is initialised. */
@@ -93,24 +100,29 @@ int main(int argc, char** argv) {
   if (argc != 6) return 2;
   void* library = dlopen(argv[1], RTLD_NOW | RTLD_LOCAL);
   if (!library) return fprintf(stderr, "%s\n", dlerror()), 1;
-#define FIND(name) \
-  if (!(*(void**)&name##_ = dlsym(library, "fmi2" #name))) return fprintf(stderr, "no fmi2" #name "\n"), 1;
+#define FIND(name)                                          \
+  if (!(*(void**)& name##_ = dlsym(library, "fmi2" #name))) \
+    return fprintf(stderr, "no fmi2" #name "\n"), 1;
   FUNCTIONS(FIND)
   static Row rows[10000];
   size_t count = 0;
   FILE* motion = fopen(argv[4], "r");
   while (motion && count < 10000 &&
-         fscanf(motion, "%lf %lf %lf %lf", &rows[count].t, rows[count].tip, rows[count].tip + 1, rows[count].tip + 2) == 4)
+         fscanf(motion, "%lf %lf %lf %lf", &rows[count].t, rows[count].tip, rows[count].tip + 1,
+                rows[count].tip + 2) == 4)
     ++count;
   if (count < 10) return fprintf(stderr, "no motion\n"), 1;
   const fmi2CallbackFunctions callbacks = {logger, calloc, free, NULL, &told};
 
   CHECK(strcmp(GetTypesPlatform_(), "default") == 0 && strcmp(GetVersion_(), "2.0") == 0);
-  CHECK(!Instantiate_("tool", fmi2CoSimulation, "{another}", argv[3], &callbacks, 0, 0) && strstr(last, "guid"));
-  CHECK(!Instantiate_("tool", fmi2ModelExchange, argv[2], argv[3], &callbacks, 0, 0) && strstr(last, "co-simulation"));
+  CHECK(!Instantiate_("tool", fmi2CoSimulation, "{another}", argv[3], &callbacks, 0, 0) &&
+        strstr(last, "guid"));
+  CHECK(!Instantiate_("tool", fmi2ModelExchange, argv[2], argv[3], &callbacks, 0, 0) &&
+        strstr(last, "co-simulation"));
   CHECK(!Instantiate_("", fmi2CoSimulation, argv[2], argv[3], &callbacks, 0, 0));
   CHECK(!Instantiate_("tool", fmi2CoSimulation, argv[2], argv[3], NULL, 0, 0));
-  fmi2Component c = Instantiate_("tool", fmi2CoSimulation, argv[2], argv[3], &callbacks, fmi2False, fmi2True);
+  fmi2Component c =
+      Instantiate_("tool", fmi2CoSimulation, argv[2], argv[3], &callbacks, fmi2False, fmi2True);
   if (!c) return fprintf(stderr, "not instantiated: %s\n", last), 1;
 
   /* Before it is initialised. */
@@ -161,7 +173,8 @@ int main(int argc, char** argv) {
   REFUSED(SetReal_(c, kTip, 3, rows[0].tip), "not after fmi2Terminate");
   CHECK(GetReal_(c, kOut, 4, after) == fmi2OK && memcmp(before, after, sizeof after) == 0);
 
-  /* The same again after a reset, with outputs asked for while it is initialised, from another folder. */
+  /* The same again after a reset, with outputs asked for while it is initialised, from another
+   * folder. */
   CHECK(Reset_(c) == fmi2OK);
   CHECK(SetString_(c, kFirst, 1, &folder) == fmi2OK);
   simulate(c, rows, count, 1, 0);
@@ -171,13 +184,15 @@ int main(int argc, char** argv) {
   /* A folder without files: said, and mended by another one. */
   folder = "/nowhere";
   CHECK(SetString_(c, kFirst, 1, &folder) == fmi2OK);
-  CHECK(SetupExperiment_(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK && EnterInitializationMode_(c) == fmi2OK);
+  CHECK(SetupExperiment_(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK &&
+        EnterInitializationMode_(c) == fmi2OK);
   REFUSED(ExitInitializationMode_(c), "/nowhere/body.ply");
   folder = "";
   CHECK(SetString_(c, kFirst, 1, &folder) == fmi2OK && ExitInitializationMode_(c) == fmi2OK);
 
   /* Two instances at once do not feel each other. */
-  fmi2Component other = Instantiate_("tool", fmi2CoSimulation, argv[2], argv[3], &callbacks, fmi2False, fmi2False);
+  fmi2Component other =
+      Instantiate_("tool", fmi2CoSimulation, argv[2], argv[3], &callbacks, fmi2False, fmi2False);
   CHECK(other != NULL);
   simulate(other, rows, count, 0, 0);
   CHECK(GetReal_(other, kOut, 4, after) == fmi2OK && memcmp(before, after, sizeof after) == 0);
@@ -185,7 +200,8 @@ int main(int argc, char** argv) {
   FreeInstance_(c);
   /* Without resources the parameter is asked for. */
   c = Instantiate_("tool", fmi2CoSimulation, argv[2], NULL, &callbacks, fmi2False, fmi2False);
-  CHECK(c && SetupExperiment_(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK && EnterInitializationMode_(c) == fmi2OK);
+  CHECK(c && SetupExperiment_(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK &&
+        EnterInitializationMode_(c) == fmi2OK);
   REFUSED(ExitInitializationMode_(c), "model_directory");
   FreeInstance_(c);
   dlclose(library);

@@ -1,10 +1,11 @@
-/* A body and a model of hapsim as an FMU of FMI 2.0 for co-simulation: where the tip is in, the force on it out, as
- * hs-simulate --live has it, over the C interface of libhapsim.so. Built and packed by make-fmu.sh, which gives
- * HAPSIM_FMU_GUID, HAPSIM_FMU_RADIUS and HAPSIM_FMU_ACCURACY.
+/* A body and a model of hapsim as an FMU of FMI 2.0 for co-simulation: where the tip is in, the
+ * force on it out, as hs-simulate --live has it, over the C interface of libhapsim.so. Built and
+ * packed by make-fmu.sh, which gives HAPSIM_FMU_GUID, HAPSIM_FMU_RADIUS and HAPSIM_FMU_ACCURACY.
  *
- * A step from t to t + h is one step of the live loop: at t + h the tip is where the inputs are, and the motion to there
- * is straight. On leaving the initialisation the tip is at the inputs' start. Body and model are made ready then, which
- * takes some seconds the first time, and are kept by content in the user's cache. */
+ * A step from t to t + h is one step of the live loop: at t + h the tip is where the inputs are,
+ * and the motion to there is straight. On leaving the initialisation the tip is at the inputs'
+ * start. Body and model are made ready then, which takes some seconds the first time, and are kept
+ * by content in the user's cache. */
 #include <hapsim.h>
 #include <math.h>
 #include <stdio.h>
@@ -42,7 +43,8 @@ static char* copied(const char* text) {
 
 static void tell(const Instance* c, fmi2Status status, const char* category, const char* words) {
   if (c->callbacks->logger && (c->logging || status >= fmi2Warning))
-    c->callbacks->logger(c->callbacks->componentEnvironment, c->name, status, category, "%s", words);
+    c->callbacks->logger(c->callbacks->componentEnvironment, c->name, status, category, "%s",
+                         words);
 }
 
 static fmi2Status failed(const Instance* c, const char* where, const char* words) {
@@ -52,16 +54,19 @@ static fmi2Status failed(const Instance* c, const char* where, const char* words
   return fmi2Error;
 }
 
-static fmi2Status of_library(const Instance* c, const char* where) { return failed(c, where, hs_message()); }
+static fmi2Status of_library(const Instance* c, const char* where) {
+  return failed(c, where, hs_message());
+}
 
 static int may(const Instance* c, int states, const char* where) {
   if (!c) return 0;
   if (c->state & states) return 1;
-  failed(c, where,
-         c->state == kInstantiated   ? "not before fmi2EnterInitializationMode; or fmi2Reset came before"
-         : c->state == kInitialising ? "not before fmi2ExitInitializationMode"
-         : c->state == kStepping     ? "not while steps are made; fmi2Terminate, then fmi2Reset come first"
-                                     : "not after fmi2Terminate; fmi2Reset comes first");
+  failed(
+      c, where,
+      c->state == kInstantiated ? "not before fmi2EnterInitializationMode; or fmi2Reset came before"
+      : c->state == kInitialising ? "not before fmi2ExitInitializationMode"
+      : c->state == kStepping ? "not while steps are made; fmi2Terminate, then fmi2Reset come first"
+                              : "not after fmi2Terminate; fmi2Reset comes first");
   return 0;
 }
 
@@ -109,13 +114,18 @@ static char* path_of(const char* uri) {
   return NULL;
 }
 
-static void said(void* context, const char* words) { tell(context, fmi2OK, "logAll", words); }
+static void said(void* context, const char* words) {
+  tell(context, fmi2OK, "logAll", words);
+}
 
-/* Reads body.ply, model.csv and, where there is one, contacts.csv of a folder, and makes them ready. */
+/* Reads body.ply, model.csv and, where there is one, contacts.csv of a folder, and makes them
+ * ready. */
 static fmi2Status prepare(Instance* c, const char* where) {
   const char* folder = c->directory[0] ? c->directory : c->resources;
   if (!folder)
-    return failed(c, where, "fmi2Instantiate was given no folder of resources; set the parameter model_directory");
+    return failed(
+        c, where,
+        "fmi2Instantiate was given no folder of resources; set the parameter model_directory");
   const size_t length = strlen(folder) + 16;
   char* path = malloc(length);
   if (!path) return failed(c, where, "no memory");
@@ -177,11 +187,16 @@ static fmi2Status begin(Instance* c, const char* where) {
   return fmi2OK;
 }
 
-const char* fmi2GetTypesPlatform(void) { return fmi2TypesPlatform; }
-const char* fmi2GetVersion(void) { return fmi2Version; }
+const char* fmi2GetTypesPlatform(void) {
+  return fmi2TypesPlatform;
+}
+const char* fmi2GetVersion(void) {
+  return fmi2Version;
+}
 
-fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String guid, fmi2String resources,
-                              const fmi2CallbackFunctions* callbacks, fmi2Boolean visible, fmi2Boolean logging) {
+fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String guid,
+                              fmi2String resources, const fmi2CallbackFunctions* callbacks,
+                              fmi2Boolean visible, fmi2Boolean logging) {
   (void)visible;
   if (!callbacks || !instance || !instance[0] || !guid) return NULL;
   Instance* c = calloc(1, sizeof *c);
@@ -197,10 +212,12 @@ fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String gui
     failed(c, "fmi2Instantiate", "this FMU is for co-simulation");
     good = 0;
   } else if (good && strcmp(guid, HAPSIM_FMU_GUID) != 0) {
-    failed(c, "fmi2Instantiate", "modelDescription.xml is that of another FMU (guid); pack it again");
+    failed(c, "fmi2Instantiate",
+           "modelDescription.xml is that of another FMU (guid); pack it again");
     good = 0;
   } else if (good && HS_INTERFACE > hs_interface()) {
-    failed(c, "fmi2Instantiate", "libhapsim.so is older than this FMU; install that of its version");
+    failed(c, "fmi2Instantiate",
+           "libhapsim.so is older than this FMU; install that of its version");
     good = 0;
   }
   if (!good) {
@@ -232,10 +249,12 @@ fmi2Status fmi2SetDebugLogging(fmi2Component component, fmi2Boolean logging, siz
   return fmi2OK;
 }
 
-fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined, fmi2Real tolerance,
-                               fmi2Real start, fmi2Boolean stop_defined, fmi2Real stop) {
+fmi2Status fmi2SetupExperiment(fmi2Component component, fmi2Boolean tolerance_defined,
+                               fmi2Real tolerance, fmi2Real start, fmi2Boolean stop_defined,
+                               fmi2Real stop) {
   Instance* c = component;
-  (void)tolerance_defined; /* what is left to choose is `accuracy`, of the samples between which is interpolated */
+  (void)tolerance_defined; /* what is left to choose is `accuracy`, of the samples between which is
+                              interpolated */
   (void)tolerance;
   if (!may(c, kInstantiated, "fmi2SetupExperiment")) return fmi2Error;
   if (!isfinite(start) || (stop_defined && !(stop >= start)))
@@ -280,8 +299,8 @@ fmi2Status fmi2Reset(fmi2Component component) {
 }
 
 /* ---- Values. */
-static int known(const Instance* c, const fmi2ValueReference which[], size_t count, size_t all, const void* values,
-                 const char* where) {
+static int known(const Instance* c, const fmi2ValueReference which[], size_t count, size_t all,
+                 const void* values, const char* where) {
   if (count > 0 && (!which || !values)) return failed(c, where, "an array is missing"), 0;
   for (size_t i = 0; i < count; ++i)
     if (which[i] >= all) return failed(c, where, "there is no variable of this value reference"), 0;
@@ -294,13 +313,15 @@ static fmi2Status readable(Instance* c, const char* where) {
   return c->state == kInitialising && c->dirty ? begin(c, where) : fmi2OK;
 }
 
-fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference which[], size_t count, fmi2Real values[]) {
+fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference which[], size_t count,
+                       fmi2Real values[]) {
   Instance* c = component;
   if (!may(c, kInitialising | kStepping | kTerminated, "fmi2GetReal") ||
       !known(c, which, count, kReals, values, "fmi2GetReal"))
     return fmi2Error;
   for (size_t i = 0; i < count; ++i)
-    if (which[i] >= kFx && which[i] <= kUncertainty && readable(c, "fmi2GetReal") != fmi2OK) return fmi2Error;
+    if (which[i] >= kFx && which[i] <= kUncertainty && readable(c, "fmi2GetReal") != fmi2OK)
+      return fmi2Error;
   for (size_t i = 0; i < count; ++i) values[i] = c->real[which[i]];
   return fmi2OK;
 }
@@ -308,7 +329,8 @@ fmi2Status fmi2GetReal(fmi2Component component, const fmi2ValueReference which[]
 fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference which[], size_t count,
                           fmi2Integer values[]) {
   Instance* c = component;
-  if (readable(c, "fmi2GetInteger") != fmi2OK || !known(c, which, count, kIntegers, values, "fmi2GetInteger"))
+  if (readable(c, "fmi2GetInteger") != fmi2OK ||
+      !known(c, which, count, kIntegers, values, "fmi2GetInteger"))
     return fmi2Error;
   for (size_t i = 0; i < count; ++i) values[i] = c->integer[which[i]];
   return fmi2OK;
@@ -317,13 +339,15 @@ fmi2Status fmi2GetInteger(fmi2Component component, const fmi2ValueReference whic
 fmi2Status fmi2GetBoolean(fmi2Component component, const fmi2ValueReference which[], size_t count,
                           fmi2Boolean values[]) {
   Instance* c = component;
-  if (readable(c, "fmi2GetBoolean") != fmi2OK || !known(c, which, count, kBooleans, values, "fmi2GetBoolean"))
+  if (readable(c, "fmi2GetBoolean") != fmi2OK ||
+      !known(c, which, count, kBooleans, values, "fmi2GetBoolean"))
     return fmi2Error;
   for (size_t i = 0; i < count; ++i) values[i] = c->boolean[which[i]];
   return fmi2OK;
 }
 
-fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference which[], size_t count, fmi2String values[]) {
+fmi2Status fmi2GetString(fmi2Component component, const fmi2ValueReference which[], size_t count,
+                         fmi2String values[]) {
   Instance* c = component;
   if (!may(c, kInitialising | kStepping | kTerminated, "fmi2GetString") ||
       !known(c, which, count, kStrings, values, "fmi2GetString"))
@@ -336,13 +360,16 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference which[]
                        const fmi2Real values[]) {
   static const char* const where = "fmi2SetReal";
   Instance* c = component;
-  if (!may(c, kInstantiated | kInitialising | kStepping, where) || !known(c, which, count, kReals, values, where))
+  if (!may(c, kInstantiated | kInitialising | kStepping, where) ||
+      !known(c, which, count, kReals, values, where))
     return fmi2Error;
   for (size_t i = 0; i < count; ++i) { /* all or none */
     if (!isfinite(values[i])) return failed(c, where, "a value is not finite");
-    if (which[i] >= kFx && which[i] <= kUncertainty) return failed(c, where, "an output is not set");
+    if (which[i] >= kFx && which[i] <= kUncertainty)
+      return failed(c, where, "an output is not set");
     if (which[i] > kUncertainty && c->state == kStepping)
-      return failed(c, where, "a parameter is fixed once the instance is initialised; fmi2Reset comes first");
+      return failed(c, where,
+                    "a parameter is fixed once the instance is initialised; fmi2Reset comes first");
   }
   for (size_t i = 0; i < count; ++i) {
     if (which[i] > kUncertainty && c->real[which[i]] != values[i]) forget(c);
@@ -355,11 +382,13 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference which[]
 static fmi2Status outputs_alone(Instance* c, const char* where) {
   return c ? failed(c, where, "no variable of this type is set from outside") : fmi2Error;
 }
-fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference which[], size_t count, const fmi2Integer values[]) {
+fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference which[], size_t count,
+                          const fmi2Integer values[]) {
   (void)which, (void)values;
   return c && count == 0 ? fmi2OK : outputs_alone(c, "fmi2SetInteger");
 }
-fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference which[], size_t count, const fmi2Boolean values[]) {
+fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference which[], size_t count,
+                          const fmi2Boolean values[]) {
   (void)which, (void)values;
   return c && count == 0 ? fmi2OK : outputs_alone(c, "fmi2SetBoolean");
 }
@@ -381,7 +410,8 @@ fmi2Status fmi2SetString(fmi2Component component, const fmi2ValueReference which
 }
 
 /* ---- Steps. */
-fmi2Status fmi2DoStep(fmi2Component component, fmi2Real from, fmi2Real step, fmi2Boolean no_state_before) {
+fmi2Status fmi2DoStep(fmi2Component component, fmi2Real from, fmi2Real step,
+                      fmi2Boolean no_state_before) {
   static const char* const where = "fmi2DoStep";
   Instance* c = component;
   (void)no_state_before; /* it never goes back */
@@ -407,7 +437,8 @@ fmi2Status fmi2GetRealStatus(fmi2Component component, const fmi2StatusKind kind,
   *value = c->time;
   return fmi2OK;
 }
-fmi2Status fmi2GetBooleanStatus(fmi2Component component, const fmi2StatusKind kind, fmi2Boolean* value) {
+fmi2Status fmi2GetBooleanStatus(fmi2Component component, const fmi2StatusKind kind,
+                                fmi2Boolean* value) {
   Instance* c = component;
   if (!may(c, kStepping | kTerminated, "fmi2GetBooleanStatus")) return fmi2Error;
   if (kind != fmi2Terminated || !value) return fmi2Discard;
@@ -448,27 +479,32 @@ fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_
   (void)state, (void)size;
   return unable(c, "fmi2SerializedFMUstateSize");
 }
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size) {
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[],
+                                 size_t size) {
   (void)state, (void)bytes, (void)size;
   return unable(c, "fmi2SerializeFMUstate");
 }
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size, fmi2FMUstate* state) {
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], size_t size,
+                                   fmi2FMUstate* state) {
   (void)bytes, (void)size, (void)state;
   return unable(c, "fmi2DeSerializeFMUstate");
 }
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[], size_t unknown_count,
-                                        const fmi2ValueReference known_ones[], size_t known_count,
-                                        const fmi2Real seed[], fmi2Real values[]) {
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReference unknown[],
+                                        size_t unknown_count, const fmi2ValueReference known_ones[],
+                                        size_t known_count, const fmi2Real seed[],
+                                        fmi2Real values[]) {
   (void)unknown, (void)unknown_count, (void)known_ones, (void)known_count, (void)seed, (void)values;
   return unable(c, "fmi2GetDirectionalDerivative");
 }
-fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference which[], size_t count,
-                                       const fmi2Integer order[], const fmi2Real values[]) {
+fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference which[],
+                                       size_t count, const fmi2Integer order[],
+                                       const fmi2Real values[]) {
   (void)which, (void)count, (void)order, (void)values;
   return unable(c, "fmi2SetRealInputDerivatives");
 }
-fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference which[], size_t count,
-                                        const fmi2Integer order[], fmi2Real values[]) {
+fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference which[],
+                                        size_t count, const fmi2Integer order[],
+                                        fmi2Real values[]) {
   (void)which, (void)count, (void)order, (void)values;
   return unable(c, "fmi2GetRealOutputDerivatives");
 }
