@@ -61,7 +61,9 @@ ToolSpec specification() {
       "MuJoCo has no such bodies: of an elastic one it gets the tool on three springs, which are "
       "the "
       "body under it at that press, bonded and at small strain, from hapsim's own mesh; forces of "
-      "whole bodies it gets by a callback (share/examples/mujoco).",
+      "whole bodies it gets by a callback (share/examples/mujoco). Programs that take an FMU get "
+      "those "
+      "forces by share/examples/fmu.",
       "vtu and gmsh hold the mesh alone, the model's regions or else its own, and for vtu the "
       "moduli. "
       "Every tool that takes --body, and hs-tetmesh, reads any of these back but MuJoCo's: nodes, "
@@ -226,6 +228,7 @@ int run(const Arguments& arguments) {
   Scene scene = make_scene(
       body, model, recording, press.rows,
       {.steps = static_cast<std::size_t>(arguments[flag::steps]), .bare = arguments[flag::bare]});
+  scene.body_name = arguments[flag::body];
   const bool pressed = solved && !scene.tool.empty();
   Summary summary;
   if (pressed) tell_error(arguments, body, model, recording, press, scene, summary);

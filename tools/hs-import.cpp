@@ -12,6 +12,7 @@
 #include "import/block.h"
 #include "import/implausible.h"
 #include "import/import_report.h"
+#include "import/tip_motion.h"
 #include "io/number.h"
 #include "io/quantity.h"
 #include "tables/encoding.h"
@@ -23,7 +24,9 @@ inline constexpr TextFlag unit{"--unit"}, force_unit{"--force-unit"}, time_unit{
     encoding{"--encoding"}, specimen{"--specimen"}, part{"--part"};
 inline constexpr ChoiceFlag contact{"--contact"}, tip{"--tip"}, force{"--force"},
     estimate_noise{"--estimate-noise"}, tool{"--tool"}, decimal{"--decimal"};
-inline constexpr SwitchFlag list{"--list"}, drop_air{"--drop-air"}, yes{"--yes"};
+inline constexpr TextFlag topic{"--topic"};
+inline constexpr SwitchFlag list{"--list"}, tip_motion{"--tip-motion"}, drop_air{"--drop-air"},
+    yes{"--yes"};
 inline constexpr LengthsFlag at{"--at"}, block{"--block"};
 inline constexpr FileFlag surface{"--surface"}, scan{"--scan"};
 inline constexpr NumberFlag rate{"--rate"};
@@ -75,6 +78,12 @@ std::vector<Option> options() {
            "Of a MATLAB or HDF5 file that holds several tables: the struct, group or variable that "
            "is "
            "read."),
+      {.flag = flag::topic,
+       .value = "NAME",
+       .help = "Of a bag of ROS: the topic that is read; given twice, one of forces and one of "
+               "positions. Without it the only one of each.",
+       .group = "Columns",
+       .repeatable = true},
       choice("Columns", flag::decimal,
              "What stands before decimals, where the table does not show it.", "auto",
              {"auto", "point", "comma"}),
@@ -145,6 +154,10 @@ std::vector<Option> options() {
                "hs-scan2ply.",
        .group = "Output",
        .writes = kTableExtensions},
+      {.flag = flag::tip_motion,
+       .help = "Makes no presses: writes where the tip is in time, t,x,y,z, as hs-simulate --live "
+               "follows it. Forces are not needed.",
+       .group = "Output"},
       choice("Output", flag::estimate_noise,
              "Whether the noise of the force is estimated and written as metadata force_noise, and "
              "where it comes from as force_noise_from: from "
@@ -168,7 +181,7 @@ ToolSpec specification() {
   spec.name = "hs-import";
   spec.task = Task::kRecording;
   spec.summary = "convert recordings of other machines and robots";
-  spec.input = "table as text, in any encoding; LabVIEW .lvm, MATLAB (5, 7.3), HDF5";
+  spec.input = "table as text, in any encoding; LabVIEW .lvm, MATLAB (5, 7.3), HDF5, bag of ROS 1";
   spec.description = {
       "Columns are recognised by name, in English, German, French, Spanish, Italian, Portuguese, "
       "Chinese and Japanese, whatever their case and punctuation: "
@@ -200,6 +213,14 @@ ToolSpec specification() {
       "structs a recording each; what stands alone in a struct is repeated. An attribute units of "
       "a dataset "
       "names its unit.",
+      "Of a bag of ROS 1 (format 2.0, not compressed) forces are a topic of "
+      "geometry_msgs/WrenchStamped, "
+      "positions of the tip one of PoseStamped, PointStamped or TransformStamped. Positions are "
+      "taken "
+      "between their stamps at those of the forces; where no position is near, the force is left "
+      "out and "
+      "counted. Torques and the orientation are carried through as tx,ty,tz and qw,qx,qy,qz, which "
+      "--calibration reads.",
       "Where the table holds the centre of the tool's ball at first contact and the contact point, "
       "their "
       "distance is the ball's radius: tool: sphere and tool_radius are written, and another "
@@ -249,6 +270,8 @@ ToolSpec specification() {
        "A cylinder between platens."},
       {"hs-import liver_region1.csv --calibration cal.csv --scan touched.csv -o data.csv",
        "With the sensor, the tool's weight and the arm put right (hs-calibrate(1))."},
+      {"hs-import session.bag --topic /wrench --topic /tip_pose --tool-radius 4mm -o data.csv",
+       "Forces and positions of a bag of ROS 1, by their stamps."},
       {"cat run*.csv | hs-import --unit mm --tool-radius 4mm -o data.csv",
        "Files joined, one recording each."}};
   spec.see_also = {"hs-scan2ply(1)", "hs-tetmesh(1)", "hs-identify(1)"};
@@ -321,6 +344,8 @@ TableOptions table_options(const Arguments& arguments) {
   TableOptions options;
   options.names = arguments.list(flag::names);
   if (arguments.given(flag::part)) options.part = arguments[flag::part];
+  options.topics = arguments.list(flag::topic);
+  options.positions_alone = arguments[flag::tip_motion];
   if (arguments.given(flag::encoding)) options.encoding = arguments[flag::encoding];
   const std::string decimal = arguments[flag::decimal];
   if (decimal != "auto") options.decimal = decimal;
@@ -338,11 +363,28 @@ std::string next_command(const Arguments& arguments) {
   return "hs-identify " + shell_quoted(arguments.output()) + " --body body.ply -o m0.csv";
 }
 
+int write_motion(const RawTable& table, const ImportOptions& options, const Arguments& arguments) {
+  Output output(result_file(arguments));
+  const TipMotion motion = tip_motion(table, options);
+  write_tip_motion(output.stream(), motion);
+  output.commit();
+  Summary summary = tip_motion_summary(motion);
+  if (arguments.output() != "-")
+    summary.next = "hs-simulate --live " + shell_quoted(arguments.output()) +
+                   " --body body.ply --model model.csv -o forces.csv";
+  tell_answer(arguments, summary);
+  return 0;
+}
+
 int run(const Arguments& arguments) {
   std::optional<Block> block;
   if (arguments.given(flag::block)) block = parse_block(arguments[flag::block]);
   if (arguments.given(flag::surface) && !block)
     fail_usage("--surface needs the size of the block", "add --block LxWxH, or DxH for a cylinder");
+  if (arguments[flag::tip_motion])
+    for (const AnyFlag& other : {AnyFlag(flag::scan), AnyFlag(flag::calibration)})
+      if (arguments.given(other))
+        fail_usage("--tip-motion makes no presses, " + other + " needs them", "give one of them");
   const ImportOptions options = import_options(arguments, block);
 
   Input input(arguments.input());
@@ -353,6 +395,7 @@ int run(const Arguments& arguments) {
     output.commit();
     return 0;
   }
+  if (arguments[flag::tip_motion]) return write_motion(table, options, arguments);
   Output output(result_file(arguments));
   const ImportResult result = import_recording(table, options);
   write_recording(output.stream(), result.recording);

@@ -8,9 +8,9 @@ set -euo pipefail
 [[ -n ${2-} && -x $1/hs-identify ]] || { echo "usage: lumps.sh BIN OUT" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export PATH="$(cd "$1" && pwd):$PATH"
+. "$here/recordings.sh"
+table=$(recordings phantom_balls/whole_region_model_v2.csv) || exit
 mkdir -p "$2" && cd "$2"
-table=${HAPSIM_SHARED:-$here/../../../shared}/realdata/phantom_balls/whole_region_model_v2.csv
-[[ -e $table ]] || { echo "lumps.sh: no recording: $table is missing; set HAPSIM_SHARED" >&2; exit 3; }
 [[ -e all.csv ]] || hs-import -q "$table" --unit mm --scan touched.csv -o all.csv
 [[ -e body.ply ]] || hs-scan2ply -q touched.csv | hs-reconstruct -q --window | hs-tetmesh -q -o body.ply
 for half in 0 1; do

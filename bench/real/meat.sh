@@ -13,12 +13,12 @@ set -uo pipefail
 [[ -n ${2-} && -x $1/hs-identify ]] || { echo "usage: meat.sh BIN OUT [--null] [TABLE...]" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export PATH="$(cd "$1" && pwd):$PATH"
+. "$here/recordings.sh"
+folder=$(recordings meat_zwick) || exit
 mkdir -p "$2" && out=$(cd "$2" && pwd)
 shift 2
 null=
 [[ ${1-} == --null ]] && null=yes && shift
-folder=${HAPSIM_SHARED:-$here/../../../shared}/realdata/meat_zwick
-[[ -d $folder ]] || { echo "meat.sh: no recordings: $folder is missing; set HAPSIM_SHARED" >&2; exit 3; }
 . "$here/recipes.sh"
 if ((!$#)); then
   mapfile -t tables < <(cd "$folder" && printf '%s\n' meat_*.csv | sed 's/^meat_//; s/\.csv$//')

@@ -10,10 +10,10 @@ set -uo pipefail
 [[ -n ${2-} && -x $1/hs-identify ]] || { echo "usage: run.sh BIN OUT [NAME...]" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export PATH="$(cd "$1" && pwd):$PATH"
+. "$here/recordings.sh"
+folder=$(recordings .) || exit
 mkdir -p "$2" && out=$(cd "$2" && pwd)
 shift 2
-folder=${HAPSIM_SHARED:-$here/../../../shared}/realdata
-[[ -d $folder ]] || { echo "run.sh: no recordings: $folder is missing; set HAPSIM_SHARED" >&2; exit 3; }
 . "$here/sets.sh"
 . "$here/recipes.sh"
 

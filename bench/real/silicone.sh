@@ -8,8 +8,8 @@ set -euo pipefail
 [[ -n ${2-} && -x $1/hs-identify ]] || { echo "usage: silicone.sh BIN OUT" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export PATH="$(cd "$1" && pwd):$PATH"
-folder=${HAPSIM_SHARED:-$here/../../../shared}/realdata/silicone_compression
-[[ -d $folder ]] || { echo "silicone.sh: no recordings: $folder is missing; set HAPSIM_SHARED" >&2; exit 3; }
+. "$here/recordings.sh"
+folder=$(recordings silicone_compression) || exit
 mkdir -p "$2" && cd "$2"
 fitted() { # TABLE...: body, model and forces of these samples
   cat "$@" >tables.csv

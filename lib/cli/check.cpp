@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <set>
 
 #include "base/error.h"
@@ -61,6 +63,14 @@ void check_extension(const Option& option, const std::string& text) {
              "end the name in " + list);
 }
 
+// Standard output, and what takes many outputs one after the other: a device, a pipe.
+bool is_no_file(const std::string& name) {
+  std::error_code absent;
+  const auto status = std::filesystem::status(name, absent);
+  return name == "-" ||
+         (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
+}
+
 }  // namespace
 
 void check_value(const Option& option, const std::string& text) {
@@ -80,11 +90,25 @@ std::string in_si(const Option& option, const std::string& text) {
 }
 
 void check_outputs(const ToolSpec& spec, const Arguments& arguments) {
+  std::map<std::filesystem::path, std::string> flag_of;
   for (const Option& option : all_options(spec)) {
     if (option.kind() != OptionKind::kFile) continue;
     if (option.writes.empty() && option.value != kPrefix) continue;
-    for (const std::string& name : arguments.list(option.flag))
+    for (const std::string& name : arguments.list(option.flag)) {
       require_output(option.value == kPrefix ? name + "0" : name);
+      if (option.value == kPrefix || is_no_file(name)) continue;
+      std::error_code no_path;  // then nothing lies there yet
+      std::filesystem::path path = std::filesystem::absolute(name, no_path);
+      if (!no_path) path = std::filesystem::weakly_canonical(path, no_path);
+      if (no_path) path = name;
+      const auto [other, fresh] = flag_of.try_emplace(path, option.name());
+      if (!fresh)
+        fail_usage((other->second == option.name()
+                        ? option.name() + " twice writes "
+                        : option.name() + " and " + other->second + " both write ") +
+                       shown(name),
+                   "the second would replace the first: give each a name of its own");
+    }
   }
 }
 

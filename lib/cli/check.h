@@ -15,7 +15,8 @@ std::string in_si(const Option& option, const std::string& text);
 // of bounds, not a choice, empty, a file with an extension that is not written.
 void check_value(const Option& option, const std::string& text);
 
-// Error(kIo) where an output that is asked for could not be made: told before the work.
+// Error(kIo) where an output that is asked for could not be made, Error(kUsage) where two are one
+// file: told before the work.
 void check_outputs(const ToolSpec& spec, const Arguments& arguments);
 
 }  // namespace hapsim

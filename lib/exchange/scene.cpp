@@ -98,6 +98,7 @@ Scene make_scene(const TetMesh& body, const Model& model, const Recording& recor
   const MaterialSpec material = material_of(model);
   const FullSpec spec = checked_effects(model, material, options.bare);
   Scene scene;
+  scene.model_name = model.name;
   scene.mesh = body;
   scene.modulus = material.modulus;
   scene.nu = material.nu;

@@ -13,8 +13,9 @@
 namespace hapsim {
 
 struct Scene {
-  TetMesh mesh;                 // with the regions of the model, else with its own
-  std::vector<double> modulus;  // Young's modulus by the model's regions [Pa], at rest
+  std::string model_name, body_name;  // of the files, for error messages
+  TetMesh mesh;                       // with the regions of the model, else with its own
+  std::vector<double> modulus;        // Young's modulus by the model's regions [Pa], at rest
   double nu = 0.3;
   bool finite = false;  // neo-Hookean (hyperelastic_law.h); else Hooke's law, small strain
   std::vector<MaxwellTerm> terms;  // of the whole body: relaxation added to the modulus at rest

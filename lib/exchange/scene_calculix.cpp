@@ -11,7 +11,7 @@ namespace hapsim {
 
 void write_calculix(std::ostream& out, const Scene& scene) {
   if (!scene.terms.empty())
-    fail_input("", "CalculiX has no linear viscoelasticity",
+    fail_input(scene.model_name, "CalculiX has no linear viscoelasticity",
                "export to FEBio, or take viscoelastic out of the model");
   for (const std::string& remark : scene.remarks) out << "** " << remark << '\n';
   write_mesh_abaqus(out, scene.mesh);

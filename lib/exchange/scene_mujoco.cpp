@@ -10,7 +10,7 @@ namespace hapsim {
 void write_mujoco(std::ostream& out, const Scene& scene, const GradedPress& press, double radius) {
   if (!scene.terms.empty() || scene.finite)
     fail_input(
-        "",
+        scene.model_name,
         std::string("springs of MuJoCo have no ") + (scene.finite ? "finite strain" : "relaxation"),
         "give MuJoCo the force itself (share/examples/mujoco), or take the effect out of the "
         "model");

@@ -29,10 +29,11 @@ void write_regions(std::ostream& out, const TetMesh& mesh) {
 void write_sofa(std::ostream& out, const Scene& scene) {
   const TetMesh& mesh = scene.mesh;
   if (mesh.order != 1)
-    fail_input("", "SOFA's tetrahedra are of first order", "mesh again with hs-tetmesh --order 1");
+    fail_input(scene.body_name, "SOFA's tetrahedra are of first order",
+               "mesh again with hs-tetmesh --order 1");
   if (scene.finite || !scene.terms.empty())
     fail_input(
-        "",
+        scene.model_name,
         std::string("the scene for SOFA has no ") + (scene.finite ? "finite strain" : "relaxation"),
         "export to FEBio, or take the effect out of the model");
   const double end = scene.t.empty() ? 1 : scene.t.back();

@@ -16,6 +16,7 @@ struct Container {
 
 extern const Container kMatlabFile;  // MATLAB 5 and 7.3, by libmatio
 extern const Container kHdf5File;    // HDF5, by libhdf5
+extern const Container kBagFile;     // ROS 1 bags of format 2.0
 extern const Container kLvmFile;     // LabVIEW measurements as text
 extern const Container kTextFile;    // anything else: rows of cells
 

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "base/error.h"
 #include "tables/container.h"
 
 namespace hapsim {
@@ -19,12 +20,15 @@ void RawTable::set_header(const std::vector<std::string>& names) {
 }
 
 const std::vector<const Container*>& all_containers() {
-  static const std::vector<const Container*> all{&kMatlabFile, &kHdf5File, &kLvmFile, &kTextFile};
+  static const std::vector<const Container*> all{&kMatlabFile, &kHdf5File, &kBagFile, &kLvmFile,
+                                                 &kTextFile};
   return all;
 }
 
 RawTable read_raw_table(Input& input, const TableOptions& options) {
   const std::string bytes = input.read_all();
+  if (!options.topics.empty() && !kBagFile.sniff(bytes))
+    fail_input(input.name(), "--topic: this is no bag of ROS", "leave out --topic");
   for (const Container* container : all_containers())
     if (container->sniff(bytes)) return container->read(bytes, input.name(), options);
   return {};

@@ -30,7 +30,9 @@ struct TableOptions {
   std::vector<std::string> names;  // instead of the header
   std::string encoding;            // of text, as decode() knows it; "": found
   std::string decimal;             // "point", "comma"; "": found
-  std::string part;  // of a file of several tables: its topic, group or variable; "": the only one
+  std::string part;  // of a file of several tables: its group or variable; "": the only one
+  std::vector<std::string> topics;  // of a bag: those that are read; empty: the only ones
+  bool positions_alone = false;     // of a bag: its forces are not wanted
 };
 
 // Reads a table, whatever the container (tables/container.h). Error(kBadInput) with the line: no

@@ -118,6 +118,8 @@ awk 'BEGIN { srand(2); print "Site,ContactPoint_x,ContactPoint_y,ContactPoint_z,
   for (s = 0; s < 36; ++s) { x = 5 * (s % 6); y = 5 * int(s / 6); z = 30 + sin(x / 9) 
     for (k = 0; k <= 8; ++k) { d = 0.3 * k; printf "%d,%g,%g,%.4f,%g,%g,%.4f,%g,%g,%.4f,0,0,1,0,0,%.4f\n", s, x, y, z, x, y, z + 3, x, y, z + 3 - d, 0.3 * d + 0.002 * (rand() - 0.5) } } }' >liver_region1.csv
 awk 'BEGIN { print "x,y,z"; for (i = 0; i < 20; ++i) for (j = 0; j < 20; ++j) printf "%g,%g,%g\n", 2 * i, 2 * j, 30 + sin(i / 3) }' >touched.csv
+cp "$root/share/examples/robot/press.bag" session.bag
+cp session.bag press.bag
 quiet hs-scan2ply touched.csv --unit mm -o touched.ply
 quiet hs-scan2ply scan-m.csv -o points.ply
 quiet hs-reconstruct surface.off -o damaged-m.stl

@@ -60,9 +60,9 @@ grep -q 'tet10' out || complain 'second order for FEBio'
 export_to 0 'steps' sofa elastic.csv
 well_formed SOFA
 export_to 0 'steps' calculix bias.csv --bare
-export_to 3 'CalculiX has no linear viscoelasticity' calculix viscoelastic.csv
+export_to 3 'hs-export: viscoelastic.csv: CalculiX has no linear viscoelasticity' calculix viscoelastic.csv
 export_to 3 'the scene for SOFA has no finite strain' sofa finite.csv
-body=second.ply export_to 3 "SOFA's tetrahedra are of first order" sofa elastic.csv
+body=second.ply export_to 3 "hs-export: second.ply: SOFA's tetrahedra are of first order" sofa elastic.csv
 export_to 3 'the effect tip cannot be exported' calculix tip.csv
 export_to 3 'the effect hyperelastic cannot be exported: its exponential law' febio stiffening.csv
 export_to 3 'the effect sensor-bias acts on what is measured' febio bias.csv

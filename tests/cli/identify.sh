@@ -109,6 +109,9 @@ expect 3 'too few contact positions' place.csv "${common[@]}" --add regions
 expect 3 '--refine-boundary needs presses at four places or more' place.csv "${common[@]}" --model whole.csv \
   --refine-boundary 8
 expect 3 '--image needs presses at four places or more' place.csv "${common[@]}" --image no.csv
+expect 2 "--output and --lumps both write 'o.csv'; the second would replace the first" data.csv --body block.ply --lumps o.csv -o o.csv
+expect 2 'both write' data.csv --body block.ply --lumps ./o.csv --locations o.csv -o m.csv
+[[ ! -e o.csv && ! -e m.csv ]] || complain 'one file for two outputs, and something is left'
 expect 3 '--lumps needs presses at four places or more' place.csv "${common[@]}" --lumps no.csv
 awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"; for (p = 0; p < 5; ++p) for (i = 1; i <= 2; ++i)
   printf "%d,%.2f,%.3f,0.03,0.03,0,0,%.6f\n", p, 0.05 * i, 0.018 + 0.006 * p, -0.0002 * i }' >few.csv

@@ -54,6 +54,6 @@ paste -d' ' felt <(awk -F, '/^0,[12],/ { print $(NF - 2), $(NF - 1), $NF }' forc
   awk '{ for (k = 1; k <= 3; ++k) { d = $k - $(k + 3); if (d > 1e-6 || d < -1e-6) bad = 1 } most = $3 } END { exit bad || NR != 2 || most < 0.1 }' ||
   complain "the springs are another body: $(cat felt; tail -n 2 forces.csv)"
 "$bin/hs-export" -q model.csv --body body.ply --data motion.csv --format mujoco -o none.xml 2>err
-(($? == 3)) && grep -q 'springs of MuJoCo have no relaxation' err || complain 'relaxation is not refused'
+(($? == 3)) && grep -q 'model.csv: springs of MuJoCo have no relaxation' err || complain 'relaxation is not refused'
 ((failures == 0)) && echo 'mujoco: passed'
 exit $((failures > 0))

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # tetmesh.sh BIN: what hs-tetmesh reads, writes, says and returns.
 set -uo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 . "$(dirname "${BASH_SOURCE[0]}")/tool.sh" "$1/hs-tetmesh"
 # box X0 Y0 Z0 X1 Y1 Z1 [TRIANGLES]: OFF
 box() {
@@ -60,6 +61,12 @@ rm -f body.ply
 "$tool" box.off -o body.ply 2> >(exec <&-) || true
 wait
 [[ -s body.ply ]] || complain 'the body is lost when standard error is closed'
+# Quads that are nearly flat, whose diagonals TetGen draws anew: a coarse ball.
+for rings in '16 5' '24 8'; do
+  read -r n m <<<"$rings"
+  awk -v what=dome -v a=0.03 -v b=0.03 -v c=0.03 -v n="$n" -v m="$m" -f "$root/share/examples/shapes.awk" >dome.off
+  for edge in 26mm 30mm; do expect 0 'nodes fixed' dome.off --edge $edge -o dome.ply; done
+done
 "$tool" box.off 2>&- >all.ply
 [[ $(head -c 3 all.ply) == ply ]] || complain 'no body on standard output'
 
