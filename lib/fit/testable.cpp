@@ -119,10 +119,9 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
     if (longest <= 0) return "all samples have the same time: record the time of every sample";
   }
   // What a session's clock alone would tell apart needs as many presses as what starts tell.
-  const bool by_one_press = effect.learned
-                                ? !effect.needs_session
-                                : effect.stage == Stage::kSensor &&
-                                      dataset.episodes.size() < kLeastStarts;
+  const bool by_one_press =
+      effect.learned ? !effect.needs_session
+                     : effect.stage == Stage::kSensor && dataset.episodes.size() < kLeastStarts;
   if (effect.needs_time && by_one_press && depth_is_time(dataset))
     return "the presses go in at one steady pace, where time and depth tell the same: press at "
            "another pace as well, or hold";
