@@ -72,7 +72,7 @@ inline ToolSpec identify_specification() {
       "has them: elastic.E, elastic.E[2] of region 2, viscoelastic.tau1, inclusion.z; the effect "
       "may be left out where one effect alone has such a parameter. Numbers are in SI or carry a "
       "unit (50 kPa, -5 mm). Where the fit without them keeps them, it stays as it is. Else it "
-      "goes on from there by constrained Gauss-Newton steps (Ipopt), and what binds is told with "
+      "goes on from there by Gauss-Newton steps under the constraints, and what binds is told with "
       "what it costs: by how much the error would fall if that one were left out, and by how many "
       "standard errors the data contradict it. Standard errors are then along what the binding "
       "ones leave free. The model has them as the metadata constraints and binding. Constraints "
