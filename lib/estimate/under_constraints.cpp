@@ -164,6 +164,24 @@ class Search {
     return true;
   }
 
+  // Where it is worse there, for the residuals bend along the step, a second step from there may
+  // come down into the same valley (a watchdog: Chamberlain, Lemarechal, Pedersen and Powell,
+  // Math. Program. Study 16, 1982). True where it does: there_ is its end then.
+  bool comes_down(double length, ConstrainedStep& best) {
+    std::vector<bool> binds = binds_;
+    constexpr double kAside = 0.5;
+    const auto second =
+        constrained_step(moving_, coordinates_, open_, there_.x, there_.R(Eigen::all, open_),
+                         there_.q, bend_, {low_(open_), high_(open_), kAside * length}, binds);
+    if (!second || !keeps(second->x)) return false;
+    if (!look(second->x, beyond_) || !(beyond_.sum < here_.sum)) return false;
+    std::swap(there_, beyond_);
+    best.x = second->x;
+    best.fall = std::max(best.fall, here_.sum - there_.sum);
+    binds_ = binds;
+    return true;
+  }
+
   // To a point that keeps the constraints: the best of the linearised residuals where there is one.
   bool begin() {
     if (keeps(here_.x)) return true;
@@ -197,7 +215,8 @@ class Search {
     };
     constexpr double kTiny = 1e-5, kRounding = 1e-13;
     constexpr double kNear = 0.5;  // steps beyond which the curvature is another
-    double box = 2, before = 0;
+    constexpr double kFar = 2;     // and linear residuals say nothing
+    double box = kFar, before = 0;
     bool trusted = false;  // S has foretold the last fall
     if (open_.empty() || !enough_freedom())
       return converged("the constraints leave nothing to fit");
@@ -224,23 +243,32 @@ class Search {
       const bool finite = look_there(box, bend_, *best);
       moved = inner(best->x) - inner(here_.x);
       length = moved.cwiseAbs().maxCoeff();
+      bool in_two = false;
+      if (finite && length < kNear && length > kTiny && there_.sum > here_.sum * (1 + kRounding)) {
+        learn_bend(-moved);
+        in_two = comes_down(length, *best);
+      }
+      if (in_two) {
+        moved = inner(best->x) - inner(here_.x);
+        length = moved.cwiseAbs().maxCoeff();
+      }
       const double fall = here_.sum - there_.sum;
-      // As far as rounding tells it is no better there.
-      if (finite && length < kTiny && fall <= kRounding * here_.sum) return converged();
+      // As far as rounding tells it is no better there; S may know.
+      if (finite && length < kTiny && fall <= kRounding * here_.sum) {
+        if (trusted && fall >= -kRounding * here_.sum) std::swap(here_, there_);
+        return converged();
+      }
       if (!finite || fall < -kRounding * here_.sum) {
         trusted = false;
-        if (length < kNear && finite)
-          learn_bend(-moved);
-        else
-          bend_.resize(0, 0);
+        if (!(length < kNear) || !finite) bend_.resize(0, 0);
         box = length / 4;
         continue;
       }
       std::swap(here_, there_);
-      trusted = bent && std::abs(fall / best->fall - 1) < 0.3;
+      trusted = bent && !in_two && std::abs(fall / best->fall - 1) < 0.3;
       if (length < kNear) learn_bend(moved);
       before = length;
-      if (length > 0.9 * box && fall > 0.5 * best->fall) box *= 2;
+      if (length > 0.9 * box && fall > 0.5 * best->fall) box = std::min(kFar, 2 * box);
       if (fall < 0.25 * best->fall) box = length / 2;
       if (options_.watch && !options_.watch(here_.sum)) {
         fit.stopped = true;
@@ -331,7 +359,7 @@ class Search {
   const LeastSquaresOptions& options_;
   Coordinates coordinates_;
   VectorXd low_, high_;
-  Point here_, there_;
+  Point here_, there_, beyond_;
   MatrixXd factored_, bend_;  // bend_: S of learn_bend(), by `open_`; empty: none
   std::vector<Index> open_;
   std::vector<SmoothConstraint> moving_;
