@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "estimate/feasible.h"
 
 using namespace hapsim;
@@ -218,4 +219,85 @@ TEST(UnderConstraints, WhatBendsDownIsNoEnd) {
   }
   EXPECT_NEAR(found.fit.sum_of_squares, best, 1e-9);
   EXPECT_LT(found.fit.iterations, 25);
+}
+
+// Residuals and constraints of chance, that bend as much as they rise: every end is kept, and no
+// way that the active ones leave goes down (Karush, Kuhn and Tucker), nor does it bend down.
+TEST(UnderConstraints, EveryEndKeepsTheConditionsOfAMinimum) {
+  Random random(5);
+  int binding = 0, ended = 0;
+  constexpr int kProblems = 200;
+  for (int problem = 0; problem < kProblems; ++problem) {
+    const auto n = static_cast<Eigen::Index>(2 + random.integer(4));
+    const auto rows = static_cast<Eigen::Index>(n + 3);
+    const auto any = [&] { return 2 * random.uniform() - 1; };
+    const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(rows, n, any),
+                          B = Eigen::MatrixXd::NullaryExpr(rows, n, any);
+    const Eigen::VectorXd target = 3 * Eigen::VectorXd::NullaryExpr(rows, any);
+    const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                           Eigen::MatrixXd* J) {
+      const Eigen::VectorXd bent = B * x;
+      r = A * x + bent.array().sin().matrix() - target;
+      if (J != nullptr) *J = A + bent.array().cos().matrix().asDiagonal() * B;
+    };
+    std::vector<Unknown> start(static_cast<std::size_t>(n), Unknown{0, -3, 3});
+    std::vector<SmoothConstraint> constraints;
+    for (std::size_t c = 0; c < 1 + random.integer(3); ++c) {
+      const Eigen::MatrixXd C = Eigen::MatrixXd::NullaryExpr(n, n, any);
+      const Eigen::MatrixXd Q = C + C.transpose();
+      const Eigen::VectorXd q = 2 * Eigen::VectorXd::NullaryExpr(n, any);
+      const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(n, any);
+      const double level = constraints.empty() ? q.dot(at) + at.dot(Q * at) / 2 : -random.uniform();
+      constraints.push_back({[=](const Eigen::VectorXd& x) {
+                               return Taylor{q.dot(x) + x.dot(Q * x) / 2 - level, q + Q * x, Q};
+                             },
+                             constraints.empty() && problem % 3 == 0});
+    }
+    const auto found = minimise_under(start, constraints, residuals);
+    if (!found.fit.converged) {
+      EXPECT_EQ(found.fit.message, "no point keeps all constraints") << problem;
+      continue;
+    }
+    ++ended;
+    const Eigen::VectorXd& x = found.fit.x;
+    Eigen::VectorXd r;
+    Eigen::MatrixXd J;
+    residuals(x, r, &J);
+    Eigen::VectorXd gradient = 2 * J.transpose() * r;
+    const double size = 1 + gradient.norm();
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+      const Taylor g = constraints[c].at(x);
+      const double factor = found.multiplier[static_cast<Eigen::Index>(c)];
+      EXPECT_GT(g.value, -1e-8 * (1 + g.slope.norm())) << problem;
+      if (constraints[c].equality) {
+        EXPECT_NEAR(g.value, 0, 1e-8 * (1 + g.slope.norm()));
+      } else {
+        EXPECT_GT(factor, -1e-5 * size) << problem;
+      }
+      binding += factor > 0;
+      gradient -= factor * g.slope;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (x[i] < -3 + 1e-6) gradient[i] = std::min(gradient[i], 0.0);
+      if (x[i] > 3 - 1e-6) gradient[i] = std::max(gradient[i], 0.0);
+    }
+    EXPECT_LT(gradient.norm(), 1e-5 * size) << problem << " " << found.fit.message;
+    // No better within a little, along what is free.
+    for (int k = 0; k < 30; ++k) {
+      Eigen::VectorXd near = x;
+      for (Eigen::Index d = 0; d < found.directions.cols(); ++d)
+        near += 1e-3 * any() * found.directions.col(d);
+      near = near.cwiseMax(-3).cwiseMin(3);
+      double lagrangian = 0;
+      Eigen::VectorXd there;
+      residuals(near, there, nullptr);
+      lagrangian = there.squaredNorm();
+      for (std::size_t c = 0; c < constraints.size(); ++c)
+        lagrangian -=
+            found.multiplier[static_cast<Eigen::Index>(c)] * constraints[c].at(near).value;
+      EXPECT_GT(lagrangian, found.fit.sum_of_squares - 1e-7 * size) << problem;
+    }
+  }
+  EXPECT_GT(ended, kProblems / 2);
+  EXPECT_GT(binding, kProblems / 2);
 }
