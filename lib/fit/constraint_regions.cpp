@@ -46,6 +46,12 @@ int region_at(const std::string& point, const std::string& of, const Model& mode
   for (std::size_t k = 0; k < parts.size(); ++k)
     p[static_cast<Eigen::Index>(k)] = std::stod(parts[k]);
   const MaterialSpec material = material_of(model);
+  for (const FeatureSpec& f : material.features)
+    if (f.feature.kind == Feature::kLayer || f.feature.kind == Feature::kInclusion)
+      fail_usage(
+          "a point says nothing of regions where the model has a layer or an inclusion, in '" + of +
+              "'",
+          "write the relation between its parameters");
   const bool in_plan = !material.key_point.empty();
   if (in_plan && parts.size() == 2) return region_at(material, p);
   if (parts.size() != 3)

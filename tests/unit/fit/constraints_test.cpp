@@ -176,6 +176,14 @@ TEST(ConstraintRegions, ByNameAndByThePlaceInALabelledBody) {
             std::string::npos);
 }
 
+TEST(ConstraintRegions, PointsAreNoneBesideAnInclusion) {
+  const Model model =
+      test::with(test::elastic(1e4, 0.4), "inclusion", {0.04, 0.04, 0.025, 0.008, 4});
+  EXPECT_NE(error_of([&] { numbered("E(0.1, 0.1, 0.1) >= 9", model); }, ExitCode::kUsage)
+                .find("where the model has a layer or an inclusion"),
+            std::string::npos);
+}
+
 TEST(ConstraintRegions, AMapDividesInPlanView) {
   Model model = test::elastic(1e4, 0.4);
   Parameter lump = model.parameters[0];
