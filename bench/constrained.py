@@ -96,13 +96,13 @@ def reference(data, start, constraints):
 
 
 def least_times(*calls):
-    """What each call gives, and the least time of seven, in turn: another load of the machine counts for all."""
+    """What each call gives, and the least processor time of seven, in turn: another load of the machine must not count."""
     results, times = [None] * len(calls), [[] for _ in calls]
     for _ in range(7):
         for k, call in enumerate(calls):
-            clock = time.perf_counter()
+            clock = time.process_time()
             results[k] = call()
-            times[k].append(time.perf_counter() - clock)
+            times[k].append(time.process_time() - clock)
     return results, [min(t) for t in times]
 
 
@@ -143,7 +143,7 @@ PROBLEMS = [
 
 recordings = {}
 worst = slowest = 0
-print("problem: parameters, largest relative difference from SLSQP, seconds with / without = times, the least of seven")
+print("problem: parameters, largest relative difference from SLSQP, processor seconds with / without = times, the least of seven")
 for number, (truth, formula, constraints) in enumerate(PROBLEMS, 1):
     key = tuple(truth)
     if key not in recordings:

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # constrained.sh BUILD: hs-identify --constrain (the module of Python, which gives the tool's numbers) against SciPy's
 # SLSQP on the same recording: 20 problems whose constraints bind, the largest relative difference of their parameters,
-# and how long a fit takes with and without. Recorded in bench/results/constrained.txt (bench/record.sh). Ends with 1
-# where a parameter differs by more than 1e-6 or a fit takes more than three times as long.
+# and what processor time a fit takes with and without. Recorded in bench/results/constrained.txt (bench/record.sh). Ends with 1
+# where a parameter differs by more than 1e-6 or a fit takes more than three times as much.
 set -euo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -7,6 +7,7 @@
 #include "effects/catalogue.h"
 #include "experiment/plausible.h"
 #include "experiment/preparation_flags.h"
+#include "fit/constraint_regions.h"
 #include "fit/constraints.h"
 #include "fit/fit_words.h"
 #include "identify/identify.h"
@@ -22,7 +23,8 @@ using namespace hapsim;
 namespace {
 
 constexpr TextFlag kEffects{"--effects"}, kAdd{"--add"}, kRemove{"--remove"}, kFix{"--fix"},
-    kFree{"--free"}, kConstrain{"--constrain"}, kTerms{"--terms"}, kRegions{"--regions"};
+    kFree{"--free"}, kConstrain{"--constrain"}, kRegionNames{"--region-names"}, kTerms{"--terms"},
+    kRegions{"--regions"};
 constexpr TimesFlag kWindows{"--windows"};
 constexpr IntegerFlag kIdentifyFolds{"--folds"}, kStarts{"--starts"}, kIdentifySeed{"--seed"};
 constexpr ChoiceFlag kRobust{"--robust"};
@@ -40,6 +42,7 @@ std::vector<Option> known_to_identify() {
       {.flag = kFix, .value = "LIST", .repeatable = true},
       {.flag = kFree, .value = "LIST", .repeatable = true},
       {.flag = kConstrain, .value = "FORMULA", .repeatable = true},
+      {.flag = kRegionNames, .value = "LIST"},
       {.flag = kTerms, .value = "N"},
       {.flag = kWindows, .value = "LIST", .repeatable = true},
       {.flag = kRegions, .value = "N", .default_text = "auto"},
@@ -73,6 +76,10 @@ IdentifyRequest request_of(const Asked& asked, const hs_model* start) {
   words.windows = arguments.list(kWindows);
   IdentifyRequest request;
   request.fit = fit_request(words);
+  if (arguments.given(kRegionNames)) {
+    region_names(arguments[kRegionNames], kRegionNames.name);  // refused at once
+    request.fit.start.metadata.set("region_names", arguments[kRegionNames]);
+  }
   request.fit.say = request.say = asked.say();
   request.regions = parse_regions(arguments[kRegions], kRegions.name);
   request.folds = static_cast<int>(arguments[kIdentifyFolds]);

@@ -65,13 +65,19 @@ Found find_all(const std::vector<Option>& options, const std::vector<std::string
              near.empty() ? spec.name + " --help lists the flags" : "did you mean '" + near + "'?");
 }
 
+// Commas in brackets and parentheses belong to what they stand in: E(1 mm, 2 mm) is one value.
 std::vector<std::string> split_at_commas(const std::vector<std::string>& texts) {
   std::vector<std::string> parts;
   for (const std::string& text : texts) {
-    std::size_t start = 0;
-    for (std::size_t comma; (comma = text.find(',', start)) != text.npos; start = comma + 1)
-      parts.push_back(text.substr(start, comma - start));
-    parts.push_back(text.substr(start));
+    parts.emplace_back();
+    int depth = 0;
+    for (const char c : text) {
+      depth += c == '(' || c == '[' ? 1 : c == ')' || c == ']' ? -1 : 0;
+      if (c == ',' && depth <= 0)
+        parts.emplace_back();
+      else
+        parts.back() += c;
+    }
   }
   return parts;
 }

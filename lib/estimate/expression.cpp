@@ -1,5 +1,7 @@
 #include "estimate/expression.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -254,13 +256,37 @@ class FormulaReader {
     std::string word = text_.substr(from, to - from);
     at_ = to;
     if (at_ >= text_.size() || (text_[at_] != '[' && text_[at_] != '(')) return word;
-    const std::size_t close = text_.find(text_[at_] == '[' ? ']' : ')', at_);
-    if (close == std::string::npos) fail("does not end the region");
-    const std::string region = text_.substr(at_ + 1, close - at_ - 1);
-    if (region.empty() || region.find_first_not_of("0123456789") != std::string::npos)
-      fail("has no number of a region");
-    at_ = close + 1;
-    return word + "[" + region + "]";
+    const char close = text_[at_++] == '[' ? ']' : ')';
+    word += "[" + region() + "]";
+    if (!take(close)) fail("does not end the region");
+    return word;
+  }
+  // A number, a word, or a point.
+  std::string region() {
+    if (!skip_blanks()) fail("does not end the region");
+    const std::size_t from = at_, to = word_end(at_);
+    const std::string word = text_.substr(from, to - from);
+    const bool is_number = word.find_first_not_of("0123456789") == std::string::npos;
+    const bool is_word = std::isdigit(static_cast<unsigned char>(text_[from])) == 0;
+    at_ = to;
+    skip_blanks();
+    const bool ends = at_ >= text_.size() || text_[at_] == ']' || text_[at_] == ')';
+    if (!word.empty() && ends && (is_number || is_word)) return word;
+    at_ = from;
+    std::string point;
+    int coordinates = 0;
+    do {
+      skip_blanks();
+      const bool minus = take('-');
+      skip_blanks();
+      if (++coordinates > 3 || at_ >= text_.size() ||
+          (std::isdigit(static_cast<unsigned char>(text_[at_])) == 0 && text_[at_] != '.'))
+        fail("has neither a region nor the two or three coordinates of a point");
+      const double value = number();
+      point += (point.empty() ? "" : ",") + fmt::format("{}", minus ? -value : value);
+    } while (take(','));
+    if (coordinates < 2) fail("has neither a region nor the two or three coordinates of a point");
+    return point;
   }
 
   std::string text_;
@@ -269,6 +295,20 @@ class FormulaReader {
   int depth_ = 0;
   std::vector<std::string> names_;
 };
+
+Expression Expression::renamed(const std::vector<std::string>& names) const {
+  Expression result;
+  std::vector<std::size_t> number;
+  for (const std::string& name : names) {
+    const auto known = std::find(result.names_.begin(), result.names_.end(), name);
+    number.push_back(static_cast<std::size_t>(known - result.names_.begin()));
+    if (known == result.names_.end()) result.names_.push_back(name);
+  }
+  result.steps_ = steps_;
+  for (Step& step : result.steps_)
+    if (step.kind == Kind::kName) step.name = number[step.name];
+  return result;
+}
 
 std::vector<Relation> parse_relations(const std::string& text, const std::string& option) {
   std::vector<Relation> result;

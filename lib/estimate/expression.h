@@ -23,6 +23,8 @@ class Expression {
   // By one value a name, in the order of names().
   Taylor at(const Eigen::VectorXd& values) const;
   const std::vector<std::string>& names() const { return names_; }
+  // The same formula of the `names`, in the order of names(); equal ones are one.
+  Expression renamed(const std::vector<std::string>& names) const;
 
  private:
   friend class FormulaReader;
@@ -43,8 +45,11 @@ struct Relation {
 };
 
 // One comparison, or several: apart by semicolons or lines, or in a chain ("1 <= E1/E2 <= 3").
-// A name is a word, a word of a region or number ("E[2]", "E(2)", which mean the same), or has its
-// owner before a dot ("sensor-gain.gx"; blanks stand about a minus that comes before such a name).
+// A name is a word, or has its owner before a dot ("sensor-gain.gx"; blanks stand about a minus
+// that comes before such a name). What stands behind it in brackets or parentheses is part of it: a
+// number
+// ("E[2]" and "E(2)" are "E[2]"), a word ("E[tumour]") or a point of two or three coordinates
+// ("E(20 mm, 25 mm)" is "E[0.02,0.025]").
 // < is as <=. Error(kUsage) beginning with `option`: no such formula, and where it ends.
 std::vector<Relation> parse_relations(const std::string& text, const std::string& option);
 

@@ -16,6 +16,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double kBinds = 1e-7, kAnyLength = 1e300;
+
+// A point, and what the residuals are there. By stepped coordinates J = Q R and r = Q q + what J
+// does not see: steps and what is told of the end need R and q alone.
+struct Point {
+  VectorXd x, r, q;
+  MatrixXd J, R;
+  double sum = 0;  // |r|^2
+};
+
 class Search {
  public:
   Search(const std::vector<Unknown>& start, const std::vector<SmoothConstraint>& constraints,
@@ -25,19 +35,20 @@ class Search {
         residuals_(residuals),
         options_(options),
         coordinates_(start_),
-        x_(static_cast<Index>(start.size())),
-        low_(x_.size()),
-        high_(x_.size()) {
-    for (Index i = 0; i < x_.size(); ++i) {
+        low_(static_cast<Index>(start.size())),
+        high_(low_.size()) {
+    VectorXd& x = here_.x;
+    x.resize(low_.size());
+    for (Index i = 0; i < x.size(); ++i) {
       const auto u = static_cast<std::size_t>(i);
-      x_[i] = std::clamp(start[u].value, start[u].lower, start[u].upper);
+      x[i] = std::clamp(start[u].value, start[u].lower, start[u].upper);
       low_[i] = coordinates_.low(u);
       high_[i] = coordinates_.high(u);
       if (low_[i] < high_[i]) open_.push_back(i);
     }
     // What the unknowns that can move do not change is kept or not, whatever they are.
     for (std::size_t c = 0; c < constraints.size(); ++c) {
-      const Taylor g = in_steps(constraints[c], coordinates_, x_);
+      const Taylor g = in_steps(constraints[c], coordinates_, x);
       if (g.slope(open_).isZero(0) && g.curvature(open_, open_).isZero(0)) continue;
       moving_.push_back(constraints[c]);
       number_.push_back(c);
@@ -49,9 +60,9 @@ class Search {
     result_.fit.at_bound.assign(start_.size(), false);
     result_.fit.undetermined.assign(start_.size(), false);
     LeastSquaresResult& fit = result_.fit;
-    if (!look(x_)) {
+    if (!look(VectorXd(here_.x), here_)) {
       fit.message = "the start gives no finite forces";
-      fit.x = x_;
+      fit.x = here_.x;
       return std::move(result_);
     }
     if (options_.max_iterations == 0)
@@ -76,67 +87,117 @@ class Search {
       return broken_by(c, in_steps(c, coordinates_, x)) <= kKept;
     });
   }
-  // r and J by y at x; false where there are none. J is asked for at once: nearly all steps are
+  // What there is at x; false where there is nothing. J is asked for at once: nearly all steps are
   // good.
-  bool look(const VectorXd& x) {
+  bool look(const VectorXd& x, Point& at) {
     try {
-      residuals_(x, r_, &J_);
+      residuals_(x, at.r, &at.J);
     } catch (const Error& error) {  // a law without an equilibrium there
       if (error.code() != ExitCode::kNoConvergence) throw;
       return false;
     }
-    for (Index i = 0; i < x.size(); ++i)
-      J_.col(i) *= coordinates_.slope(static_cast<std::size_t>(i), x[i]);
-    x_ = x;
-    return std::isfinite(r_.squaredNorm());
+    at.x = x;
+    at.sum = at.r.squaredNorm();
+    if (!std::isfinite(at.sum)) return false;
+    const Index m = x.size();
+    for (Index i = 0; i < m; ++i)
+      at.J.col(i) *= coordinates_.slope(static_cast<std::size_t>(i), x[i]);
+    const Index rows = std::max(at.J.rows(), m);
+    factored_.resize(rows, m + 1);
+    factored_.bottomRows(rows - at.J.rows()).setZero();
+    factored_.topLeftCorner(at.J.rows(), m) = at.J;
+    factored_.col(m).head(at.r.size()) = at.r;
+    const Eigen::HouseholderQR<Eigen::Ref<MatrixXd>> qr(factored_);  // in place
+    at.R = factored_.topLeftCorner(m, m).triangularView<Eigen::Upper>();
+    at.q = factored_.col(m).head(m);
+    return true;
   }
-  // No further than `box` away; false where there is none.
-  bool step(double box, VectorXd& best) {
-    MatrixXd J = J_(Eigen::all, open_);
-    VectorXd r = r_;
-    if (bend_.size() > 0) with_bend(J, r);
-    const auto found = constrained_step(moving_, coordinates_, open_, x_, J, r,
-                                        {low_(open_), high_(open_), box}, binds_);
-    if (found) best = *found;
-    return found.has_value();
-  }
-  // |r + J d|^2 + d' S d as |q + R d|^2 but for a constant, where that has a minimum.
-  void with_bend(MatrixXd& J, VectorXd& r) const {
-    const Eigen::LLT<MatrixXd> llt(J.transpose() * J + bend_);
-    if (llt.info() != Eigen::Success || !(llt.rcond() > 1e-10)) return;
-    VectorXd q = J.transpose() * r;
-    llt.matrixL().solveInPlace(q);
-    r = std::move(q);
-    J = llt.matrixU();
+  // No further than `box` away; none where there is none.
+  std::optional<ConstrainedStep> step(double box, const MatrixXd& bend) {
+    return constrained_step(moving_, coordinates_, open_, here_.x, here_.R(Eigen::all, open_),
+                            here_.q, bend, {low_(open_), high_(open_), box}, binds_);
   }
   // Where much is left and the constraints hold it, steps without the residuals' own curvature
-  // S = sum r_i d2r_i shrink by a constant factor only. S from the changes of J along the steps, by
-  // the least symmetric change that each asks for (Dennis, Gay and Welsch, ACM Trans. Math. Softw.
-  // 7, 1981, of what the change is; Powell, in Nonlinear Programming, 1970, of the update).
-  void learn_bend(const VectorXd& moved, const MatrixXd& last_J) {
+  // S = sum r_i d2r_i shrink by a constant factor only. S from the changes of J along the steps
+  // (Dennis, Gay and Welsch, ACM Trans. Math. Softw. 7, 1981), whether they were taken or not, by
+  // the symmetric change of rank one: S may bend down (Byrd, Khalfan and Schnabel, SIAM J. Optim.
+  // 6, 1996). `moved`: to here_ from there_.
+  void learn_bend(const VectorXd& moved) {
     const auto n = static_cast<Index>(open_.size());
     if (bend_.size() == 0) bend_ = MatrixXd::Zero(n, n);
-    const VectorXd lacks =
-        (J_(Eigen::all, open_) - last_J(Eigen::all, open_)).transpose() * r_ - bend_ * moved;
-    const double square = moved.squaredNorm();
-    if (square == 0) return;
-    bend_ += (lacks * moved.transpose() + moved * lacks.transpose()) / square -
-             lacks.dot(moved) / (square * square) * moved * moved.transpose();
+    const VectorXd change = here_.R.transpose() * here_.q - there_.J.transpose() * here_.r;
+    const VectorXd lacks = change(open_) - bend_ * moved;
+    const double along = lacks.dot(moved);
+    constexpr double kAcross = 1e-8;  // what says nothing of the curvature along the step
+    if (std::abs(along) > kAcross * lacks.norm() * moved.norm())
+      bend_ += lacks * lacks.transpose() / along;
+  }
+  static bool changes_nothing(const Point& at, Index i) {
+    return at.R.col(i).norm() <= 1e-12 * std::sqrt(at.sum);
+  }
+  // Looks there, but not yet where an unknown at its bound makes others change nothing (a term
+  // without stiffness has no relaxation time): from there they find no way. A tenth of the way is
+  // left, a few times.
+  bool look_there(double box, const MatrixXd& bend, ConstrainedStep& best) {
+    if (!look(best.x, there_)) return false;
+    const bool settles = std::any_of(open_.begin(), open_.end(), [&](Index i) {
+      return changes_nothing(there_, i) && !changes_nothing(here_, i);
+    });
+    if (held_back_ == 0 || !settles) return true;
+    --held_back_;
+    constexpr double kLeft = 0.1;
+    const VectorXd low = low_, high = high_, from = inner(here_.x), to = inner(best.x);
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      const auto at = static_cast<Index>(k);
+      const Index i = open_[k];
+      if (to[at] <= low[i] + kBinds && from[at] > low[i]) low_[i] += kLeft * (from[at] - low[i]);
+      if (to[at] >= high[i] - kBinds && from[at] < high[i])
+        high_[i] -= kLeft * (high[i] - from[at]);
+    }
+    const auto shorter = step(box, bend);
+    low_ = low;
+    high_ = high;
+    if (shorter && keeps(shorter->x)) {
+      best = *shorter;
+      return look(best.x, there_);
+    }
+    return true;
+  }
+
+  // Where it is worse there, for the residuals bend along the step, a second step from there may
+  // come down into the same valley (a watchdog: Chamberlain, Lemarechal, Pedersen and Powell,
+  // Math. Program. Study 16, 1982). True where it does: there_ is its end then.
+  bool comes_down(double length, ConstrainedStep& best) {
+    std::vector<bool> binds = binds_;
+    constexpr double kAside = 0.5;
+    const auto second =
+        constrained_step(moving_, coordinates_, open_, there_.x, there_.R(Eigen::all, open_),
+                         there_.q, bend_, {low_(open_), high_(open_), kAside * length}, binds);
+    if (!second || !keeps(second->x)) return false;
+    if (!look(second->x, beyond_) || !(beyond_.sum < here_.sum)) return false;
+    std::swap(there_, beyond_);
+    best.x = second->x;
+    best.fall = std::max(best.fall, here_.sum - there_.sum);
+    binds_ = binds;
+    return true;
   }
 
   // To a point that keeps the constraints: the best of the linearised residuals where there is one.
   bool begin() {
-    if (keeps(x_)) return true;
-    VectorXd best;
-    if (!open_.empty() && enough_freedom() && step(1e300, best) && keeps(best)) {
-      if (look(best)) return true;
+    if (keeps(here_.x)) return true;
+    if (!open_.empty() && enough_freedom()) {
+      auto best = step(kAnyLength, {});
+      if (best && keeps(best->x) && look_there(kAnyLength, {}, *best)) {
+        std::swap(here_, there_);
+        return true;
+      }
     }
     const std::optional<VectorXd> point = feasible_point(start_, constraints_);
     if (!point) {
       result_.fit.message = "no point keeps all constraints";
       return false;
     }
-    if (!look(*point)) result_.fit.message = "the start gives no finite forces";
+    if (!look(*point, here_)) result_.fit.message = "the start gives no finite forces";
     return result_.fit.message.empty();
   }
   bool enough_freedom() const {
@@ -145,65 +206,71 @@ class Search {
     return equal < static_cast<std::ptrdiff_t>(open_.size());
   }
 
+  // A trust region (Nocedal and Wright, Numerical Optimization, 4.1) of the shape of a box.
   void descend() {
     LeastSquaresResult& fit = result_.fit;
-    constexpr double kTiny = 1e-5, kRounding = 1e-13;
-    double sum = r_.squaredNorm(), box = 2, before = 0;
-    if (open_.empty() || !enough_freedom()) {
+    const auto converged = [&](const char* why = "converged") {
       fit.converged = true;
-      fit.message = "the constraints leave nothing to fit";
-      return;
-    }
+      fit.message = why;
+    };
+    constexpr double kTiny = 1e-5, kRounding = 1e-13;
+    constexpr double kNear = 0.5;  // steps beyond which the curvature is another
+    constexpr double kFar = 2;     // and linear residuals say nothing
+    double box = kFar, before = 0;
+    bool trusted = false;  // S has foretold the last fall
+    if (open_.empty() || !enough_freedom())
+      return converged("the constraints leave nothing to fit");
     while (fit.iterations < options_.max_iterations) {
       ++fit.iterations;
-      VectorXd best;
       const bool bent = bend_.size() > 0;
-      if (!step(box, best)) {
+      auto best = step(box, bend_);
+      if (!best) {
         if (box < 1e-6) break;
+        bend_.resize(0, 0);
         box /= 4;
         continue;
       }
-      const VectorXd moved = inner(best) - inner(x_);
-      const double length = moved.cwiseAbs().maxCoeff();
+      VectorXd moved = inner(best->x) - inner(here_.x);
+      double length = moved.cwiseAbs().maxCoeff();
       // Steps shrink by a constant factor where much is left: so far the end is still away.
       const double shrink = before > 0 ? std::min(0.9, length / before) : 0.5;
-      const bool near = length * std::max(1.0, shrink / (1 - shrink)) < options_.step_tolerance;
-      if (near && bent) {  // an end is one without S as well
-        bend_.resize(0, 0);
+      if (length * std::max(1.0, shrink / (1 - shrink)) < options_.step_tolerance) {
+        if (trusted || !bent) return converged();
+        bend_.resize(0, 0);  // an end is one without S as well
         before = 0;
         continue;
       }
-      if (near) {
-        fit.converged = true;
-        fit.message = "converged";
-        return;
+      const bool finite = look_there(box, bend_, *best);
+      moved = inner(best->x) - inner(here_.x);
+      length = moved.cwiseAbs().maxCoeff();
+      bool in_two = false;
+      if (finite && length < kNear && length > kTiny && there_.sum > here_.sum * (1 + kRounding)) {
+        learn_bend(-moved);
+        in_two = comes_down(length, *best);
       }
-      const VectorXd last = x_, last_r = r_;
-      const MatrixXd last_J = J_;
-      if (!look(best) || r_.squaredNorm() > sum * (1 + 1e-13)) {
-        x_ = last;
-        r_ = last_r;
-        J_ = last_J;
-        bend_.resize(0, 0);
+      if (in_two) {
+        moved = inner(best->x) - inner(here_.x);
+        length = moved.cwiseAbs().maxCoeff();
+      }
+      const double fall = here_.sum - there_.sum;
+      // As far as rounding tells it is no better there; S may know.
+      if (finite && length < kTiny && fall <= kRounding * here_.sum) {
+        if (trusted && fall >= -kRounding * here_.sum) std::swap(here_, there_);
+        return converged();
+      }
+      if (!finite || fall < -kRounding * here_.sum) {
+        trusted = false;
+        if (!(length < kNear) || !finite) bend_.resize(0, 0);
         box = length / 4;
-        // A refused tiny step is the floor of rounding.
-        if (length > kTiny || bent) continue;
-        fit.converged = true;
-        fit.message = "converged";
-        return;
+        continue;
       }
-      const double fall = sum - r_.squaredNorm();
-      sum = r_.squaredNorm();
-      if (length < kTiny && fall <= kRounding * sum && !bent) {
-        fit.converged = true;
-        fit.message = "converged";
-        return;
-      }
-      constexpr double kNear = 0.5;  // steps beyond which the curvature is another
-      if (length < kNear) learn_bend(moved, last_J);
+      std::swap(here_, there_);
+      trusted = bent && !in_two && std::abs(fall / best->fall - 1) < 0.3;
+      if (length < kNear) learn_bend(moved);
       before = length;
-      if (length > 0.9 * box) box *= 2;
-      if (options_.watch && !options_.watch(sum)) {
+      if (length > 0.9 * box && fall > 0.5 * best->fall) box = std::min(kFar, 2 * box);
+      if (fall < 0.25 * best->fall) box = length / 2;
+      if (options_.watch && !options_.watch(here_.sum)) {
         fit.stopped = true;
         fit.message = "interrupted";
         return;
@@ -217,17 +284,17 @@ class Search {
   // What binds, and what it leaves.
   void tell() {
     LeastSquaresResult& fit = result_.fit;
-    const Index m = x_.size();
-    fit.x = x_;
-    fit.sum_of_squares = r_.squaredNorm();
-    const VectorXd gradient = 2 * J_.transpose() * r_;
+    const VectorXd& x = here_.x;
+    const Index m = x.size();
+    fit.x = x;
+    fit.sum_of_squares = here_.sum;
+    const VectorXd pull = here_.R.transpose() * here_.q;
     std::vector<VectorXd> binding;
     std::vector<std::size_t> of;  // the constraint of a row; none of a bound
-    constexpr double kNear = 1e-7;
     for (std::size_t k = 0; k < moving_.size(); ++k) {
-      const Taylor g = in_steps(moving_[k], coordinates_, x_);
+      const Taylor g = in_steps(moving_[k], coordinates_, x);
       const double size = std::max(g.slope.norm(), 1e-300);
-      result_.active[number_[k]] = moving_[k].equality || g.value <= kNear * size;
+      result_.active[number_[k]] = moving_[k].equality || g.value <= kBinds * size;
       if (!result_.active[number_[k]]) continue;
       binding.emplace_back(g.slope / size);
       of.push_back(number_[k]);
@@ -235,8 +302,8 @@ class Search {
     constexpr std::size_t kBound = static_cast<std::size_t>(-1);
     for (Index i = 0; i < m; ++i) {
       const auto u = static_cast<std::size_t>(i);
-      const double y = coordinates_.inner(u, x_[i]);
-      fit.at_bound[u] = y <= low_[i] + kNear || y >= high_[i] - kNear;
+      const double y = coordinates_.inner(u, x[i]);
+      fit.at_bound[u] = y <= low_[i] + kBinds || y >= high_[i] - kBinds;
       if (!fit.at_bound[u]) continue;
       binding.emplace_back(VectorXd::Unit(m, i));
       of.push_back(kBound);
@@ -244,36 +311,31 @@ class Search {
     MatrixXd A(m, static_cast<Index>(binding.size()));
     for (Index b = 0; b < A.cols(); ++b) A.col(b) = binding[static_cast<std::size_t>(b)];
     const VectorXd factor =
-        A.cols() == 0 ? VectorXd() : VectorXd(A.completeOrthogonalDecomposition().solve(gradient));
+        A.cols() == 0 ? VectorXd() : VectorXd(A.completeOrthogonalDecomposition().solve(2 * pull));
     result_.multiplier = VectorXd::Zero(static_cast<Index>(constraints_.size()));
     result_.worth = result_.multiplier;
     for (Index b = 0; b < A.cols(); ++b) {
       const std::size_t c = of[static_cast<std::size_t>(b)];
       if (c == kBound) continue;
-      const Taylor g = in_steps(constraints_[c], coordinates_, x_);
+      const Taylor g = in_steps(constraints_[c], coordinates_, x);
       result_.multiplier[static_cast<Index>(c)] = factor[b] / std::max(g.slope.norm(), 1e-300);
       MatrixXd others(m, A.cols() - 1);
       others << A.leftCols(b), A.rightCols(A.cols() - 1 - b);
-      const MatrixXd J = J_ * free_of(others);
-      const VectorXd pull = J.transpose() * r_;
-      result_.worth[static_cast<Index>(c)] = pull.dot(normal_inverse(J) * pull);
+      const MatrixXd can = free_of(others);
+      const VectorXd own = can.transpose() * pull;
+      result_.worth[static_cast<Index>(c)] = own.dot(normal_inverse(here_.R * can) * own);
     }
     VectorXd slope(m);
-    for (Index i = 0; i < m; ++i) slope[i] = coordinates_.slope(static_cast<std::size_t>(i), x_[i]);
+    for (Index i = 0; i < m; ++i) slope[i] = coordinates_.slope(static_cast<std::size_t>(i), x[i]);
     const auto active = std::count(result_.active.begin(), result_.active.end(), true);
     result_.settled = A.leftCols(active).transpose() * slope.cwiseInverse().asDiagonal();
     const MatrixXd free = free_of(A);
     result_.directions = slope.asDiagonal() * free;
     fit.covariance = MatrixXd::Zero(m, m);
     if (free.cols() == 0) return;
-    const MatrixXd J = J_ * free;
-    fit.covariance = result_.directions * normal_inverse(J) * result_.directions.transpose();
-    const Index k = free.cols();
-    MatrixXd padded = MatrixXd::Zero(std::max(J.rows(), k), k);
-    padded.topRows(J.rows()) = J;
-    const MatrixXd R = Eigen::HouseholderQR<MatrixXd>(padded).matrixQR().topRows(k);
-    const Eigen::JacobiSVD<MatrixXd> svd(MatrixXd(R.triangularView<Eigen::Upper>()),
-                                         Eigen::ComputeFullV);
+    const MatrixXd R = here_.R * free;
+    fit.covariance = result_.directions * normal_inverse(R) * result_.directions.transpose();
+    const Eigen::JacobiSVD<MatrixXd> svd(R, Eigen::ComputeThinU | Eigen::ComputeFullV);
     const VectorXd& s = svd.singularValues();
     for (Index d = 0; d < s.size(); ++d) {
       if (s[d] > 1e-7 * s[0]) continue;
@@ -296,12 +358,14 @@ class Search {
   const ResidualFunction& residuals_;
   const LeastSquaresOptions& options_;
   Coordinates coordinates_;
-  VectorXd x_, low_, high_, r_;
-  MatrixXd J_, bend_;  // bend_: S of learn_bend(), by `open_`; empty: none
+  VectorXd low_, high_;
+  Point here_, there_, beyond_;
+  MatrixXd factored_, bend_;  // bend_: S of learn_bend(), by `open_`; empty: none
   std::vector<Index> open_;
   std::vector<SmoothConstraint> moving_;
   std::vector<std::size_t> number_;
   std::vector<bool> binds_;  // of `moving_`, at the last step
+  int held_back_ = 3;        // more times
   UnderConstraints result_;
 };
 

@@ -20,13 +20,13 @@ struct UnderConstraints {
                                // one in their steps
 };
 
-// Minimises |r|^2 within the bounds and constraints: a step minimises |r + J d|^2 under the
-// constraints themselves (constrained_step()), so that all but the first keep them (constrained
-// Gauss-Newton: Bock, Bonner Math. Schriften 183, 1987). A box about the last point, smaller where
-// |r|^2 rises, keeps steps short. A step costs the residuals and J once. Ends when a step,
-// and what such steps have still to go, is below `options.step_tolerance`. max_iterations 0: tells
-// of the start alone. No feasible point is found: not converged, and fit.message says so. Threads
-// take turns at Ipopt.
+// Minimises |r|^2 within the bounds and constraints: a step minimises |r + J d|^2 + d'S d under the
+// constraints themselves (constrained_step()), so that all but the first keep them (after Bock,
+// Bonner Math. Schriften 183, 1987); S, the residuals' own curvature, is learned from the J of the
+// points come by. A box about the last point, smaller where |r|^2 falls short of what was foretold,
+// keeps steps short. A step costs the residuals and J once. Ends when a step, and what such steps
+// have still to go, is below `options.step_tolerance`. max_iterations 0: tells of the start alone.
+// No feasible point is found: not converged, and fit.message says so.
 UnderConstraints minimise_under(const std::vector<Unknown>& start,
                                 const std::vector<SmoothConstraint>& constraints,
                                 const ResidualFunction& residuals,

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "diagnose/wording.h"
 #include "experiment/plausible.h"
+#include "fit/constraint_regions.h"
 #include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_words.h"
@@ -67,7 +68,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
   if (request.fit.automatic && !request.options.constraints.empty())
     fail_usage("--constrain needs the model's effects, which 'auto' finds out",
                "find them first, then go on with --model and --constrain");
-  const FitOptions fit_options = each_fit(request, w);
+  FitOptions fit_options = each_fit(request, w);
   FitOptions final_options = request.options;
   final_options.noise = fit_options.noise;
   final_options.floor = fit_options.floor;
@@ -94,6 +95,10 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
   } else {
     Starts starts = build_starts(request.fit, w, all, fit_options, extend);
     require_enough_data(starts.models.front(), w.dataset, all);
+    Model named = starts.models.front();
+    named.metadata = request.fit.start.metadata;
+    final_options.constraints = fit_options.constraints =
+        number_regions(fit_options.constraints, named, body);
     require_constraints(starts.models.front(), fit_options.constraints);
     if (request.starts) request.starts(starts.models);
     result.fitted = fit_best(starts.models, w, all, final_options, starts.known);

@@ -78,6 +78,18 @@ awk -F, -v OFS=, '/^#|^press/ { print; next } { print; $1 += 4; $4 = 0.015; prin
 expect 0 'binds' sites.csv --body block.ply --rim-edge 0.3 --folds 0 --noise 0.002 --fix nu=0.4 --add regions \
   --regions sites --constrain 'E[1] = 1.2*E' -o out.csv
 awk -F, '$3 == "E" { v[$2] = $4 } END { exit !((v[1] / v[0] - 1.2)^2 < 1e-18) }' out.csv || complain 'regions keep their ratio'
+# The same by names, which the model keeps, and by points of the two places.
+at=$(awk -F, '/^regions,[01],x/ { x[$2] = $4 } /^regions,[01],y/ { y[$2] = $4 } END { printf "E(%s, %s) = 1.2*E(%s, %s)", x[1], y[1], x[0], y[0] }' out.csv)
+cp out.csv numbers.csv
+expect 0 'E(right) = 1.2*E(left) binds' sites.csv --body block.ply --rim-edge 0.3 --folds 0 --noise 0.002 --fix nu=0.4 --add regions \
+  --regions sites --region-names left,right --constrain 'E(right) = 1.2*E(left)' -o out.csv
+cmp -s <(rows numbers.csv) <(rows out.csv) && grep -qx '# region_names: left,right' out.csv || complain 'regions by their names'
+expect 0 'binds' sites.csv --body block.ply --rim-edge 0.3 --folds 0 --noise 0.002 --fix nu=0.4 --add regions --regions sites \
+  --constrain "$at" -o points.csv
+cmp -s <(rows numbers.csv) <(rows points.csv) || complain "regions by points: $at"
+expect 2 "no region is called 'middle', of 'E(middle) = 5000'; name regions 0, 1, ... by --region-names" "${maxwell[@]}" \
+  --constrain 'E(middle) = 5000' -o bad.csv
+expect 2 "--region-names: '2nd' is no name of a region" sites.csv --body block.ply --region-names left,2nd --constrain 'E >= 1' -o bad.csv
 
 rm -f out.csv
 expect 2 'contradict each other' "${maxwell[@]}" --constrain 'E >= 15 kPa; E <= 4 kPa' -o out.csv

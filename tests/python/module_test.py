@@ -163,6 +163,9 @@ class Work(unittest.TestCase):
         self.assertTrue(math.isclose(model["elastic.E"], 9000, rel_tol=1e-9))
         self.assertEqual(model.metadata["binding"], "E <= 9 kPa")
         self.assertGreater(model.summary["values"]["cost of E <= 9 kPa"]["value"], 0)
+        named = hapsim.identify(self.data, self.body, folds=0, constrain="E(gel) <= 9 kPa", region_names="gel")
+        self.assertEqual(named["elastic.E"], model["elastic.E"])
+        self.assertEqual(named.metadata["region_names"], "gel")
 
     def test_a_diagnosis(self):
         model = hapsim.identify(self.data, self.body, fix="nu=0.4", folds=0)

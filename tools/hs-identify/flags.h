@@ -12,7 +12,7 @@ inline constexpr FileFlag image{"--image"}, lumps{"--lumps"}, library{"--library
     curves{"--curves"}, data{"--data"};
 inline constexpr TextFlag material{"--material"}, object{"--object"}, effects{"--effects"},
     add{"--add"}, remove{"--remove"}, fix{"--fix"}, free{"--free"}, constrain{"--constrain"},
-    terms{"--terms"}, regions{"--regions"};
+    region_names{"--region-names"}, terms{"--terms"}, regions{"--regions"};
 inline constexpr TimesFlag windows{"--windows"};
 inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"}, memory{"--memory"},
     boundary{"--refine-boundary"}, starts{"--starts"}, seed{"--seed"};

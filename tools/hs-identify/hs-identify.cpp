@@ -8,6 +8,7 @@
 #include "base/shell_words.h"
 #include "common_options.h"
 #include "experiment/learned_curves.h"
+#include "fit/constraint_regions.h"
 #include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_request.h"
@@ -89,7 +90,11 @@ int run(const Arguments& arguments) {
   if (arguments.given(flag::acfm)) return run_acfm(arguments);
   if (arguments[flag::stiffening])
     fail_usage("--stiffening is of analytical models", "add --acfm N, or --add hyperelastic");
-  const FitRequest plan = asked_fit(arguments);
+  FitRequest plan = asked_fit(arguments);
+  if (arguments.given(flag::region_names)) {
+    region_names(arguments[flag::region_names], flag::region_names.name);  // refused at once
+    plan.start.metadata.set("region_names", arguments[flag::region_names]);
+  }
   IdentifyRequest request;
   request.fit = plan;
   request.regions = parse_regions(arguments[flag::regions], flag::regions.name);

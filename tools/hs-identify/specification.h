@@ -70,9 +70,14 @@ inline ToolSpec identify_specification() {
       "--constrain keeps relations between the parameters: = or <=, >= between sums, products, "
       "quotients and powers (+ - * / ^ and parentheses). Parameters are named as the model file "
       "has them: elastic.E, elastic.E[2] of region 2, viscoelastic.tau1, inclusion.z; the effect "
-      "may be left out where one effect alone has such a parameter. Numbers are in SI or carry a "
+      "may be left out where one effect alone has such a parameter. A region may also be called by "
+      "its name (--region-names, or the model's metadata region_names): E(tumour) = 3*E(liver), or "
+      "by a point of it: E(20 mm, 25 mm, 10 mm), of which a map over the plan view (regions) needs "
+      "x and y alone; of several bodies the point is in the first, and beside a layer or an "
+      "inclusion points are refused. Recordings that are fitted "
+      "together share their parameters, and so the relations. Numbers are in SI or carry a "
       "unit (50 kPa, -5 mm). Where the fit without them keeps them, it stays as it is. Else it "
-      "goes on from there by constrained Gauss-Newton steps (Ipopt), and what binds is told with "
+      "goes on from there by Gauss-Newton steps under the constraints, and what binds is told with "
       "what it costs: by how much the error would fall if that one were left out, and by how many "
       "standard errors the data contradict it. Standard errors are then along what the binding "
       "ones leave free. The model has them as the metadata constraints and binding. Constraints "
@@ -131,6 +136,11 @@ inline ToolSpec identify_specification() {
                "apart by semicolons or lines.",
        .group = "Model",
        .repeatable = true},
+      {.flag = flag::region_names,
+       .value = "LIST",
+       .help = "Names of regions 0, 1, ... for --constrain, apart by commas: liver,tumour. The "
+               "model keeps them as the metadata region_names.",
+       .group = "Model"},
       {.flag = flag::terms,
        .value = "N",
        .help = "Maxwell terms of viscoelastic when it is added, 1 to 5; or auto: one more as long "

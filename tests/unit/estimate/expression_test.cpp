@@ -91,8 +91,24 @@ TEST(Expression, SaysWhereAFormulaEnds) {
   expect("E1 >= 2*(E", "lacks a ')' at its end");
   expect("E1 >= 2 fish", "neither an operator nor a unit after the number at 'fish'");
   expect("E1 >= %", "has no number and no name at '%'");
-  expect("E1 >= E[tumour]", "has no number of a region");
+  expect("E1 >= E[tumour", "does not end the region");
+  expect("E1 >= E(2 mm)", "has neither a region nor the two or three coordinates of a point");
+  expect("E1 >= E(1, 2, 3, 4)", "has neither a region nor the two or three coordinates");
+  expect("E1 >= E[the lump]", "has neither a region nor the two or three coordinates of a point");
   expect("E1 E2 >= 3", "has no =, <= or >= where one is due at 'E2 >= 3'");
   expect(" ; ", "--constrain is empty");
   expect(std::string(5000, '(') + "a = 1", "is nested too deeply");
+}
+
+TEST(Expression, RegionsByNameAndByPoint) {
+  const Expression f =
+      parsed("E(tumour) + E[ liver ] >= E(20 mm, -2.5cm) + E[0.01, 0.02, 0]*E(2)")[0].difference;
+  EXPECT_EQ(f.names(), (std::vector<std::string>{"E[tumour]", "E[liver]", "E[0.02,-0.025]",
+                                                 "E[0.01,0.02,0]", "E[2]"}));
+  // Two names of one unknown.
+  const Expression g = f.renamed({"E[1]", "E", "E[1]", "E", "E[2]"});
+  EXPECT_EQ(g.names(), (std::vector<std::string>{"E[1]", "E", "E[2]"}));
+  const Taylor at = g.at(Eigen::Vector3d(3, 5, 7));
+  EXPECT_EQ(at.value, 3 + 5 - 3 - 5 * 7);
+  EXPECT_EQ(at.slope, Eigen::Vector3d(0, 1 - 7, -5));
 }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/random.h"
 #include "estimate/feasible.h"
 
 using namespace hapsim;
@@ -154,4 +156,148 @@ TEST(UnderConstraints, AsManyEqualitiesAsUnknowns) {
   ASSERT_TRUE(found.fit.converged);
   EXPECT_NEAR(found.fit.x[0], 4, 1e-9);
   EXPECT_NEAR(found.fit.x[1], 2, 1e-9);
+}
+
+// A term a exp(-b t) that is at first worth nothing at this b has worth at another: where a step
+// takes a to its bound, b must not be lost.
+TEST(UnderConstraints, ATermWithoutStiffnessDoesNotLoseItsTime) {
+  constexpr int n = 40;
+  const ResidualFunction two = [](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                  Eigen::MatrixXd* J) {
+    r.resize(n);
+    if (J != nullptr) J->resize(n, 4);
+    for (int i = 0; i < n; ++i) {
+      const double t = 0.1 * i, e1 = std::exp(-t / x[1]), e2 = std::exp(-t / x[3]);
+      r[i] = x[0] * e1 + x[2] * e2 - 4 * std::exp(-t / 0.3) - 2 * std::exp(-t / 3);
+      r[i] *= 100;
+      if (J == nullptr) continue;
+      J->row(i) << e1, x[0] * e1 * t / (x[1] * x[1]), e2, x[2] * e2 * t / (x[3] * x[3]);
+      J->row(i) *= 100;
+    }
+  };
+  const std::vector<Unknown> start{
+      {4, 0, 100}, {0.3, 1e-3, 1e3, 1, true}, {2, 0, 100}, {3, 1e-3, 1e3, 1, true}};
+  const auto found = minimise_under(start, among("a + c <= 4", 4), two);
+  ASSERT_TRUE(found.fit.converged) << found.fit.message;
+  EXPECT_TRUE(found.active[0]);
+  // By a fine net over both times: forces are linear in a and c, of a + c = 4.
+  double best = 1e300;
+  for (int k = 0; k <= 150; ++k)
+    for (int l = 0; l <= 150; ++l) {
+      const double t1 = std::exp(std::log(0.02) + k * std::log(1e3) / 150),
+                   t2 = std::exp(std::log(0.02) + l * std::log(1e3) / 150);
+      double ee = 0, er = 0, rr = 0;
+      for (int i = 0; i < n; ++i) {
+        const double t = 0.1 * i, e = std::exp(-t / t1) - std::exp(-t / t2);
+        const double rest = 4 * std::exp(-t / t2) - 4 * std::exp(-t / 0.3) - 2 * std::exp(-t / 3);
+        ee += e * e, er += e * rest, rr += rest * rest;
+      }
+      const double a = ee > 0 ? std::clamp(-er / ee, 0.0, 4.0) : 0;
+      best = std::min(best, 1e4 * (rr + 2 * a * er + a * a * ee));
+    }
+  EXPECT_LE(found.fit.sum_of_squares, best);
+  EXPECT_LT(found.fit.iterations, 40);
+}
+
+// The constraint bends away from the goal, and the residuals bend down along it.
+TEST(UnderConstraints, WhatBendsDownIsNoEnd) {
+  const ResidualFunction wave = [](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                   Eigen::MatrixXd* J) {
+    r = Eigen::Vector3d(x[0] - 3, x[1], 4 + std::cos(3 * x[1]));
+    if (J == nullptr) return;
+    *J = Eigen::MatrixXd::Zero(3, 2);
+    (*J)(0, 0) = (*J)(1, 1) = 1;
+    (*J)(2, 1) = -3 * std::sin(3 * x[1]);
+  };
+  const auto found = minimise_under({{0.5}, {0.1}}, among("a^2 + b^2 <= 4", 2), wave);
+  ASSERT_TRUE(found.fit.converged) << found.fit.message;
+  // Along the circle a = 2 cos s, b = 2 sin s.
+  double best = 1e300;
+  for (double s = 0; s < 1.5; s += 1e-5) {
+    const double a = 2 * std::cos(s) - 3, b = 2 * std::sin(s), c = 4 + std::cos(3 * b);
+    best = std::min(best, a * a + b * b + c * c);
+  }
+  EXPECT_NEAR(found.fit.sum_of_squares, best, 1e-9);
+  EXPECT_LT(found.fit.iterations, 25);
+}
+
+// Residuals and constraints of chance, that bend as much as they rise: every end is kept, and no
+// way that the active ones leave goes down (Karush, Kuhn and Tucker), nor does it bend down.
+TEST(UnderConstraints, EveryEndKeepsTheConditionsOfAMinimum) {
+  Random random(5);
+  int binding = 0, ended = 0;
+  constexpr int kProblems = 200;
+  for (int problem = 0; problem < kProblems; ++problem) {
+    const auto n = static_cast<Eigen::Index>(2 + random.integer(4));
+    const auto rows = static_cast<Eigen::Index>(n + 3);
+    const auto any = [&] { return 2 * random.uniform() - 1; };
+    const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(rows, n, any),
+                          B = Eigen::MatrixXd::NullaryExpr(rows, n, any);
+    const Eigen::VectorXd target = 3 * Eigen::VectorXd::NullaryExpr(rows, any);
+    const ResidualFunction residuals = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r,
+                                           Eigen::MatrixXd* J) {
+      const Eigen::VectorXd bent = B * x;
+      r = A * x + bent.array().sin().matrix() - target;
+      if (J != nullptr) *J = A + bent.array().cos().matrix().asDiagonal() * B;
+    };
+    std::vector<Unknown> start(static_cast<std::size_t>(n), Unknown{0, -3, 3});
+    std::vector<SmoothConstraint> constraints;
+    for (std::size_t c = 0; c < 1 + random.integer(3); ++c) {
+      const Eigen::MatrixXd C = Eigen::MatrixXd::NullaryExpr(n, n, any);
+      const Eigen::MatrixXd Q = C + C.transpose();
+      const Eigen::VectorXd q = 2 * Eigen::VectorXd::NullaryExpr(n, any);
+      const Eigen::VectorXd at = Eigen::VectorXd::NullaryExpr(n, any);
+      const double level = constraints.empty() ? q.dot(at) + at.dot(Q * at) / 2 : -random.uniform();
+      constraints.push_back({[=](const Eigen::VectorXd& x) {
+                               return Taylor{q.dot(x) + x.dot(Q * x) / 2 - level, q + Q * x, Q};
+                             },
+                             constraints.empty() && problem % 3 == 0});
+    }
+    const auto found = minimise_under(start, constraints, residuals);
+    if (!found.fit.converged) {
+      EXPECT_EQ(found.fit.message, "no point keeps all constraints") << problem;
+      continue;
+    }
+    ++ended;
+    const Eigen::VectorXd& x = found.fit.x;
+    Eigen::VectorXd r;
+    Eigen::MatrixXd J;
+    residuals(x, r, &J);
+    Eigen::VectorXd gradient = 2 * J.transpose() * r;
+    const double size = 1 + gradient.norm();
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+      const Taylor g = constraints[c].at(x);
+      const double factor = found.multiplier[static_cast<Eigen::Index>(c)];
+      EXPECT_GT(g.value, -1e-8 * (1 + g.slope.norm())) << problem;
+      if (constraints[c].equality) {
+        EXPECT_NEAR(g.value, 0, 1e-8 * (1 + g.slope.norm()));
+      } else {
+        EXPECT_GT(factor, -1e-5 * size) << problem;
+      }
+      binding += factor > 0;
+      gradient -= factor * g.slope;
+    }
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (x[i] < -3 + 1e-6) gradient[i] = std::min(gradient[i], 0.0);
+      if (x[i] > 3 - 1e-6) gradient[i] = std::max(gradient[i], 0.0);
+    }
+    EXPECT_LT(gradient.norm(), 1e-5 * size) << problem << " " << found.fit.message;
+    // No better within a little, along what is free.
+    for (int k = 0; k < 30; ++k) {
+      Eigen::VectorXd near = x;
+      for (Eigen::Index d = 0; d < found.directions.cols(); ++d)
+        near += 1e-3 * any() * found.directions.col(d);
+      near = near.cwiseMax(-3).cwiseMin(3);
+      double lagrangian = 0;
+      Eigen::VectorXd there;
+      residuals(near, there, nullptr);
+      lagrangian = there.squaredNorm();
+      for (std::size_t c = 0; c < constraints.size(); ++c)
+        lagrangian -=
+            found.multiplier[static_cast<Eigen::Index>(c)] * constraints[c].at(near).value;
+      EXPECT_GT(lagrangian, found.fit.sum_of_squares - 1e-7 * size) << problem;
+    }
+  }
+  EXPECT_GT(ended, kProblems / 2);
+  EXPECT_GT(binding, kProblems / 2);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "expect_error.h"
+#include "fit/constraint_regions.h"
 #include "model/model_edit.h"
 #include "support/synthetic.h"
 
@@ -128,6 +129,82 @@ TEST_F(Constrained, WhatIsNotInTheModelYetIsNotAsked) {
   const auto own =
       bind_constraints(test::elastic(1e4, 0.4), options("E1 <= E; E <= 5").constraints);
   EXPECT_EQ(own.number, (std::vector<std::size_t>{1}));
+}
+
+// Two tetrahedra on one triangle, of regions 0 and 1.
+TetMesh two_regions() {
+  TetMesh body;
+  body.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}};
+  body.tets = {{0, 1, 2, 3, -1, -1, -1, -1, -1, -1}, {0, 2, 1, 4, -1, -1, -1, -1, -1, -1}};
+  body.region = {0, 1};
+  return body;
+}
+
+std::vector<std::string> numbered(const std::string& text, const Model& model) {
+  const auto relations = parse_constraints({text}, "--constrain");
+  const auto result = number_regions(relations, model, two_regions());
+  EXPECT_EQ(result[0].text, relations[0].text);
+  return result[0].difference.names();
+}
+
+using Names = std::vector<std::string>;
+
+TEST(ConstraintRegions, ByNameAndByThePlaceInALabelledBody) {
+  Model model = test::elastic(1e4, 0.4);
+  Parameter lump = model.parameters[0];
+  lump.region = 1;
+  model.parameters.insert(model.parameters.begin() + 1, lump);
+  model.metadata.set("region_names", "liver, tumour");
+  EXPECT_EQ(numbered("E(tumour) = 3*E(liver)", model), (Names{"E[1]", "E[0]"}));
+  EXPECT_EQ(numbered("E(10 cm, 0.1, 100 mm) >= E(0.1, 0.1, -0.2)", model), (Names{"E[0]", "E[1]"}));
+  const BoundConstraints own = bind_constraints(
+      model, number_regions(parse_constraints({"E(tumour) = 3*E(liver)"}, "--constrain"), model,
+                            two_regions()));
+  ASSERT_EQ(own.among.size(), 1u);
+  EXPECT_EQ(own.among[0].at(Eigen::Vector3d(2, 7, 0.4)).value, 7 - 3 * 2);
+  const auto told = [&](const std::string& text) {
+    return error_of([&] { numbered(text, model); }, ExitCode::kUsage);
+  };
+  EXPECT_NE(told("E(spleen) >= E")
+                .find("no region is called 'spleen', of 'E(spleen) >= E'; "
+                      "regions 0, 1, ... are called liver, tumour"),
+            std::string::npos);
+  EXPECT_NE(told("E(2, 2, 2) >= E").find("nothing of the body is at (2,2,2)"), std::string::npos);
+  EXPECT_NE(told("E(0.1, 0.1) >= E").find("needs three coordinates"), std::string::npos);
+  model.metadata.remove("region_names");
+  EXPECT_NE(told("E(liver) >= E").find("name regions 0, 1, ... by --region-names"),
+            std::string::npos);
+}
+
+TEST(ConstraintRegions, PointsAreNoneBesideAnInclusion) {
+  const Model model =
+      test::with(test::elastic(1e4, 0.4), "inclusion", {0.04, 0.04, 0.025, 0.008, 4});
+  EXPECT_NE(error_of([&] { numbered("E(0.1, 0.1, 0.1) >= 9", model); }, ExitCode::kUsage)
+                .find("where the model has a layer or an inclusion"),
+            std::string::npos);
+}
+
+TEST(ConstraintRegions, AMapDividesInPlanView) {
+  Model model = test::elastic(1e4, 0.4);
+  Parameter lump = model.parameters[0];
+  lump.region = 1;
+  model.parameters.insert(model.parameters.begin() + 1, lump);
+  for (const auto& [region, x] : {std::pair(0, 0.02), std::pair(1, 0.06)})
+    for (const auto& [name, value] : {std::pair("x", x), std::pair("y", 0.03)}) {
+      Parameter p = model.parameters.front();
+      p.effect = "regions";
+      p.region = region;
+      p.name = name;
+      p.value = value;
+      model.parameters.push_back(p);
+    }
+  EXPECT_EQ(numbered("E(0.02, 0.04) >= E(0.06, 0.04)", model), (Names{"E[0]", "E[1]"}));
+}
+
+TEST(ConstraintRegions, NamesAreWordsAndStandOnce) {
+  EXPECT_EQ(region_names("liver, tumour_2", "--region-names"), (Names{"liver", "tumour_2"}));
+  for (const char* bad : {"liver,,tumour", "2b", "a-b", "liver,liver", ""})
+    EXPECT_NE(error_of([&] { region_names(bad, "--region-names"); }, ExitCode::kUsage), "");
 }
 
 }  // namespace
