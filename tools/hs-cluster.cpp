@@ -38,8 +38,10 @@ ToolSpec specification() {
       "discriminant analysis of the positions. Writes the samples with their region.",
       "A division is believed when the samples scatter more than their errors allow and cluster "
       "more tightly than samples spread evenly would (gap statistic, tested against one region at "
-      "every branch of the tree). A smooth slope of the stiffness is not divided; nor are samples "
-      "within about the tool's radius of a boundary told apart from either side."};
+      "every branch of the tree). A smooth slope of the stiffness is not divided. Samples "
+      "beside a boundary are held by both its sides: a group of them, all of which have neighbours "
+      "in a softer and in a stiffer region, is no region, and each joins the nearer of the two "
+      "by value."};
   spec.options = {
       {.flag = flag::regions,
        .value = "N",

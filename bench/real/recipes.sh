@@ -18,7 +18,7 @@ step() {
 # fit_and_diagnose FLAGS...: the first model, what is missing in it, and the model that the loop ends with.
 fit_and_diagnose() {
   step 300 hs-identify data.csv --body body.ply --effects elastic --fix nu=0.45 "$@" --history steps.csv -o m0.csv || return 1
-  step 300 hs-diagnose data.csv --body body.ply --model m0.csv --json effects.json -o effects.csv || return 1
+  step 900 hs-diagnose data.csv --body body.ply --model m0.csv --json effects.json -o effects.csv || return 1
   step 600 hs-identify data.csv --body body.ply --model m0.csv --effects auto "$@" --history steps.csv -o m1.csv || return 1
   step 120 hs-simulate data.csv --body body.ply --model m1.csv -o forces.csv || return 1
   step 120 hs-compare data.csv --simulated forces.csv --html report.html -o residuals.csv

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "cluster/pca.h"
+#include "regions/border_samples.h"
 
 namespace hapsim {
 namespace {
@@ -114,13 +115,17 @@ int join_lone_samples(const Eigen::MatrixXd& distances, std::vector<int>& label)
       if (size[k] > 1 && sum[k] / size[k] < least) least = sum[k] / size[k], label[i] = k;
     ++joined;
   }
-  std::vector<int> number(clusters, -1);  // without gaps again
+  return joined;
+}
+
+// Clusters that are empty are left out, in order of their first samples.
+void number_anew(std::vector<int>& label) {
+  std::vector<int> number(1 + *std::max_element(label.begin(), label.end()), -1);
   int next = 0;
   for (int& k : label) {
     if (number[k] < 0) number[k] = next++;
     k = number[k];
   }
-  return joined;
 }
 
 }  // namespace
@@ -145,6 +150,11 @@ RegionEstimate estimate_regions(const LocationTable& table, const RegionOptions&
     label = std::move(d.label);
     result.tests = std::move(d.tests);
     result.joined = join_lone_samples(distances, label);
+    number_anew(label);
+    const Eigen::Map<const Eigen::ArrayXd> E(table.E.data(),
+                                             static_cast<Eigen::Index>(table.size()));
+    result.bordering = dissolve_borders(table.point, E.log(), label);
+    number_anew(label);
   }
   const int regions = 1 + *std::max_element(label.begin(), label.end());
   std::vector<RegionValue> value;

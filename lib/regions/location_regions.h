@@ -35,6 +35,8 @@ struct RegionEstimate {
   std::vector<BranchTest> tests;  // of the natural division; the first is one region or more
   int joined =
       0;  // samples that the natural division left alone and that joined the nearest region
+  int bordering =
+      0;  // samples of a border between two regions, which joined one (border_samples.h)
   std::vector<int> label;          // region of each sample, numbered by ascending E
   std::vector<RegionValue> value;  // by region
 };

@@ -92,6 +92,12 @@ std::vector<std::string> region_lines(const RegionEstimate& regions, std::size_t
         fmt::format("{} unlike all others joined the nearest region: pressed across a "
                     "boundary, or a region of their own (press around, or give --regions)",
                     counted(regions.joined, "sample", "samples")));
+  if (regions.bordering > 0)
+    line(fmt::format(
+        "{} between a softer and a stiffer region joined the nearer one: pressed beside "
+        "the boundary, or a strip of their own (press across it more densely, or give "
+        "--regions)",
+        counted(regions.bordering, "sample", "samples")));
   for (std::size_t r = 0; r < regions.value.size(); ++r) {
     const RegionValue& v = regions.value[r];
     line(fmt::format("region {}: {}, E = {:.4g} ± {:.2g} Pa, nu = {:.3g}{}", r,
