@@ -197,8 +197,8 @@ HS_API hs_status hs_live_new(const hs_prepared* prepared, const hs_options* opti
                              hs_live** live);
 HS_API void hs_live_free(hs_live* live);
 /* At time t [s] the tip is at `tip`, anywhere: the force of the body on it [N]. No allocation, no
- * lock, no system call. A tip that is not finite repeats the last; time that runs backwards counts
- * as none. */
+ * lock, no system call. A tip that is not finite, or beyond 10 m, repeats the last; time that runs
+ * backwards counts as none. */
 HS_API void hs_live_step(hs_live* live, double t, const double tip[3], double force[3]);
 /* The same of many tools, one after the other: tips and forces are count x 3. Since HS_INTERFACE 2.
  */

@@ -66,17 +66,20 @@ bool comes_back(const PressView& view) {
   return false;
 }
 
-// Whether the depth tells the time since a press began: all of them go one steady way in, without a
-// hold, a return or another pace. A cubic stands for steady ones of any kind.
-bool depth_is_time(const Dataset& dataset) {
+// Whether the depth tells the time: all presses go one steady way in, without a hold, a return or
+// another pace. A cubic stands for steady ones of any kind. Of a body it is the time since it was
+// touched; of a sensor that of the session, in the air as well.
+bool depth_is_time(const Dataset& dataset, bool of_sensor) {
   std::vector<Eigen::Vector2d> points;
   double deepest = 0;
   for (const Episode& e : dataset.episodes) {
-    double begin = -1;
-    for (std::size_t i = 0; i < e.view.size(); ++i) {
-      if (e.view.in_air[i]) continue;
-      if (begin < 0) begin = e.view.t[i];
-      points.emplace_back(e.view.u[i].dot(e.view.direction), e.view.t[i] - begin);
+    const PressView& view = e.view;
+    const std::vector<double>& time = of_sensor && !view.session.empty() ? view.session : view.t;
+    double begin = of_sensor ? 0 : -1;
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      if (view.in_air[i] && !of_sensor) continue;
+      if (begin < 0) begin = time[i];
+      points.emplace_back(view.in_air[i] ? 0 : view.u[i].dot(view.direction), time[i] - begin);
       deepest = std::max(deepest, points.back()[0]);
     }
   }
@@ -118,11 +121,9 @@ std::string lacking_for(const EffectCard& effect, const Dataset& dataset) {
     for (const Episode& e : dataset.episodes) longest = std::max(longest, e.view.t.back());
     if (longest <= 0) return "all samples have the same time: record the time of every sample";
   }
-  // What a session's clock alone would tell apart needs as many presses as what starts tell.
-  const bool by_one_press =
-      effect.learned ? !effect.needs_session
-                     : effect.stage == Stage::kSensor && dataset.episodes.size() < kLeastStarts;
-  if (effect.needs_time && by_one_press && depth_is_time(dataset))
+  const bool of_sensor = effect.stage == Stage::kSensor;
+  if (effect.needs_time && (effect.learned ? !effect.needs_session : of_sensor) &&
+      depth_is_time(dataset, of_sensor))
     return "the presses go in at one steady pace, where time and depth tell the same: press at "
            "another pace as well, or hold";
   if (effect.needs_session && begins_anew(dataset))

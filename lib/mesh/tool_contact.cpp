@@ -3,7 +3,9 @@
 namespace hapsim {
 
 const ToolState& ToolContact::update(const Vec3& tool) noexcept {
-  if (!tool.allFinite()) return state_;  // a lost sample: the last state stands
+  constexpr double kFarthest = 10;  // [m], as recordings have it: beyond, squares end in overflow
+  if (!tool.allFinite() || tool.cwiseAbs().maxCoeff() > kFarthest)
+    return state_;  // a lost sample: the last state stands
   const bool was = state_.touching();
   const int last = state_.surface.face;
   SurfaceSide side;

@@ -12,8 +12,8 @@
 
 namespace hapsim {
 
-// The budget of a body with limbs and thin parts: some seven minutes of two processors. Others reach
-// the tolerance with some 350 at most.
+// The budget of a body with limbs and thin parts: some seven minutes of two processors. Others
+// reach the tolerance with some 350 at most.
 constexpr std::size_t kMostSamples = 4000;
 
 struct FieldSamplingOptions {

@@ -224,6 +224,40 @@ TEST(FewPresses, OfThreePressesWholeOnesAreLeftOutToo) {
   EXPECT_LT(d.held_out_end.told(), 0.02);
 }
 
+// A law of the depth that no effect has: no cause is named, and the curve that foretells is added.
+TEST(FewPresses, WhatHasNoNameIsAddedAsACurveThatForetells) {
+  constexpr double kMost = 0.006, kStiffness = 900;
+  Recording r;
+  r.name = "wavy";
+  r.metadata.set("tool_radius", "0.004");
+  Random random(3);
+  for (int press = 0; press < 4; ++press)
+    for (int i = 0; i <= 60; ++i) {
+      const double depth = kMost * i / 60;
+      const double share = 1 + 0.4 * std::sin(6.2831853 * depth / kMost);
+      r.line.push_back(static_cast<long>(r.line.size()) + 2);
+      r.press.push_back(press);
+      r.t.push_back(100 * press + 0.05 * (1 + press) * i);
+      r.position.emplace_back(0.04, 0.04, 0.04);
+      r.u.emplace_back(0, 0, -depth);
+      r.f.emplace_back(0.01 * random.normal(), 0.01 * random.normal(),
+                       kStiffness * depth * share + 0.01 * random.normal());
+    }
+  ExperimentOptions options;
+  options.rim_edge = 0.3;
+  options.noise = 0.01;
+  options.floor = 0.01;
+  const Experiment w =
+      make_experiment(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1), r, options);
+  ImproveOptions improvement;
+  improvement.fit.noise = w.noise.value;
+  improvement.fit.floor = w.floor;
+  const Improvement improved = improve(start_of(w), w, w, improvement);
+  ASSERT_GE(improved.steps.size(), 2u) << improved.last.explanation;
+  EXPECT_EQ(improved.steps[1].added, "learned-depth");
+  EXPECT_LT(improved.steps[1].held_out.told(), 0.7 * improved.steps[0].held_out.told());
+}
+
 // A machine that loads at a steady rate makes any force run straight in time: no drift of the
 // sensor is told from that, whatever the body does that the model does not.
 TEST(FewPresses, TheRateOfLoadingIsNoDrift) {

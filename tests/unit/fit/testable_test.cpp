@@ -119,6 +119,34 @@ TEST(Testable, AMemoryOfNoLawNeedsMoreThanOnePace) {
   EXPECT_EQ(lack("viscoelastic", presses(1, 0)), "");   // its law is told by its form, or is not
 }
 
+// One press at a steady pace: what runs in time in the sensor is a curve of the depth, unless the
+// air, a hold or another press has a time of its own.
+TEST(Testable, WhatRunsInTheSensorNeedsATimeOfItsOwn) {
+  const auto presses = [](int air, int held, int count) {
+    Recording r = two_presses();
+    for (auto* column : {&r.u, &r.f, &r.position}) column->clear();
+    r.press.clear(), r.line.clear(), r.t.clear();
+    for (int press = 0; press < count; ++press)
+      for (int i = -air; i <= 20 + held; ++i) {
+        r.line.push_back(static_cast<long>(r.line.size()) + 2);
+        r.press.push_back(press);
+        r.t.push_back(10 * press + 0.1 * (i + air));
+        r.position.emplace_back(0.01, 0.02, 0.04);
+        r.u.emplace_back(0, 0, -1e-4 * std::clamp(i, 0, 20));
+        r.f.push_back(Vec3::Zero());
+        r.contact.push_back(i >= 0);
+      }
+    return r;
+  };
+  for (const char* effect : {"sensor-drift", "sensor-lag", "filter"}) {
+    EXPECT_NE(lack(effect, presses(0, 0, 1)).find("one steady pace"), std::string::npos) << effect;
+    EXPECT_NE(lack(effect, presses(2, 0, 1)).find("one steady pace"), std::string::npos) << effect;
+    EXPECT_EQ(lack(effect, presses(40, 0, 1)), "") << effect;
+    EXPECT_EQ(lack(effect, presses(0, 20, 1)), "") << effect;
+    EXPECT_EQ(lack(effect, presses(0, 0, 2)), "") << effect;
+  }
+}
+
 TEST(Testable, AnEndOfTheSensorIsInTheReadings) {
   Recording r = two_presses();
   for (std::size_t i = 0; i < r.rows(); ++i) r.f[i] = {0, 0, 0.1 * static_cast<double>(i)};
