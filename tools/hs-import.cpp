@@ -156,7 +156,9 @@ std::vector<Option> options() {
        .writes = kTableExtensions},
       {.flag = flag::tip_motion,
        .help = "Makes no presses: writes where the tip is in time, t,x,y,z, as hs-simulate --live "
-               "follows it. Forces are not needed.",
+               "follows it. Forces are not needed. Of a ball's centres (--tip centre, "
+               "--tool-radius) the "
+               "tip is a radius along --direction.",
        .group = "Output"},
       choice("Output", flag::estimate_noise,
              "Whether the noise of the force is estimated and written as metadata force_noise, and "
@@ -346,6 +348,7 @@ TableOptions table_options(const Arguments& arguments) {
   if (arguments.given(flag::part)) options.part = arguments[flag::part];
   options.topics = arguments.list(flag::topic);
   options.positions_alone = arguments[flag::tip_motion];
+  if (arguments.given(flag::unit)) options.length_unit = arguments.text(flag::unit);
   if (arguments.given(flag::encoding)) options.encoding = arguments[flag::encoding];
   const std::string decimal = arguments[flag::decimal];
   if (decimal != "auto") options.decimal = decimal;
@@ -376,15 +379,29 @@ int write_motion(const RawTable& table, const ImportOptions& options, const Argu
   return 0;
 }
 
+// What has no meaning without presses must not be dropped in silence.
+void check_motion_options(const Arguments& arguments) {
+  for (const AnyFlag& other :
+       {AnyFlag(flag::scan), AnyFlag(flag::calibration), AnyFlag(flag::surface),
+        AnyFlag(flag::split_by), AnyFlag(flag::contact), AnyFlag(flag::force), AnyFlag(flag::at),
+        AnyFlag(flag::estimate_noise), AnyFlag(flag::rate), AnyFlag(flag::drop_air),
+        AnyFlag(flag::specimen)})
+    if (arguments.given(other))
+      fail_usage("--tip-motion makes no presses, " + other + " is for them", "give one of them");
+  const bool centre = arguments[flag::tip] == "centre";
+  if (centre && !arguments.given(flag::tool_radius))
+    fail_usage("--tip-motion --tip centre needs the radius of the ball", "add --tool-radius M");
+  if (!centre && arguments.given(flag::direction))
+    fail_usage("--tip-motion: --direction says where the tip is from the centre of a ball",
+               "add --tip centre, or leave it out");
+}
+
 int run(const Arguments& arguments) {
   std::optional<Block> block;
   if (arguments.given(flag::block)) block = parse_block(arguments[flag::block]);
   if (arguments.given(flag::surface) && !block)
     fail_usage("--surface needs the size of the block", "add --block LxWxH, or DxH for a cylinder");
-  if (arguments[flag::tip_motion])
-    for (const AnyFlag& other : {AnyFlag(flag::scan), AnyFlag(flag::calibration)})
-      if (arguments.given(other))
-        fail_usage("--tip-motion makes no presses, " + other + " needs them", "give one of them");
+  if (arguments[flag::tip_motion]) check_motion_options(arguments);
   const ImportOptions options = import_options(arguments, block);
 
   Input input(arguments.input());

@@ -65,7 +65,22 @@ void note_recovery(const std::vector<PressTrack>& tracks, const Samples& samples
   }
 }
 
-// "# units: mm, N" or "# positions in mm": what comments say about columns whose names say nothing.
+// A time that is the same for all of a site says when it was visited: the presses are quasi-static.
+void drop_standing_time(Samples& samples, Notes& notes) {
+  auto& t = samples.scalars[static_cast<std::size_t>(ScalarRole::kTime)];
+  if (t.empty() || samples.usable.size() < 3) return;
+  std::size_t same = 0;
+  for (std::size_t i = 1; i < samples.usable.size(); ++i)
+    same += t[static_cast<std::size_t>(samples.usable[i])] ==
+            t[static_cast<std::size_t>(samples.usable[i - 1])];
+  if (2 * same < samples.usable.size()) return;
+  t.clear();
+  notes.warnings.push_back(
+      "most rows repeat the time of the row before: it is left out, the presses are quasi-static");
+}
+
+}  // namespace
+
 UnitChoice units_of_comments(const RawTable& table, UnitChoice units, Notes& notes) {
   for (const Metadata::Line& line : table.metadata.lines()) {
     const std::vector<std::string> words = take_apart(line.key + " " + line.value + " .").words;
@@ -82,22 +97,6 @@ UnitChoice units_of_comments(const RawTable& table, UnitChoice units, Notes& not
   }
   return units;
 }
-
-// A time that is the same for all of a site says when it was visited: the presses are quasi-static.
-void drop_standing_time(Samples& samples, Notes& notes) {
-  auto& t = samples.scalars[static_cast<std::size_t>(ScalarRole::kTime)];
-  if (t.empty() || samples.usable.size() < 3) return;
-  std::size_t same = 0;
-  for (std::size_t i = 1; i < samples.usable.size(); ++i)
-    same += t[static_cast<std::size_t>(samples.usable[i])] ==
-            t[static_cast<std::size_t>(samples.usable[i - 1])];
-  if (2 * same < samples.usable.size()) return;
-  t.clear();
-  notes.warnings.push_back(
-      "most rows repeat the time of the row before: it is left out, the presses are quasi-static");
-}
-
-}  // namespace
 
 ImportResult import_recording(const RawTable& given, const ImportOptions& options) {
   const RawTable table = curves_of(given, options);

@@ -49,6 +49,10 @@ struct ImportResult {
 // column of --column that is absent; Error(kUsage) for a --column that cannot be meant.
 ImportResult import_recording(const RawTable& table, const ImportOptions& options);
 
+// `units`, with what comments of the table say about columns whose names say nothing: "# units: mm,
+// N" or "# positions in mm". Told in `notes`.
+UnitChoice units_of_comments(const RawTable& table, UnitChoice units, Notes& notes);
+
 // What each column was taken for, and what is missing: a table for people.
 std::string describe_columns(const RawTable& table, const ImportOptions& options);
 

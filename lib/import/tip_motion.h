@@ -17,7 +17,10 @@ struct TipMotion {
 };
 
 // Of the columns that import_recording() takes for time and tip; forces are not needed. Rows whose
-// time runs backwards are sorted in. Error(kBadInput): there is no time or no position.
+// time runs backwards are sorted in. Of a ball's centres (options.tip == "centre", which needs
+// options.tool_radius) the tip is a radius along options.direction. Error(kBadInput): there is no
+// time or no position; options.units.length is not the unit that the columns name; without
+// options.units.trusted, a position beyond 10 m or a motion over more than 1.5 m.
 TipMotion tip_motion(const RawTable& table, const ImportOptions& options);
 
 // "# tool_radius: 0.004", then t,x,y,z, as hs-simulate --live reads it.

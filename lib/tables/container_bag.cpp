@@ -30,11 +30,16 @@ std::string topic_list(const std::vector<BagTopic>& topics) {
 class BagTable {
  public:
   BagTable(const std::string& bytes, const std::string& name, const TableOptions& options)
-      : name_(name), topics_(read_bag(bytes, name)) {
+      : name_(name),
+        length_unit_(options.length_unit.empty() ? "m" : options.length_unit),
+        topics_(read_bag(bytes, name)) {
     if (options.topics.empty())
       find(options.positions_alone);
     else
       for (const std::string& topic : options.topics) take(topic);
+    if (options.positions_alone && force_)  // its stamps would be kept, not those of the positions
+      fail_usage("--topic: " + shown(force_->topic) + " has forces, --tip-motion needs none",
+                 "name the topic of positions alone");
     if (!force_ && !tip_)
       fail_input(name_,
                  "no topic has stamped forces or positions; the bag holds " + topic_list(topics_),
@@ -121,7 +126,10 @@ class BagTable {
     }
     if (topic->messages.empty())
       fail_input(name_, "--topic: " + shown(name) + " has no messages", "record it again");
-    if (place(type->kind) && place(type->kind) != &*topic)
+    if (place(type->kind) == &*topic)
+      fail_usage("--topic names " + shown(name) + " twice",
+                 "name one topic of forces and one of positions");
+    if (place(type->kind))
       fail_usage(fmt::format("--topic names two topics of {}", kind_words(type->kind)),
                  "name one of forces and one of positions");
     place(type->kind) = &*topic;
@@ -134,7 +142,7 @@ class BagTable {
       for (const std::string one : stamped_type(topic->type)->names) {
         names.push_back(one);
         units.push_back(one[0] == 'f'              ? "N"
-                        : one.rfind("tip", 0) == 0 ? "m"
+                        : one.rfind("tip", 0) == 0 ? length_unit_
                         : one[0] == 't'            ? "Nm"
                                                    : "");
       }
@@ -144,6 +152,12 @@ class BagTable {
   }
 
   void tell_join(const StampJoin& join, const StampedSeries& force, const StampedSeries& tip) {
+    if (join.row.empty() && join.outside == 0)
+      fail_input(name_,
+                 fmt::format("all forces of {} ({}) fall between positions of {} that are more "
+                             "than {:.3g} s apart, five times their usual step",
+                             force.topic, join.in_gaps, tip.topic, join.longest),
+                 "record both without gaps, or choose topics by --topic");
     if (join.row.empty()) {
       const double before = 1e-9 * static_cast<double>(tip.stamp[0] - force.stamp[0]);
       fail_input(
@@ -170,6 +184,7 @@ class BagTable {
   }
 
   const std::string& name_;
+  const std::string length_unit_;
   std::vector<BagTopic> topics_;
   const BagTopic *force_ = nullptr, *tip_ = nullptr;
   RawTable table_;

@@ -33,6 +33,7 @@ struct TableOptions {
   std::string part;  // of a file of several tables: its group or variable; "": the only one
   std::vector<std::string> topics;  // of a bag: those that are read; empty: the only ones
   bool positions_alone = false;     // of a bag: its forces are not wanted
+  std::string length_unit;          // of a bag, whose messages name none; "": m, as ROS has it
 };
 
 // Reads a table, whatever the container (tables/container.h). Error(kBadInput) with the line: no

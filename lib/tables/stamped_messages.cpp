@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/median.h"
+#include "io/number.h"
 
 namespace hapsim {
 namespace {

@@ -75,6 +75,10 @@ refused 2 'usage: make-fmu.sh OUT.fmu' a.fmu body.ply
 refused 2 'a.zip does not end in .fmu' a.zip body.ply model.csv 0.004
 refused 2 "TOOL_RADIUS: '4mm' is no number from 1e-6 to 1" a.fmu body.ply model.csv 4mm
 refused 5 'none.csv: cannot be read' a.fmu body.ply none.csv 0.004
+refused 2 "TOOL_RADIUS: '0.0.4' is no number" a.fmu body.ply model.csv 0.0.4
+refused 5 'a folder: cannot be read' a.fmu body.ply model.csv 0.004 'a folder'
+refused 5 'nodir/t.fmu: there is no such folder; make it first' nodir/t.fmu body.ply model.csv 0.004
+ACCURACY=0.1.2 refused 2 "ACCURACY: '0.1.2' is no number from 0.002 to 1" a.fmu body.ply model.csv 0.004
 [[ ! -e a.fmu ]] || complain 'something is left of what was refused'
 ((failures == 0)) && echo 'fmu: passed'
 exit $((failures > 0))

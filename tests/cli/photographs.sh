@@ -86,11 +86,15 @@ head -n 3 marks.csv >one.csv
 refused 3 'fewer than two marks' model one.csv sheet.csv
 sed 's/,-\{0,1\}0.105,/,0,/' sheet.csv >line.csv
 refused 3 'lie on one line' model marks.csv line.csv
+sed '3s/[^,]*$/nan/' sheet.csv >nan.csv
+refused 3 'nan.csv: row 2 has no number z; its columns are mark,x,y,z' model marks.csv nan.csv
 sed '3s/,[0-9.]*$/,here/' marks.csv >text.csv
 refused 3 'row 1 has no number v; its columns are mark,photograph,u,v' model text.csv sheet.csv
 refused 3 'no point is left' model marks.csv sheet.csv --above 1
 cp -r model fisheye && sed -i 's/SIMPLE_RADIAL/OPENCV_FISHEYE/' fisheye/cameras.txt
 refused 3 'a camera of the model OPENCV_FISHEYE' fisheye marks.csv sheet.csv
+cp -r model short && echo '3 SIMPLE_RADIAL 1200 900 1100 600' >short/cameras.txt
+refused 3 "short/cameras.txt: '3 SIMPLE_RADIAL 1200 900 1100 600' is no row of a camera SIMPLE_RADIAL" short marks.csv sheet.csv
 cp -r model cut && { head -n 30 model/points3D.txt; echo '5 1 two'; } >cut/points3D.txt
 refused 3 'cut/points3D.txt: ' cut marks.csv sheet.csv
 
@@ -106,6 +110,14 @@ chmod +x tools/colmap
 [[ -n $(command -v colmap) ]] || grep -qx 'photographs.sh: colmap is not installed; on Debian 12: apt install --no-install-recommends colmap' err ||
   complain 'what is missing is not told'
 PATH=$PWD/tools:/usr/bin:$PATH "$example/photographs.sh" 'my photographs' marks.csv sheet.csv made >log 2>err || complain 'the recipe fails'
+cp commands all
+PATH=$PWD/tools:/usr/bin:$PATH "$example/photographs.sh" 'my photographs' marks2.csv two.csv made2 >log 2>err
+[[ $? == 3 ]] && tail -n 1 err | grep -q '^scale_points.py: two marks give no frame for --above and --beside; mark a third, or .*ABOVE= BESIDE=' ||
+  complain 'two marks and a support'
+PATH=$PWD/tools:/usr/bin:$PATH ABOVE= BESIDE= "$example/photographs.sh" 'my photographs' marks2.csv two.csv made2 >log 2>err ||
+  complain 'the recipe fails with two marks'
+cmp -s made2/points.csv scaled.csv && [[ -s made2/surface.ply ]] || complain 'points are lost with two marks'
+mv all commands
 [[ $(cut -d' ' -f1 commands | tr '\n' ' ') == 'feature_extractor exhaustive_matcher mapper model_converter ' ]] || complain "other commands: $(cat commands)"
 (($(grep -c 'use_gpu 0' commands) == 2)) || complain 'a GPU is asked for'
 hs-tetmesh made/surface.ply -q --json body.json -o body.ply 2>err || complain 'no body'

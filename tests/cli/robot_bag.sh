@@ -71,7 +71,15 @@ paste -d, <(grep '^[0-9]' forces.csv) node.csv | awk -F, '{ for (k = 0; k < 3; +
 node _body:=body.ply _tool_radius:=4mm >log 2>err
 [[ $? == 1 && $(cat err) == 'live_node.py: the parameter ~model is not set; say _model:=...' ]] || complain 'a missing parameter'
 node _body:=none.ply _model:=model.csv _tool_radius:=4mm >log 2>err && complain 'no body, and all is well'
-grep -q 'none.ply: cannot be opened' err && grep -q 'hs-simulate ended with exit code' err || complain 'why the child ended'
+grep -q 'none.ply: cannot be opened' err && grep -q '^live_node.py: hs-simulate ended with exit code' err && ! grep -q Traceback err || complain 'why the child ended'
+
+# A child that dies at a pose (a position of 99 m) ends the node in words.
+mv poses.csv ordered.csv
+{ head -n 5 ordered.csv; echo 900,0,0,99; tail -n 5 ordered.csv; } >poses.csv
+node _body:=body.ply _model:=model.csv _tool_radius:=4mm _contacts:=data.csv >log 2>err
+[[ $? == 1 ]] && tail -n 1 err | grep -q '^live_node.py: hs-simulate ended with exit code 3$' && ! grep -q Traceback err ||
+  complain 'a child that dies'
+mv ordered.csv poses.csv
 
 # What cannot be read.
 refused() { # FILE WORDS
@@ -103,5 +111,37 @@ hs-import data.csv --topic /wrench -o never.csv 2>err
 [[ $? == 3 ]] && grep -q 'this is no bag of ROS; leave out --topic' err || complain '--topic of a table'
 hs-import "$robot/press.bag" --tip-motion --scan s.csv -o never.csv 2>err
 [[ $? == 2 ]] || complain '--tip-motion with --scan'
+# What a motion has no use for is not dropped in silence.
+motion() { # CODE WORDS ARGUMENTS...
+  hs-import "${@:3}" --tip-motion -q -o never.csv >log 2>err
+  [[ $? == "$1" && ! -e never.csv ]] && grep -qF -- "$2" err || complain "--tip-motion ${*:3}: not exit $1, '$2'"
+}
+for option in --rate=50 --split-by=force --estimate-noise=on --force=normal --drop-air --at=0,0,0.04 --contact=find --specimen=1; do
+  motion 2 "--tip-motion makes no presses, ${option%%=*} is for them" "$robot/press.bag" "$option"
+done
+motion 2 "'/wrench' has forces, --tip-motion needs none" "$robot/press.bag" --topic /wrench --topic /tip_pose
+motion 2 'needs the radius of the ball' "$robot/press.bag" --tip centre
+motion 2 '--direction says where the tip is from the centre' "$robot/press.bag" --direction 0,0,-1
+# Of a ball's centres the tip is a radius along the direction; the unit of a bag is the one that is told.
+moved() { # TEST of the first x,y,z and those of poses.csv as a, b, c, and ARGUMENTS of hs-import
+  hs-import "$robot/press.bag" --tip-motion "${@:2}" -q -o moved.csv 2>err || complain "--tip-motion ${*:2}"
+  paste -d, <(grep '^[0-9]' poses.csv) <(grep '^[0-9]' moved.csv) | awk -F, 'function same(p, q) { p -= q; return p * p < 1e-18 }
+    { a = $2; b = $3; c = $4; x = $6; y = $7; z = $8; if ($1 != $5 || !('"$1"')) bad = 1 } END { exit bad || NR != 160 }' ||
+    complain "--tip-motion ${*:2}: not $1"
+}
+moved 'same(x, a) && same(y, b) && same(z, c - 0.004)' --tool sphere --tip centre --tool-radius 4mm
+moved 'same(x, a + 0.004) && same(y, b) && same(z, c)' --tip centre --tool-radius 4mm --direction 2,0,0
+moved 'same(x, a / 1000) && same(y, b / 1000) && same(z, c / 1000)' --unit mm
+printf 't,tipx [m],tipy [m],tipz [m]\n0,0,0,0.04\n1,0,0,0.03\n' >named.csv
+sed 's/0.04$/39/; s/0.03$/38.5/' named.csv >far.csv
+motion 3 'a position of the tip is 39 m away; in millimetres it is 1000 times less: say --unit mm, or ' far.csv
+sed 's/0.04$/2/' named.csv >wide.csv
+motion 3 'the tip moves over 1.97 m; in millimetres it is 1000 times less: say --unit mm, or ' wide.csv
+hs-import far.csv --tip-motion --yes -o far.out 2>err && grep -q 'WARNING: a position of the tip is 39 m away' err || complain '--yes of a size'
+motion 3 'the positions are in m by their columns, not mm' named.csv --unit mm
+printf '# units: mm\nt,tip_x,tip_y,tip_z\n0,0,0,0.5\n1,0,0,0.25\n' >comment.csv
+hs-import comment.csv --tip-motion -q -o small.csv 2>err && tail -n 1 small.csv | grep -qx '1,0,0,0.00025' || complain 'a unit in a comment'
+printf 't,x,y\n0,0,0\n1,0,0\n' >flat.csv
+motion 3 'the positions of the tip have not all of x, y and z' flat.csv
 ((failures == 0)) && echo 'robot_bag: passed'
 exit $((failures > 0))

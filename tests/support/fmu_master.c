@@ -151,6 +151,11 @@ int main(int argc, char** argv) {
   REFUSED(SetReal_(c, kRadius, 1, value), "a parameter is fixed");
   value[0] = 0.0 / 0.0;
   REFUSED(SetReal_(c, kTip, 1, value), "not finite");
+  static const double kFar[] = {1e155, -10.1};
+  for (size_t k = 0; k < 3; ++k)
+    for (size_t i = 0; i < 2; ++i)
+      REFUSED(SetReal_(c, kTip + k, 1, kFar + i),
+              "a position beyond 10 m; are these millimetres? divide lengths by 1000");
   int whole[] = {1};
   REFUSED(SetInteger_(c, kInt, 1, whole), "no variable of this type");
   REFUSED(SetBoolean_(c, kInt, 1, whole), "no variable of this type");
@@ -202,8 +207,24 @@ int main(int argc, char** argv) {
   c = Instantiate_("tool", fmi2CoSimulation, argv[2], NULL, &callbacks, fmi2False, fmi2False);
   CHECK(c && SetupExperiment_(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK &&
         EnterInitializationMode_(c) == fmi2OK);
-  REFUSED(ExitInitializationMode_(c), "model_directory");
+  REFUSED(ExitInitializationMode_(c), "no folder of resources; set the parameter model_directory");
   FreeInstance_(c);
+  /* URIs of other things, and those with a % that begins no escape. */
+  static const char* const kUri[][2] = {
+      {"/nowhere", "is no file:///FOLDER of this machine"},
+      {"file://host/nowhere", "is no file:///FOLDER of this machine"},
+      {"file:///nowhere%00/x", "is no file:///FOLDER of this machine"},
+      {"file:///nowhere%4/x%20y%", "/nowhere%4/x y%/body.ply"},
+      {"file:/nowhere% 1/%2F%2f", "/nowhere% 1////body.ply"},
+      {"file://localhost/nowhere", "/nowhere/body.ply"}};
+  for (size_t i = 0; i < sizeof kUri / sizeof *kUri; ++i) {
+    c = Instantiate_("tool", fmi2CoSimulation, argv[2], kUri[i][0], &callbacks, fmi2False,
+                     fmi2False);
+    CHECK(c && SetupExperiment_(c, fmi2False, 0, 0, fmi2False, 0) == fmi2OK &&
+          EnterInitializationMode_(c) == fmi2OK);
+    REFUSED(ExitInitializationMode_(c), kUri[i][1]);
+    FreeInstance_(c);
+  }
   dlclose(library);
   return wrong;
 }

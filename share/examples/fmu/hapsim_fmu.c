@@ -6,6 +6,7 @@
  * and the motion to there is straight. On leaving the initialisation the tip is at the inputs'
  * start. Body and model are made ready then, which takes some seconds the first time, and are kept
  * by content in the user's cache. */
+#include <ctype.h>
 #include <hapsim.h>
 #include <math.h>
 #include <stdio.h>
@@ -23,9 +24,13 @@ enum { kDirectory, kStrings };
 /* Where an instance stands; a function names those in which it may be called. */
 enum { kInstantiated = 1, kInitialising = 2, kStepping = 4, kTerminated = 8, kAny = 15 };
 
+/* As hs-simulate: beyond it the unit is wrong [m]. */
+static const double kLargestPosition = 10;
+
 typedef struct {
   const fmi2CallbackFunctions* callbacks;
   char *name, *resources, *directory; /* directory: the parameter; empty: the resources */
+  const char* lack;                   /* why there are no resources */
   int state, logging, set_up;
   double real[kReals], start, stop, time;
   int stop_defined, dirty; /* dirty: the outputs are not those of the inputs */
@@ -90,19 +95,22 @@ static void start_values(Instance* c) {
   c->directory[0] = 0;
 }
 
-/* A folder of "file:///a%20b" or "file:/a%20b"; null: it is no URI of a file. */
+/* A folder of "file:///a%20b" or "file:/a%20b"; null: it is no URI of a file of this machine, or
+ * %00 would end it early. A % that begins no escape is itself. */
 static char* path_of(const char* uri) {
   static const char* const kBefore[] = {"file://localhost/", "file:///", "file:/"};
   for (size_t i = 0; i < sizeof kBefore / sizeof *kBefore; ++i) {
     const size_t length = strlen(kBefore[i]);
     if (strncmp(uri, kBefore[i], length) != 0) continue;
-    char* path = copied(uri + length - 1); /* its slash stays */
+    if (i == 2 && uri[length] == '/') return NULL; /* file://host/ */
+    char* path = copied(uri + length - 1);         /* its slash stays */
     if (!path) return NULL;
     char* to = path;
     for (const char* from = path; *from; ++from) {
-      unsigned byte;
-      if (*from == '%' && sscanf(from + 1, "%2x", &byte) == 1 && from[1] && from[2]) {
-        *to++ = (char)byte;
+      if (*from == '%' && isxdigit((unsigned char)from[1]) && isxdigit((unsigned char)from[2])) {
+        const char digits[] = {from[1], from[2], 0};
+        *to = (char)strtoul(digits, NULL, 16);
+        if (!*to++) return free(path), NULL;
         from += 2;
       } else {
         *to++ = *from;
@@ -122,10 +130,7 @@ static void said(void* context, const char* words) {
  * ready. */
 static fmi2Status prepare(Instance* c, const char* where) {
   const char* folder = c->directory[0] ? c->directory : c->resources;
-  if (!folder)
-    return failed(
-        c, where,
-        "fmi2Instantiate was given no folder of resources; set the parameter model_directory");
+  if (!folder) return failed(c, where, c->lack);
   const size_t length = strlen(folder) + 16;
   char* path = malloc(length);
   if (!path) return failed(c, where, "no memory");
@@ -206,6 +211,11 @@ fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String gui
   c->name = copied(instance);
   c->directory = copied("");
   c->resources = resources ? path_of(resources) : NULL;
+  c->lack =
+      resources
+          ? "the folder of resources that fmi2Instantiate was given is no file:///FOLDER of this "
+            "machine; give it so, or set the parameter model_directory"
+          : "fmi2Instantiate was given no folder of resources; set the parameter model_directory";
   c->state = kInstantiated;
   int good = c->name && c->directory;
   if (good && type != fmi2CoSimulation) {
@@ -365,6 +375,9 @@ fmi2Status fmi2SetReal(fmi2Component component, const fmi2ValueReference which[]
     return fmi2Error;
   for (size_t i = 0; i < count; ++i) { /* all or none */
     if (!isfinite(values[i])) return failed(c, where, "a value is not finite");
+    if (which[i] <= kZ && fabs(values[i]) > kLargestPosition)
+      return failed(c, where,
+                    "a position beyond 10 m; are these millimetres? divide lengths by 1000");
     if (which[i] >= kFx && which[i] <= kUncertainty)
       return failed(c, where, "an output is not set");
     if (which[i] > kUncertainty && c->state == kStepping)

@@ -9,16 +9,17 @@ fail() { echo "make-fmu.sh: $1" >&2; exit "${2:-2}"; }
 [ $# -ge 4 ] && [ $# -le 5 ] || fail "usage: make-fmu.sh OUT.fmu BODY MODEL TOOL_RADIUS [CONTACTS]"
 case $1 in *.fmu) ;; *) fail "$1 does not end in .fmu; name it so" ;; esac
 name=$(basename "$1" .fmu | tr -c 'A-Za-z0-9_\n' _ | sed 's/^\([0-9]\)/_\1/')
-out=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+folder=$(cd "$(dirname "$1")" 2>/dev/null && pwd) || fail "$1: there is no such folder; make it first" 5
+out=$folder/$(basename "$1")
 radius=$4
 accuracy=${ACCURACY:-0.02}
 number() { # WHAT VALUE LEAST MOST
-  printf '%s' "$2" | awk -v least="$3" -v most="$4" '{ exit !(NR == 1 && /^[0-9.]+([eE][-+]?[0-9]+)?$/ && $1 >= least && $1 <= most) }' ||
+  printf '%s' "$2" | awk -v least="$3" -v most="$4" '{ exit !(NR == 1 && /^([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?$/ && $1 >= least && $1 <= most) }' ||
     fail "$1: '$2' is no number from $3 to $4; write for example $5"
 }
 number TOOL_RADIUS "$radius" 1e-6 1 '0.004 (metres)'
 number ACCURACY "$accuracy" 0.002 1 0.02
-for file in "$2" "$3" ${5:+"$5"}; do [ -r "$file" ] || fail "$file: cannot be read; is it there?" 5; done
+for file in "$2" "$3" ${5:+"$5"}; do [ -r "$file" ] && [ ! -d "$file" ] || fail "$file: cannot be read; is it there?" 5; done
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

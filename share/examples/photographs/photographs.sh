@@ -3,8 +3,8 @@
 # COLMAP on the processor, in the frame and to the scale of known marks (scale_points.py). Needs colmap (Debian's, or any
 # of 3.8), python3 with numpy, and hapsim's tools on the PATH; writes into FOLDER (here). From the environment: ABOVE, the
 # height of the support and what of the body is lost with it (0.002 m); BESIDE, how far the body reaches to the side (0.1
-# m); FEATURES, the most that are looked for in a photograph (4000): more find more points, and the time for a pair of
-# photographs grows with their square.
+# m), both empty with two marks, which give no frame; FEATURES, the most that are looked for in a photograph (4000): more
+# find more points, and the time for a pair of photographs grows with their square.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 fail() { echo "photographs.sh: $1" >&2; exit "${2:-2}"; }
@@ -26,7 +26,8 @@ run mapper --database_path "$out/colmap/database.db" --image_path "$1" --output_
 [ -d "$out/colmap/sparse/0" ] || fail "colmap finds no place for the cameras; more photographs, nearer to each other" 4
 run model_converter --input_path "$out/colmap/sparse/0" --output_path "$out/colmap/sparse/0" --output_type TXT
 
-python3 "$here/scale_points.py" "$out/colmap/sparse/0" "$2" "$3" --above "${ABOVE:-0.002}" --beside "${BESIDE:-0.1}" >"$out/points.csv" ||
-  exit $?
+above=${ABOVE-0.002} beside=${BESIDE-0.1}
+python3 "$here/scale_points.py" "$out/colmap/sparse/0" "$2" "$3" ${above:+--above "$above"} ${beside:+--beside "$beside"} \
+  >"$out/points.csv" || exit $?
 hs-scan2ply "$out/points.csv" -o "$out/points.ply"
 hs-reconstruct "$out/points.ply" -o "$out/surface.ply"

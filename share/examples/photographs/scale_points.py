@@ -8,11 +8,13 @@ table mark,x,y,z of where they are [m], three or more not on one line: the point
 length between them gives the scale alone.
 
 --above: leaves out what lies lower [m], the support on which the body stands. --beside: leaves out what is farther than
-that from the marks' middle, to the side. --track: of how many photographs a point must be (3). --error: the largest
-reprojection error of a point (1.5 pixels). Standard error says how well the marks fit. Needs numpy.
+that from the marks' middle, to the side. Both are of the frame of three marks, and refused with two. --track: of how many
+photographs a point must be (3). --error: the largest reprojection error of a point (1.5 pixels). Standard error says how
+well the marks fit. Needs numpy.
 """
 import argparse
 import csv
+import math
 import sys
 
 import numpy as np
@@ -37,9 +39,12 @@ def lines(path):
 
 def numbers(path, line, words):
     try:
-        return [float(word) for word in words]
+        values = [float(word) for word in words]
     except ValueError:
+        values = [math.nan]
+    if not all(map(math.isfinite, values)):
         fail("%s: %r is no row of a COLMAP model; convert it by colmap model_converter" % (path, line[:40]))
+    return values
 
 
 def read_cameras(path):
@@ -49,7 +54,10 @@ def read_cameras(path):
         if len(words) < 5 or words[1] not in CAMERAS:
             fail("%s: a camera of the model %s; extract features with --ImageReader.camera_model SIMPLE_RADIAL"
                  % (path, words[1] if len(words) > 1 else "?"))
-        cameras[words[0]] = (words[1], numbers(path, line, words[4:]))
+        values = numbers(path, line, words[4:])
+        if len(values) != 2 + sum(CAMERAS[words[1]]) or not all(values[:CAMERAS[words[1]][0]]):
+            fail("%s: %r is no row of a camera %s; convert it by colmap model_converter" % (path, line[:40], words[1]))
+        cameras[words[0]] = (words[1], values)
     return cameras
 
 
@@ -100,6 +108,8 @@ def table(path, columns):
             try:
                 row[name] = float(row[name])
             except (TypeError, ValueError, KeyError):
+                row[name] = math.nan
+            if not math.isfinite(row[name]):
                 fail("%s: row %d has no number %s; its columns are %s" % (path, number, name, ",".join(sum(columns, []))))
     return rows
 
@@ -167,6 +177,9 @@ def main():
     if len(names) == 2:
         s, R, t = np.linalg.norm(target[1] - target[0]) / np.linalg.norm(source[1] - source[0]), np.eye(3), np.zeros(3)
         print("scale_points.py: two marks: the scale alone; nothing says how good it is", file=sys.stderr)
+        if asked.above is not None or asked.beside is not None:  # COLMAP's frame knows neither up nor the side
+            fail("two marks give no frame for --above and --beside; mark a third, or leave both out (photographs.sh: "
+                 "ABOVE= BESIDE=) and cut the body from the support yourself")
     else:
         if np.linalg.svd(target - target.mean(0))[1][1] < 1e-3 * np.linalg.norm(target - target.mean(0)):
             fail("%s: the marks lie on one line; use three that do not" % asked.known)

@@ -39,7 +39,10 @@ class Forces:
         return dict(zip(self.columns, map(float, self._read().split(","))))
 
     def close(self):
-        self.child.stdin.close()
+        try:
+            self.child.stdin.close()
+        except OSError:  # it has ended before
+            pass
         return self.child.wait()
 
 
@@ -52,10 +55,14 @@ def main():
             sys.exit("live_node.py: the parameter ~%s is not set; say _%s:=..." % (name, name))
         if value is not None:
             arguments += ["--" + name.replace("_", "-"), str(value)]
-    forces = Forces(arguments)
+    try:
+        forces = Forces(arguments)
+    except (RuntimeError, OSError) as failure:
+        sys.exit("live_node.py: %s" % failure)
     publisher = rospy.Publisher("force", WrenchStamped, queue_size=1)
     begin = []
     told = []
+    failed = []
 
     def answer(pose):
         if not begin:
@@ -64,6 +71,7 @@ def main():
         try:
             row = forces.at((pose.header.stamp - begin[0]).to_sec(), at.x, at.y, at.z)
         except (RuntimeError, OSError) as failure:
+            failed.append(True)
             rospy.signal_shutdown(str(failure))
             return
         if row["beyond"] and not told:
@@ -78,7 +86,9 @@ def main():
     rospy.Subscriber("tip_pose", PoseStamped, answer, queue_size=1, tcp_nodelay=True)
     rospy.loginfo("ready")
     rospy.spin()
-    forces.close()
+    code = forces.close()
+    if failed:
+        sys.exit("live_node.py: hs-simulate ended with exit code %d" % code)
 
 
 if __name__ == "__main__":

@@ -196,6 +196,33 @@ TEST(Bag, NothingIsKnownInAGapOrOutside) {
   EXPECT_EQ(join.in_gaps, 1u);
 }
 
+TEST(Bag, ForcesThatAreAllInAGapAreTold) {
+  BagMaker bag;
+  const int wrench = bag.topic("/wrench", "WrenchStamped"), tip = bag.topic("/tip", "PointStamped");
+  for (const int t : {0, 10, 20, 30, 3000, 3010, 3020})
+    bag.message(tip, t, stamped(1000 + t, "base", {0, 0, 0.1}));
+  for (int t = 1000; t < 1070; t += 10)
+    bag.message(wrench, t, stamped(1000 + t, "base", {0, 0, 1, 0, 0, 0}));
+  expect_words({"all forces of /wrench (7) fall between positions of /tip",
+                "more than 0.05 s apart", "without gaps"},
+               [&] { table_of_bag(bag.bytes()); });
+}
+
+TEST(Bag, LengthsAreInTheUnitThatIsTold) {
+  TableOptions options;
+  options.length_unit = "mm";
+  options.positions_alone = true;
+  const TipMotion motion = tip_motion(table_of_bag(usual().bytes(), options), {});
+  EXPECT_NEAR(motion.tip[1].z(), 1e-3 * (1 - 0.024), 1e-15);
+  BagMaker bag;  // in millimetres, and nobody says so
+  const int tip = bag.topic("/tip", "PointStamped");
+  for (int i = 0; i < 4; ++i) bag.message(tip, i, stamped(1000 + i, "base", {0, 0, 39.0 - i}));
+  EXPECT_NEAR(tip_motion(table_of_bag(bag.bytes(), options), {}).tip[1].z(), 0.038, 1e-15);
+  options.length_unit.clear();
+  expect_words({"session.bag", "a position of the tip is 39 m away", "--unit mm"},
+               [&] { tip_motion(table_of_bag(bag.bytes(), options), {}); });
+}
+
 TEST(Bag, StampsThatNobodySetAreThoseOfReceipt) {
   BagMaker bag;
   const int wrench = bag.topic("/wrench", "WrenchStamped"), tip = bag.topic("/tip", "PointStamped");
@@ -226,6 +253,15 @@ TEST(Bag, SeveralTopicsAskForTheFlag) {
   options.topics = {"/wrench", "/wrench_filtered"};
   expect_words(
       {"two topics of forces"}, [&] { table_of_bag(bag.bytes(), options); }, ExitCode::kUsage);
+  options.topics = {"/wrench", "/wrench"};
+  expect_words(
+      {"names '/wrench' twice"}, [&] { table_of_bag(bag.bytes(), options); }, ExitCode::kUsage);
+  options.topics = {"/wrench", "/tip"};
+  options.positions_alone = true;
+  expect_words(
+      {"'/wrench' has forces, --tip-motion needs none"},
+      [&] { table_of_bag(bag.bytes(), options); }, ExitCode::kUsage);
+  options.positions_alone = false;
   expect_words({"no bag of ROS"}, [&] { table_of_bag("t,x\n0,1\n1,2\n", options); });
 }
 
