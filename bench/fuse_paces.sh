@@ -10,20 +10,20 @@ set -euo pipefail
 [[ -n ${2-} && -x $1/hs-fuse ]] || { echo "usage: fuse_paces.sh BIN OUT" >&2; exit 2; }
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 export PATH="$(cd "$1" && pwd):$PATH"
-heart=$here/../share/examples/thesis/heart.sh
+thesis=$here/../share/examples/thesis
 mkdir -p "$2"
-[[ -s $2/summary.csv ]] || sh "$heart" "$2" >/dev/null 2>&1
+[[ -s $2/summary.csv ]] || sh "$thesis/heart.sh" "$2" >/dev/null 2>&1
 cd "$2"
-. <(sed -n '/^motion() {/,/^}/p' "$heart")
+motion() { awk -v presses="$presses" -v hold=1 -v step="$1" -f "$thesis/presses.awk"; } # STEP
 presses='0.125:0.008 0.2:0.009 0.125:0.007 0.16:0.0085 0.14:0.006 0.18:0.0075 0.15:0.009 0.2:0.0065 0.13:0.0085 0.17:0.008'
 fe='--full --own-mesh --body organ.ply --model organ.csv -q'
-motion "$presses" 0.001 | hs-simulate - --model acfm.csv -q -o paces.acfm.csv
-[[ -s paces.exact.csv ]] || motion "$presses" 0.001 | hs-simulate - $fe -o paces.exact.csv
+motion 0.001 | hs-simulate - --model acfm.csv -q -o paces.acfm.csv
+[[ -s paces.exact.csv ]] || motion 0.001 | hs-simulate - $fe -o paces.exact.csv
 printf '%5s | %4s | %7s | %7s | %7s | %7s | %5s | %s\n' ms slow fused alone held drawn NIS band
 worse=0
 for ms in 20 50 100 150 200; do
   s=$(awk -v ms=$ms 'BEGIN { print ms / 1000 }')
-  [[ -s paces.fe.$ms.csv ]] || motion "$presses" "$s" | hs-simulate - $fe -o "paces.fe.$ms.csv"
+  [[ -s paces.fe.$ms.csv ]] || motion "$s" | hs-simulate - $fe -o "paces.fe.$ms.csv"
   hs-simulate "paces.fe.$ms.csv" --model acfm.csv -q -o "paces.steps.$ms.csv"
   hs-fuse -q paces.acfm.csv --slow "paces.fe.$ms.csv" --stepped "paces.steps.$ms.csv" --delay "$s" \
     --parameters filter.csv --exact paces.exact.csv --json summary.json -o fused.csv

@@ -64,9 +64,10 @@ struct PlaceEstimate {
 };
 
 // L = log(R^-1 K R^-1), R the root of what is expected: a trend, linear in the views' tensors, with
-// the ridge that generalised cross-validation takes, and what the trend leaves as a Gaussian
-// process over place, normal and features (universal kriging in two stages). Its variance is scaled
-// by the squared residuals of samples that are left out, those nearby most.
+// the ridge under which places that are left out are off least, and what the trend leaves as a
+// Gaussian process over place, normal and features (universal kriging in two stages). Its variance
+// is scaled by the squared residuals of samples that are left out: by those that are alike or by
+// the nearest, whichever are larger.
 class PlaceModel {
  public:
   // `noise`: standard deviation of what samples of the coarser mesh scatter about the finer ones'

@@ -38,7 +38,7 @@ class ToolLoop {
 
   // The tool at `tool` [m] at time t [s], anywhere: finds whether and where it touches. Force of
   // the body on the tool [N], away from it what the sensor reads of none. A sample that is not
-  // finite repeats the last position; time that runs backwards counts as no time.
+  // finite, or beyond 10 m, repeats the last position; time that runs backwards counts as no time.
   Vec3 step(double t, const Vec3& tool) noexcept;
 
   // A recorded motion instead, whose contact point is known: begin() at each new press, then its

@@ -21,14 +21,7 @@ elastic,0,nu,0.45,1
 viscoelastic,0,E1,6000,Pa
 viscoelastic,0,tau1,0.15,s
 END
-# 25 s of a hand that presses, 1 kHz.
-awk 'BEGIN {
-  print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
-  for (i = 0; i <= 25000; ++i) {
-    t = i / 1000; d = 0.002 * (1 - cos(3.6 * t)) * (1 + 0.35 * sin(1.3 * t)); s = 0.25 * d * sin(2.3 * t)
-    printf "1,%.3f,0.004,0.002,0.0496,%.9g,0,%.9g\n", t, s, -d
-  }
-}' >motion.csv
+awk -v x=0.004 -v y=0.002 -v z=0.0496 -f "$here/hand.awk" >motion.csv
 
 port=${PORT:-9123}
 bad='--delay 0.15 --jitter 0.05 --loss 0.05 --duplicate 0.02 --reorder 0.02'

@@ -22,26 +22,14 @@ viscoelastic,0,E2,4000,Pa
 viscoelastic,0,tau2,1,s
 END
 
-# motion KIND STEP: presses of sin^2 shape with a hold, rise:depth each (or these as KIND); sideways a little.
+# motion KIND STEP
 motion() {
   case $1 in
     lesson) presses='1.5:0.009 0.15:0.0085 0.4:0.006 0.12:0.0075 0.25:0.009 0.14:0.0092 0.18:0.0065 0.12:0.008' hold=0.3 ;;
     slow) presses='1.5:0.008 2:0.006' hold=0.5 ;;
     fast) presses='0.125:0.008 0.2:0.009 0.125:0.007' hold=1 ;;
-    *) presses=$1 hold=1 ;;
   esac
-  awk -v presses="$presses" -v hold=$hold -v step="$2" 'BEGIN {
-    print "# tool_radius: 0.006"; print "press,t,x,y,z,ux,uy,uz"
-    n = split(presses, p, " ")
-    for (k = 1; k <= n; ++k) {
-      split(p[k], q, ":"); rise = q[1]; d = q[2]; h = hold * rise + 0.05
-      for (i = 0; i * step < 2 * rise + h + 0.1 - 1e-9; ++i) {
-        t = i * step; left = 2 * rise + h - t
-        s = t < rise ? sin(1.5708 * t / rise) ^ 2 : left > rise ? 1 : left > 0 ? sin(1.5708 * left / rise) ^ 2 : 0
-        printf "%d,%.6f,0,0,0.055,%.9g,0,%.9g\n", k, t, 0.2 * d * s * sin(3 * t), -d * s
-      }
-    }
-  }'
+  awk -v presses="$presses" -v hold=$hold -v step="$2" -f "$here/presses.awk"
 }
 motion fast 0.001 >fast.csv
 hs-tetmesh organ.off --edge 0.012 --contacts fast.csv --size 0.004 --growth 0.8 -q -o organ.ply

@@ -49,27 +49,12 @@ awk 'BEGIN {
   }
 }' >scan.csv
 
-place() { # a motion's displacements at the organ's highest place
-  awk -v OFS=, 'BEGIN { print "# tool_radius: 0.006"; print "press,t,x,y,z,ux,uy,uz" } { print $1, $2, 0, 0, 0.055, $3, 0, $4 }'
-}
 # Held for 60 s: 300 samples.
-awk 'BEGIN { for (i = 0; i < 300; ++i) { t = 0.2 * i; printf "1 %.3f 0 %.9g\n", t, -0.008 * (t < 0.6 ? t / 0.6 : 1) } }' | place >held.csv
-# motion STEP PRESS...: presses of sin^2 shape with a hold, rise:depth each, sideways a little.
-motion() {
-  step=$1
-  shift
-  awk -v presses="$*" -v step="$step" 'BEGIN {
-    n = split(presses, p, " ")
-    for (k = 1; k <= n; ++k) {
-      split(p[k], q, ":"); rise = q[1]; d = q[2]; h = rise + 0.05
-      for (i = 0; i * step < 2 * rise + h + 0.1 - 1e-9; ++i) {
-        t = i * step; left = 2 * rise + h - t
-        s = t < rise ? sin(1.5708 * t / rise) ^ 2 : left > rise ? 1 : left > 0 ? sin(1.5708 * left / rise) ^ 2 : 0
-        printf "%d %.6f %.9g %.9g\n", k, t, 0.2 * d * s * sin(3 * t), -d * s
-      }
-    }
-  }' | place
-}
+awk 'BEGIN {
+  print "# tool_radius: 0.006"; print "press,t,x,y,z,ux,uy,uz"
+  for (i = 0; i < 300; ++i) { t = 0.2 * i; printf "1,%.3f,0,0,0.055,0,0,%.9g\n", t, -0.008 * (t < 0.6 ? t / 0.6 : 1) }
+}' >held.csv
+motion() { awk -v presses="$2" -v hold=1 -v step="$1" -f "$here/presses.awk"; } # STEP PRESSES
 lesson='1.5:0.009 0.15:0.0085 0.4:0.006 0.12:0.0075 0.25:0.009 0.14:0.0092 0.18:0.0065 0.12:0.008'
 hand='0.125:0.008 0.2:0.009 0.5:0.007 0.16:0.0085 1.5:0.008 0.14:0.006'
 

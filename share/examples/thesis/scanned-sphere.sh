@@ -34,14 +34,7 @@ hs-scan2ply scan.csv -q -o points.ply
 hs-reconstruct points.ply -q -o surface.ply
 hs-tetmesh surface.ply --edge 0.02 -q -o sphere.ply
 
-# 25 s of a hand that presses, 1 kHz.
-awk 'BEGIN {
-  print "# tool_radius: 0.004"; print "press,t,x,y,z,ux,uy,uz"
-  for (i = 0; i <= 25000; ++i) {
-    t = i / 1000; d = 0.002 * (1 - cos(3.6 * t)) * (1 + 0.35 * sin(1.3 * t)); s = 0.25 * d * sin(2.3 * t)
-    printf "1,%.3f,0.004,0.002,0.04779,%.9g,0,%.9g\n", t, s, -d
-  }
-}' >motion.csv
+awk -v x=0.004 -v y=0.002 -v z=0.04779 -f "$here/../telepresence/hand.awk" >motion.csv
 
 port=${PORT:-9125}
 bad='--delay 0.15 --jitter 0.05 --loss 0.05 --duplicate 0.02 --reorder 0.02'
