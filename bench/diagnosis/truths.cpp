@@ -127,6 +127,15 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("viscoelastic-3-terms", "viscoelastic", 5, [](double s) {
     return std::vector<double>{s * kModulus, 0.05, s * kModulus, 0.4, s * kModulus, 3};
   }));
+  t.push_back(own_form("fractional", "fractional", 5, [](double s) {
+    return std::vector<double>{s * kModulus, 0.25, 0.05};
+  }));
+  t.push_back(own_form("poroelastic", "poroelastic", 1, [](double s) {
+    return std::vector<double>{0.5 - 0.5 * s, 1e-5};
+  }));
+  t.push_back(own_form("qlv", "qlv", 5, [](double s) {
+    return std::vector<double>{s * kModulus, 0.6, 1};
+  }));
   t.push_back(own_form("damper", "damper", 100, [](double s) {
     return std::vector<double>{s, 0};
   }));
@@ -148,6 +157,9 @@ std::vector<Truth> own_forms() {
   }));
   t.push_back(
       own_form("backlash", "backlash", 3e-3, [](double s) { return std::vector<double>{s}; }));
+  t.push_back(own_form("plastic", "plastic", 0.9, [](double s) {
+    return std::vector<double>{s, 2e-4};
+  }));
   t.push_back(
       own_form("friction", "friction", 50, [](double s) { return std::vector<double>{1 / s}; }));
   t.push_back(own_form("adhesion", "adhesion", 5, [](double s) {
@@ -177,6 +189,8 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("drag", "drag", 5, [](double s) {
     return std::vector<double>{0, 0, s, 1e-5};
   }));
+  t.push_back(own_form("tool-inertia", "tool-inertia", 50,
+                       [](double s) { return std::vector<double>{s}; }));
   t.push_back(own_form("tool-radius", "tool-radius", 4,
                        [](double s) { return std::vector<double>{1 + s}; }));
   t.push_back(own_form("sensor-curve", "sensor-curve", 1, [](double s) {

@@ -9,13 +9,13 @@ namespace hapsim {
 // In the order in which a force passes through them: motion, body, support, contact, sensor.
 // clang-format off
 #define HAPSIM_EFFECTS(X) \
-  X(motion_scale) X(backlash) X(touch) X(breathing) \
+  X(motion_scale) X(backlash) X(touch) X(breathing) X(plastic) \
   X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(hyperelastic) X(temperature) \
-  X(softening) X(viscoelastic) X(damper) \
+  X(softening) X(viscoelastic) X(fractional) X(poroelastic) X(qlv) X(damper) \
   X(base) X(shift) \
   X(tool_radius) X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(learned_depth) \
-  X(learned_kernel) X(arm_compliance) X(drag) X(sensor_rotation) X(sensor_crosstalk) \
-  X(sensor_gain) X(sensor_curve) X(sensor_hysteresis) X(sensor_lag) X(filter) X(sensor_bias) \
+  X(learned_kernel) X(arm_compliance) X(drag) X(tool_inertia) X(sensor_rotation) \
+  X(sensor_crosstalk) X(sensor_gain) X(sensor_curve) X(sensor_hysteresis) X(sensor_lag) X(filter) X(sensor_bias) \
   X(sensor_drift) X(sensor_settling) X(learned_drift) X(deadband) X(clock) X(clipping) X(tare)
 // clang-format on
 

@@ -2,9 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "effects/effect_step.h"
 #include "effects/effects.h"
-#include "material/maxwell_memory.h"
+#include "effects/memory_terms.h"
 
 namespace hapsim {
 namespace {
@@ -25,31 +24,6 @@ struct MemoryKernel {
     }
   }
   static std::string name_of(std::size_t k) { return "g" + std::to_string(k + 1); }
-};
-
-// Remembers the force that drives it, then what is left of it at each time.
-class LearnedKernelStep : public EffectStep {
- public:
-  explicit LearnedKernelStep(const Values& values) : kernel_(values) {}
-  std::size_t memory() const override { return 3 + 3 * kMemoryTimes; }
-  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
-    Eigen::Map<Vec3> before(memory);
-    const Vec3 driver = f;
-    for (std::size_t k = 0; k < kMemoryTimes; ++k) {
-      Eigen::Map<Vec3> h(memory + 3 * (k + 1));
-      if (sample.first) {
-        h = driver;
-      } else {
-        const MemoryStep s = memory_step(sample.dt, kernel_.tau[k]);
-        h = s.a * h + s.c * (driver - before);
-      }
-      f += kernel_.g[k] * h;
-    }
-    before = driver;
-  }
-
- private:
-  MemoryKernel kernel_;
 };
 
 ParameterCard memory_share(int k) {
@@ -100,33 +74,23 @@ class LearnedKernel : public Effect {
   }
 
   void apply(const PressView& press, const Values& values, Signal& signal) const override {
-    if (press.t.empty()) return;
     const MemoryKernel kernel(values);
-    const Eigen::VectorXd f = signal.f;
-    const Eigen::MatrixXd df = signal.df;
-    const auto n = static_cast<Eigen::Index>(press.size());
+    std::vector<MemoryTerm> terms;
     for (std::size_t k = 0; k < kMemoryTimes; ++k) {
+      MemoryTerm& term = terms.emplace_back();
+      term.share = kernel.g[k];
+      term.tau = kernel.tau[k];
       const int column = find_value(values, MemoryKernel::name_of(k)).column;
-      Vec3 h = f.head<3>();
-      Eigen::MatrixXd dh = df.topRows(3);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        if (i > 0) {
-          const auto j = static_cast<std::size_t>(i);
-          const MemoryStep s = memory_step(press.t[j] - press.t[j - 1], kernel.tau[k]);
-          h = s.a * h + s.c * (f.segment<3>(3 * i) - f.segment<3>(3 * i - 3));
-          if (df.cols() > 0)
-            dh = s.a * dh + s.c * (df.middleRows(3 * i, 3) - df.middleRows(3 * i - 3, 3));
-        }
-        signal.f.segment<3>(3 * i) += kernel.g[k] * h;
-        if (df.cols() == 0) continue;
-        signal.df.middleRows(3 * i, 3) += kernel.g[k] * dh;
-        if (column >= 0) signal.df.block<3, 1>(3 * i, column) += h;
-      }
+      if (column >= 0) term.share_by.emplace_back(column, 1);
     }
+    add_memory(press, terms, Signal(signal), signal);
   }
 
   std::unique_ptr<EffectStep> step(const Values& values, const StepContext&) const override {
-    return std::make_unique<LearnedKernelStep>(values);
+    const MemoryKernel kernel(values);
+    std::vector<MaxwellTerm> terms;
+    for (std::size_t k = 0; k < kMemoryTimes; ++k) terms.push_back({kernel.g[k], kernel.tau[k]});
+    return memory_effect_step(std::move(terms));
   }
 
   std::vector<EffectCurve> curves(const Values& values) const override {

@@ -6,6 +6,7 @@
 
 #include "effects/effect_step.h"
 #include "effects/effects.h"
+#include "effects/pressed_places.h"
 
 namespace hapsim {
 namespace {
@@ -25,31 +26,30 @@ Loss loss(double q, double most, double past, double m, double c, double k) {
   return l;
 }
 
-// Remembers the places and how deep each was pressed; of this press its place, the deepest before
-// it, the deepest so far and when it began.
+// Remembers of this press its place, the deepest before it, the deepest so far and when it began;
+// then the places and how deep each was pressed.
 class SofteningStep : public EffectStep {
  public:
   SofteningStep(double s, double m, double c, double k, double rate, bool heals)
       : s_(s), m_(m), c_(c), k_(k), rate_(rate), heals_(heals) {}
-  std::size_t memory() const override { return 6 + 4 * kMostPlaces; }
+  std::size_t memory() const override { return 4 + PressedPlaces::kMemory; }
   void take_place(const StepPlace& place) noexcept override {
     point_ = place.point;
     normal_ = place.normal;
   }
   void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
-    double &known = memory[0], &next = memory[1], &here = memory[2];
-    double &past = memory[3], &most = memory[4], &fresh = memory[5];
-    double* places = memory + 6;
+    double &here = memory[0], &past = memory[1], &most = memory[2], &fresh = memory[3];
+    PressedPlaces places(memory + 4);
     if (sample.first) {
-      here = place(known, next, places);
-      past = heals_ ? 0 : deepest(places, here);
+      here = places.find(point_);
+      past = heals_ ? 0 : places.deepest(here);
       most = past;
       fresh = std::exp(-rate_ * sample.session);
     }
     f *= fresh;
     const double recorded = sample.recorded.norm();
     if (!sample.in_air && sample.recorded.dot(normal_) <= 0)
-      deepest(places, here) = std::max(deepest(places, here), recorded);
+      places.deepest(here) = std::max(places.deepest(here), recorded);
     const double q = sample.u.norm();
     if (sample.in_air || q <= 0 || sample.u.dot(normal_) > 0) return;
     most = std::max(most, q);
@@ -57,25 +57,6 @@ class SofteningStep : public EffectStep {
   }
 
  private:
-  static constexpr std::size_t kMostPlaces = 1024;
-  static constexpr double kSame = 1e-4;  // as kSamePlace of recordings [m]
-
-  static double& deepest(double* places, double here) {
-    return places[4 * static_cast<std::size_t>(here) + 3];
-  }
-  // The number of this place, in stead of the oldest one if it is new.
-  double place(double& known, double& next, double* places) const {
-    for (std::size_t p = 0; p < static_cast<std::size_t>(known); ++p)
-      if ((Eigen::Map<const Vec3>(places + 4 * p) - point_).norm() <= kSame)
-        return static_cast<double>(p);
-    const double here = next;
-    Eigen::Map<Vec3>(places + 4 * static_cast<std::size_t>(here)) = point_;
-    deepest(places, here) = 0;
-    known = std::max(known, here + 1);
-    next = here + 1 < static_cast<double>(kMostPlaces) ? here + 1 : 0;
-    return here;
-  }
-
   double s_, m_, c_, k_, rate_;
   bool heals_;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::UnitZ();

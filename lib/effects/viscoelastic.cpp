@@ -2,38 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/effect_step.h"
 #include "effects/effects.h"
-#include "material/maxwell_memory.h"
+#include "effects/memory_terms.h"
 
 namespace hapsim {
 namespace {
-
-// Remembers the force that drives the elements, then what each has of it.
-class ViscoelasticStep : public EffectStep {
- public:
-  explicit ViscoelasticStep(std::vector<MaxwellTerm> terms) : terms_(std::move(terms)) {}
-  std::size_t memory() const override { return 3 + 3 * terms_.size(); }
-
-  void apply(const StepSample& sample, double* memory, Vec3& f) noexcept override {
-    Eigen::Map<Vec3> before(memory);
-    const Vec3 driver = f;
-    for (std::size_t k = 0; k < terms_.size(); ++k) {
-      Eigen::Map<Vec3> h(memory + 3 * (k + 1));
-      if (sample.first) {
-        h = driver;  // relaxed until now, then a jump
-      } else {
-        const MemoryStep s = memory_step(sample.dt, sample.times * terms_[k].tau);
-        h = s.a * h + s.c * (driver - before);
-      }
-      f += sample.moduli * terms_[k].share * h;
-    }
-    before = driver;
-  }
-
- private:
-  std::vector<MaxwellTerm> terms_;
-};
 
 class Viscoelastic : public Effect {
  public:
@@ -61,42 +34,25 @@ class Viscoelastic : public Effect {
   }
 
   void apply(const PressView& press, const Values& values, Signal& signal) const override {
-    if (press.t.empty()) return;
-    const Eigen::VectorXd f_e = signal.f;
-    const Eigen::MatrixXd d_e = signal.df;
-    const Eigen::Index columns = d_e.cols();
-    const Eigen::Index n = static_cast<Eigen::Index>(press.size());
+    std::vector<MemoryTerm> terms;
     for (std::size_t k = 0; k + 1 < values.size(); k += 2) {
-      const ParameterValue& modulus = values[k];
-      const ParameterValue& tau = values[k + 1];
-      const double share = modulus.value / press.modulus;
-      Eigen::Vector3d h = f_e.head<3>(), dh_dtau = Eigen::Vector3d::Zero();
-      Eigen::MatrixXd dh = d_e.topRows(3);
-      for (Eigen::Index i = 0; i < n; ++i) {
-        if (i > 0) {
-          const MemoryStep s = memory_step(press.t[i] - press.t[i - 1], tau.value);
-          const Eigen::Vector3d change = f_e.segment<3>(3 * i) - f_e.segment<3>(3 * i - 3);
-          dh_dtau = s.a * dh_dtau + s.da_dtau * h + s.dc_dtau * change;
-          h = s.a * h + s.c * change;
-          if (columns > 0)
-            dh = s.a * dh + s.c * (d_e.middleRows(3 * i, 3) - d_e.middleRows(3 * i - 3, 3));
-        }
-        signal.f.segment<3>(3 * i) += share * h;
-        if (columns == 0) continue;
-        signal.df.middleRows(3 * i, 3) += share * dh;
-        if (press.modulus_column >= 0)
-          signal.df.block<3, 1>(3 * i, press.modulus_column) -= share / press.modulus * h;
-        if (modulus.column >= 0) signal.df.block<3, 1>(3 * i, modulus.column) += h / press.modulus;
-        if (tau.column >= 0) signal.df.block<3, 1>(3 * i, tau.column) += share * dh_dtau;
-      }
+      const ParameterValue &modulus = values[k], &tau = values[k + 1];
+      MemoryTerm& term = terms.emplace_back();
+      term.share = modulus.value / press.modulus;
+      term.tau = tau.value;
+      if (press.modulus_column >= 0)
+        term.share_by.emplace_back(press.modulus_column, -term.share / press.modulus);
+      if (modulus.column >= 0) term.share_by.emplace_back(modulus.column, 1 / press.modulus);
+      if (tau.column >= 0) term.tau_by.emplace_back(tau.column, 1);
     }
+    add_memory(press, terms, Signal(signal), signal);
   }
 
   std::unique_ptr<EffectStep> step(const Values& values,
                                    const StepContext& context) const override {
     std::vector<MaxwellTerm> terms;
     relaxation(values, context.modulus, terms);
-    return std::make_unique<ViscoelasticStep>(std::move(terms));
+    return memory_effect_step(std::move(terms));
   }
 
   bool relaxation(const Values& values, double modulus,

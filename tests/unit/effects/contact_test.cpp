@@ -211,6 +211,21 @@ TEST(Breathing, StartsFromTheLineThatIsLeft) {
   EXPECT_NEAR(std::cos(start[4] - 0.7), sign, 1e-12);
 }
 
+// In to 4 mm of which a quarter beyond 2 mm stays, out again; the next press begins half a
+// millimetre later and loads along the way out until it is as deep as the first.
+TEST(Plastic, LoadsAgainAlongItsWayOut) {
+  const Values values{{0, "p", 0.25}, {0, "y", 2e-3}};
+  PressView press = test::press_to({1e-3, 2e-3, 4e-3, 2e-3, 5e-4, 2e-4});
+  auto f = forces_after(plastic_effect(), press, values);
+  const std::vector<double> left{1e-3, 2e-3, 3.5e-3, 1.5e-3, 0, 0};
+  for (std::size_t i = 0; i < left.size(); ++i)
+    EXPECT_NEAR(f[i].z(), test::kStiffness * left[i], 1e-12) << i;
+  press.past_depth = 4e-3;
+  f = forces_after(plastic_effect(), press, values);
+  EXPECT_NEAR(f[0].z(), test::kStiffness * 5e-4, 1e-12);
+  EXPECT_NEAR(f[2].z(), test::kStiffness * 3.5e-3, 1e-12);
+}
+
 TEST(ArmCompliance, IsASpringInSeries) {
   const auto f = forces_after(arm_compliance_effect(), test::press_along({{1e-3, 2e-3, -3e-3}}),
                               {{0, "cx", 0.005}, {0, "cy", 0}, {0, "cz", 0.015}});

@@ -216,5 +216,18 @@ TEST(Tare, IsTheOffsetOfItsOwnPress) {
   EXPECT_NEAR((forces_after(tare_effect(), press, values)[1] - Vec3(0.4, 0, 0)).norm(), 0, 1e-12);
 }
 
+// A tool that is accelerated evenly, in steps that are not even; the first two samples know
+// nothing.
+TEST(ToolInertia, IsMassTimesAcceleration) {
+  const std::vector<double> t{0, 0.01, 0.03, 0.04, 0.07};
+  std::vector<double> depths;
+  for (const double x : t) depths.push_back(0.5 * 2 * x * x);  // 2 m/s^2 along -z
+  PressView press = test::press_to(depths);
+  press.t = t;
+  const auto f = forces_after(tool_inertia_effect(), press, {{0, "m", 0.3}});
+  for (std::size_t i = 0; i < t.size(); ++i)
+    EXPECT_NEAR(f[i].z(), test::kStiffness * depths[i] + (i < 2 ? 0 : 0.3 * 2), 1e-12) << i;
+}
+
 }  // namespace
 }  // namespace hapsim
