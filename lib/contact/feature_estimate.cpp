@@ -8,6 +8,7 @@
 #include "material/unit_law.h"
 #include "solid/elastic_body.h"
 #include "solid/foundation.h"
+#include "solid/membrane.h"
 
 namespace hapsim {
 namespace {
@@ -86,6 +87,14 @@ FeatureEstimate::FeatureEstimate(std::shared_ptr<const ContactMesh> contact,
       if (mesh_.fixed[n[a]]) reaction[n[a]] += force.middleRows<3>(3 * a);
   }
   inverse_ = Eigen::Matrix3d(K.llt().matrixL()).inverse();
+  for (const MembraneFace& face : free_membrane(mesh_)) {
+    Fields at_face(3 * static_cast<Eigen::Index>(face.nodes.size()), 3);
+    for (std::size_t a = 0; a < face.nodes.size(); ++a)
+      at_face.middleRows<3>(3 * static_cast<Eigen::Index>(a)) =
+          phi.middleRows<3>(3 * static_cast<Eigen::Index>(face.nodes[a]));
+    tension_ += at_face.transpose() * face.matrix * at_face;
+  }
+  tension_ = (inverse_ * tension_ * inverse_.transpose()).eval();
   for (Eigen::Matrix3d& k : share) k = (inverse_ * k * inverse_.transpose()).eval();
   tree_ = ShareTree(mesh_, share);
   tabulate_depths(free_surface, share);
@@ -174,6 +183,8 @@ FeatureEstimate::Change FeatureEstimate::at(const BodyFeature& feature) const {
       return of_ball(feature);
     case Feature::kTransverse:
       return of_law(feature);
+    case Feature::kTension:
+      return {Eigen::Matrix3d::Identity() + feature.value[0] * tension_, {tension_}};
     default:
       return of_support(feature);
   }

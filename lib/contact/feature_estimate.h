@@ -19,6 +19,7 @@ namespace hapsim {
 // - layer and inclusion: G = exp(log(ratio) S), S the share of the zone in the energy (the sum of
 //   L^-1 k L^-T over its elements): the geometric mean lies between the bounds of Voigt and Reuss;
 // - transverse isotropy: the energy of the unit fields under the new law (Voigt's bound);
+// - tension of the surface: its energy in the same fields (a bound of that kind);
 // - support: each bonded face gives in series with a column of the body as long as the contact is
 //   high above the base.
 class FeatureEstimate {
@@ -62,6 +63,7 @@ class FeatureEstimate {
   double deepest_ = 0;                    // [m]
   std::vector<Eigen::Matrix3d> shallow_;  // share of what is nearer to the surface than a thickness
   FieldMoments moments_;                  // of the whole body
+  Eigen::Matrix3d tension_ = Eigen::Matrix3d::Zero();  // of a unit one [1/m]
   std::vector<BaseFace> base_;
 };
 

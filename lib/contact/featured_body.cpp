@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include "base/error.h"
 #include "contact/feature_zone.h"
@@ -13,6 +12,7 @@
 #include "solid/elasticity.h"
 #include "solid/element_moments.h"
 #include "solid/inhomogeneity.h"
+#include "solid/membrane.h"
 
 namespace hapsim {
 
@@ -30,6 +30,41 @@ Eigen::Matrix<double, 30, 3> local_fields(const TetMesh& mesh, std::size_t t,
   for (int a = 0; a < 10; ++a)
     local.middleRows<3>(3 * a) = phi.middleRows<3>(3 * static_cast<Eigen::Index>(mesh.tets[t][a]));
   return local;
+}
+
+Eigen::MatrixXd fields_at(const std::vector<int>& nodes, const Eigen::MatrixXd& phi) {
+  Eigen::MatrixXd fields(3 * static_cast<Eigen::Index>(nodes.size()), 3);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    fields.middleRows<3>(3 * static_cast<Eigen::Index>(a)) = phi.middleRows<3>(3 * nodes[a]);
+  return fields;
+}
+
+// What features put on faces: a matrix times so much per unit modulus.
+struct FaceTerm {
+  std::size_t feature = 0;
+  std::vector<int> nodes;
+  Eigen::MatrixXd matrix;
+  double factor = 0;
+  std::vector<double> by_value;  // of the factor
+};
+
+std::vector<FaceTerm> face_terms(const Material& material, const TetMesh& mesh) {
+  std::vector<FaceTerm> terms;
+  for (std::size_t f = 0; f < material.features.size(); ++f) {
+    const BodyFeature& feature = material.features[f];
+    if (feature.kind == Feature::kSupport)
+      for (SupportSprings::Face& face : SupportSprings(mesh, feature.value).faces)
+        terms.push_back({f,
+                         std::move(face.nodes),
+                         std::move(face.matrix),
+                         face.spring,
+                         {face.by_value.begin(), face.by_value.end()}});
+    if (feature.kind == Feature::kTension)
+      for (MembraneFace& face : free_membrane(mesh))
+        terms.push_back(
+            {f, std::move(face.nodes), std::move(face.matrix), feature.value[0], {1.0}});
+  }
+  return terms;
 }
 
 }  // namespace
@@ -90,25 +125,24 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
   const BodyFeature* transverse = find_feature(material, Feature::kTransverse);
   const UnitLaw law =
       unit_law(material.nu, transverse != nullptr ? transverse->value : std::vector<double>{});
-  std::optional<SupportSprings> support;
-  if (const BodyFeature* f = find_feature(material, Feature::kSupport))
-    support.emplace(mesh, f->value);
+  const bool support = find_feature(material, Feature::kSupport) != nullptr;
+  const std::vector<FaceTerm> on_faces = face_terms(material, mesh);
   const double base_modulus = material.modulus[0];
 
   std::vector<char> moved(mesh.nodes.size(), 0);
   for (const int n : contact_.patch_nodes) moved[n] = 1;
-  if (!system_ || supported_ != support.has_value()) {
+  if (!system_ || supported_ != support || face_terms_ != on_faces.size()) {
     std::vector<char> free(mesh.nodes.size());
     for (std::size_t n = 0; n < free.size(); ++n)
       free[n] = !moved[n] && (support || !mesh.fixed[n]);
     Cliques cliques;
     for (const auto& n : mesh.tets) cliques.add({n.begin(), n.end()});
-    if (support)
-      for (const SupportSprings::Face& f : support->faces) cliques.add(f.nodes);
+    for (const FaceTerm& f : on_faces) cliques.add(f.nodes);
     system_ = std::make_unique<NodeSystem>(std::move(free), std::move(cliques));
-    if (supported_ == support.has_value()) system_->eliminate_in(std::move(order_));
+    if (supported_ == support) system_->eliminate_in(std::move(order_));
     order_.clear();
-    supported_ = support.has_value();
+    supported_ = support;
+    face_terms_ = on_faces.size();
   }
   NodeSystem& system = *system_;
   system.clear();
@@ -126,9 +160,17 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
     const Eigen::Matrix<double, 30, 3> force = K * local_fields(mesh, t, phi);
     for (int a = 0; a < 10; ++a) load.middleRows<3>(3 * n[a]) -= force.middleRows<3>(3 * a);
   }
-  if (support)
-    for (std::size_t f = 0; f < support->faces.size(); ++f)
-      system.add(tets + f, base_modulus * support->faces[f].spring * support->faces[f].matrix);
+  for (std::size_t f = 0; f < on_faces.size(); ++f) {
+    const FaceTerm& face = on_faces[f];
+    const Eigen::MatrixXd matrix = base_modulus * face.factor * face.matrix;
+    system.add(tets + f, matrix);
+    if (std::none_of(face.nodes.begin(), face.nodes.end(), [&](int a) { return moved[a]; }))
+      continue;
+    const Eigen::MatrixXd force = matrix * fields_at(face.nodes, phi);
+    for (std::size_t a = 0; a < face.nodes.size(); ++a)
+      load.middleRows<3>(3 * face.nodes[a]) -=
+          force.middleRows<3>(3 * static_cast<Eigen::Index>(a));
+  }
   if (!system.factorise())
     fail_numerics("", "the stiffness matrix is not positive definite",
                   "check that the body has fixed nodes, nu < 0.5 and all moduli are positive");
@@ -150,21 +192,17 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
         s.by_feature[f][v] += m.by_feature[f](static_cast<Eigen::Index>(t), v) * k;
   }
   s.by_nu = all.energy(law.D_by[0], law.kappa_by[0]);
-  for (std::size_t f = 0; f < material.features.size(); ++f) {
+  for (std::size_t f = 0; f < material.features.size(); ++f)
     if (material.features[f].kind == Feature::kTransverse)
       for (std::size_t v = 0; v < 4; ++v)
         s.by_feature[f][v] = all.energy(law.D_by[1 + v], law.kappa_by[1 + v]);
-    if (material.features[f].kind != Feature::kSupport) continue;
-    for (const SupportSprings::Face& face : support->faces) {
-      Eigen::MatrixXd fields(3 * static_cast<Eigen::Index>(face.nodes.size()), 3);
-      for (std::size_t a = 0; a < face.nodes.size(); ++a)
-        fields.middleRows<3>(3 * static_cast<Eigen::Index>(a)) =
-            phi.middleRows<3>(3 * face.nodes[a]);
-      const Eigen::Matrix3d k = base_modulus * fields.transpose() * face.matrix * fields;
-      s.K += face.spring * k;
-      s.by_modulus[0] += face.spring / base_modulus * k;
-      for (std::size_t v = 0; v < 3; ++v) s.by_feature[f][v] += face.by_value[v] * k;
-    }
+  for (const FaceTerm& face : on_faces) {
+    const Eigen::MatrixXd fields = fields_at(face.nodes, phi);
+    const Eigen::Matrix3d k = base_modulus * fields.transpose() * face.matrix * fields;
+    s.K += face.factor * k;
+    s.by_modulus[0] += face.factor / base_modulus * k;
+    for (std::size_t v = 0; v < face.by_value.size(); ++v)
+      s.by_feature[face.feature][v] += face.by_value[v] * k;
   }
   return s;
 }

@@ -41,8 +41,9 @@ class FeaturedBody {
   const ContactMesh& contact_;
   std::shared_ptr<const SurfaceTree> free_surface_;
   std::unique_ptr<NodeSystem> system_;
-  std::vector<int> order_;  // of the system that was given back
-  bool supported_ = false;  // the bonded nodes are free in it, or were
+  std::vector<int> order_;      // of the system that was given back
+  bool supported_ = false;      // the bonded nodes are free in it, or were
+  std::size_t face_terms_ = 0;  // of features on faces, in it
 };
 
 }  // namespace hapsim

@@ -101,6 +101,16 @@ void judge_by_presses(const Candidate& c, const Baseline& base, const TrialGroun
 
 }  // namespace
 
+namespace {
+
+// Another law of what Maxwell's elements do is tried in their place, against one more of them:
+// where it is that there is a memory at all, every such law tells it.
+bool refines_relaxation(const Effect& effect) {
+  return !effect.card().learned && contains(effect, maxwell_effect().card().name);
+}
+
+}  // namespace
+
 std::vector<const Effect*> untried(const Model& model, Kind kind, const std::string& unknown) {
   std::vector<const Effect*> effects;
   for (const Effect* effect : catalogue()) {
@@ -108,6 +118,7 @@ std::vector<const Effect*> untried(const Model& model, Kind kind, const std::str
     if (effect == &body_effect() || card.name == unknown) continue;
     if (card.learned != (kind == Kind::kLearned)) continue;
     if (model.has(card.name) && (!card.terms || card.is_map)) continue;
+    if (refines_relaxation(*effect) && !model.has(maxwell_effect().card().name)) continue;
     const bool included =
         std::any_of(catalogue().begin(), catalogue().end(), [&](const Effect* other) {
           return model.has(other->card().name) && contains(*other, card.name);

@@ -10,8 +10,8 @@ namespace hapsim {
 // clang-format off
 #define HAPSIM_EFFECTS(X) \
   X(motion_scale) X(backlash) X(touch) X(breathing) X(plastic) \
-  X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(hyperelastic) X(temperature) \
-  X(softening) X(viscoelastic) X(fractional) X(poroelastic) X(qlv) X(damper) \
+  X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(pre_stress) X(hyperelastic) \
+  X(temperature) X(softening) X(viscoelastic) X(fractional) X(poroelastic) X(qlv) X(damper) \
   X(base) X(shift) \
   X(tool_radius) X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(learned_depth) \
   X(learned_kernel) X(arm_compliance) X(drag) X(tool_inertia) X(sensor_rotation) \

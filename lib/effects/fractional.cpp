@@ -37,7 +37,7 @@ class Fractional : public Effect {
         .title = "the material relaxes by a power of time, without a time of its own",
         .equation =
             "f = f_e + (Ef/E) int k(t - s) df_e(s), k(t) = (1 + t/tau0)^-alpha, as Maxwell "
-            "elements from 0.05 to 9e6 tau0, k within 5e-4 up to 1e5 tau0",
+            "elements from 0.05 to 9e6 tau0, k within 1e-3 up to 1e5 tau0",
         .source =
             "Nutting, J. Franklin Inst. 191, 1921; Magin, Fractional Calculus in Bioengineering, "
             "2006; elements from the gamma density's Laplace transform",
@@ -54,7 +54,8 @@ class Fractional : public Effect {
             "too soft in fast loading and too stiff late, the more slowly the longer one waits: "
             "each tenfold time takes a like share",
         .confounders = {"viscoelastic", "poroelastic", "learned-kernel", "sensor-drift"},
-        .separated_by = "a hold a hundred times as long as the way in, sampled from its beginning"};
+        .separated_by = "a hold a hundred times as long as the way in, sampled from its beginning",
+        .contains = {"viscoelastic"}};
     return card;
   }
 

@@ -12,7 +12,7 @@ struct MaxwellSpectrum {
   std::array<double, kSize> rate{}, weight{}, by_shape{};  // by_shape: d weight / d shape
 };
 
-// k = (1 + x)^-a, 0 < a <= 1: the power law that begins at x = 1. Within 5e-4 for x up to 1e5.
+// k = (1 + x)^-a, 0 < a <= 1: the power law that begins at x = 1. Within 1e-3 for x up to 1e5.
 // Its spectrum is r^(a - 1) exp(-r) / Gamma(a) (Laplace transform of the gamma density).
 MaxwellSpectrum power_law_spectrum(double a);
 

@@ -64,7 +64,8 @@ class Poroelastic : public Effect {
         .confounders = {"viscoelastic", "fractional", "learned-kernel", "sensor-lag"},
         .separated_by =
             "the same press with tools of two radii: the time grows with the square of the radius; "
-            "a hold until the force stays"};
+            "a hold until the force stays",
+        .contains = {"viscoelastic"}};
     return card;
   }
 

@@ -67,7 +67,8 @@ class Qlv : public Effect {
         .signature =
             "the share that relaxes differs between shallow and deep presses, or along one",
         .confounders = {"viscoelastic", "hyperelastic", "learned-kernel", "softening"},
-        .separated_by = "holds at three depths, each until the force stays"};
+        .separated_by = "holds at three depths, each until the force stays",
+        .contains = {"viscoelastic"}};
     return card;
   }
 

@@ -10,6 +10,8 @@ std::size_t feature_size(Feature kind) {
       return 5;
     case Feature::kTransverse:
       return 4;
+    case Feature::kTension:
+      return 1;
     default:
       return 3;
   }

@@ -21,6 +21,9 @@ enum class Feature {
   // the middle of the base, exceeds the edge: give [m], azimuth [rad], edge [m]. A give of h is a
   // bed of modulus E and of thickness h: k_n = E/h, k_t = E/(3 h); a large one is no support.
   kSupport,
+  // A tension of the free surface before the press, the same along every direction of it: over the
+  // body's modulus (of region 0) [m].
+  kTension,
 };
 
 struct BodyFeature {

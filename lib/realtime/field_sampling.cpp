@@ -28,6 +28,8 @@ constexpr double kClear = 1.2;
 constexpr double kBesideEdge = 0.03;
 // What yields as a whole by more than its contact does: coarse meshes of limbs scatter, too.
 constexpr double kLimb = 2;
+// And where the body hardly changes its volume: by 1 to 8 % about a scanned bunny at 0.499.
+constexpr double kHardlyCompressible = 0.495;
 // A place that was refused says little of those beyond that share of a radius, which are tried.
 constexpr double kNearRefused = 0.3;
 // The share of the pool that may be less sure than this, in tolerances: twice that is the worst.
@@ -176,8 +178,9 @@ std::vector<PlaceView> FieldSampling::views_of(const std::vector<Vec3>& places) 
 
 ContactLevel FieldSampling::level_at(const PlaceView& view) const {
   if (clearance(*bonded_, view.point) < kBesideSupport * radius_) return ContactLevel::kFine;
-  return view.turned > kBesideEdge || view.yields > kLimb ? ContactLevel::kCoarse
-                                                          : ContactLevel::kSample;
+  const bool scatters = view.turned > kBesideEdge || view.yields > kLimb ||
+                        material_.solid.nu > kHardlyCompressible;
+  return scatters ? ContactLevel::kCoarse : ContactLevel::kSample;
 }
 
 void FieldSampling::add(const std::vector<Vec3>& places) {

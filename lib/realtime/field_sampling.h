@@ -29,12 +29,12 @@ struct SampledMaterial {
   std::string description;
 };
 
-// Samples on coarse meshes (kSampled; kCoarser beside edges, where coarse ones scatter), turned
-// into what the finer ones give by the mean ratio, along and across the normal, of those that were
-// solved on both; beside the support, where that ratio is another, on the finer meshes. The first
-// samples lie apart from each other, later ones where the model of the earlier ones knows least,
-// until the model's own uncertainty over the touchable surface is below the tolerance, and still is
-// after another round of them.
+// Samples on coarse meshes (kSampled; kCoarser where coarse ones scatter: beside edges, on limbs,
+// of next to no compressibility), turned into what the finer ones give by the mean ratio, along and
+// across the normal, of those that were solved on both; beside the support, where that ratio is
+// another, on the finer meshes. The first samples lie apart from each other, later ones where the
+// model of the earlier ones knows least, until the model's own uncertainty over the touchable
+// surface is below the tolerance, and still is after another round of them.
 class FieldSampling {
  public:
   // `known`: places to be sampled in any case. Error(kBadInput): the tool fits nowhere.

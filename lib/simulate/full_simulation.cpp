@@ -24,6 +24,7 @@
 #include "simulate/full_contact.h"
 #include "simulate/tool_steps.h"
 #include "solid/inhomogeneity.h"
+#include "solid/membrane.h"
 
 namespace hapsim {
 namespace {
@@ -209,6 +210,10 @@ class Simulation {
         if (model.scale.empty()) model.scale.assign(factors.size(), 1.0);
         for (std::size_t t = 0; t < factors.size(); ++t) model.scale[t] *= factors[t];
       }
+      if (f.feature.kind == Feature::kTension)
+        for (const MembraneFace& face : free_membrane(mesh))
+          model.face_springs.push_back(
+              {face.nodes, material_.modulus[0] * f.feature.value[0] * face.matrix});
       if (f.feature.kind != Feature::kSupport) continue;
       free_base = true;
       for (const SupportSprings::Face& face : SupportSprings(mesh, f.feature.value).faces)

@@ -83,6 +83,10 @@ std::array<FacePoint, 7> face_points(const TetMesh& mesh, const std::vector<int>
       v += slope[a][1] * mesh.nodes[nodes[a]];
     }
     p.area = rule.weight[q] / 2 * u.cross(v);
+    // Along the face: the base that is dual to u and v.
+    const double uu = u.dot(u), uv = u.dot(v), vv = v.dot(v), det = uu * vv - uv * uv;
+    const Vec3 by_u = (vv * u - uv * v) / det, by_v = (uu * v - uv * u) / det;
+    for (std::size_t a = 0; a < 6; ++a) p.gradient[a] = slope[a][0] * by_u + slope[a][1] * by_v;
   }
   return points;
 }

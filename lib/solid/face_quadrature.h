@@ -16,6 +16,7 @@ std::vector<std::vector<int>> face_nodes(const TetMesh& mesh, const std::vector<
 struct FacePoint {
   std::array<double, 3> corner;  // barycentric: the linear hats of the corners
   std::array<double, 6> shape;   // N of the face's 3 or 6 nodes
+  std::array<Vec3, 6> gradient;  // of N along the face [1/m]
   Vec3 position;                 // [m]
   Vec3 area;                     // outward normal times the point's share of the area [m^2]
 };

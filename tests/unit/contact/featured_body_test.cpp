@@ -99,6 +99,7 @@ TEST_F(Featured, AtTheIdentityNothingChanges) {
   EXPECT_LT(change(Feature::kLayer, {0.003, 1}), 1e-10);
   EXPECT_LT(change(Feature::kInclusion, {0.03, 0.02, 0.02, 0.005, 1}), 1e-10);
   EXPECT_LT(change(Feature::kTransverse, {1, 1, 0.4, 0.7}), 1e-10);
+  EXPECT_LT(change(Feature::kTension, {0}), 1e-10);
   EXPECT_LT(change(Feature::kSupport, {0, 0, 0}), 1e-3);
   EXPECT_LT(change(Feature::kSupport, {1, 0, 1}), 1e-3);  // beyond an edge that is outside
 }
@@ -136,6 +137,7 @@ TEST_F(Featured, DerivativesAreTheDifferences) {
   expect_derivatives({{Feature::kInclusion, {0.031, 0.022, 0.021, 0.0062, 3.0}}}, 1e-6);
   expect_derivatives({{Feature::kTransverse, {1.8, 0.8, 0.6, 0.5}}}, 1e-5);
   expect_derivatives({{Feature::kSupport, {0.004, 0.3, 0.002}}}, 1e-6);
+  expect_derivatives({{Feature::kTension, {8e-4}}}, 1e-6);
   expect_derivatives({{Feature::kLayer, {0.0041, 2.0}},
                       {Feature::kTransverse, {1.8, 0.8, 0.6, 0.5}},
                       {Feature::kSupport, {0.004, 0.3, 0.002}}},
@@ -179,6 +181,16 @@ TEST(Support, AnEdgeWithinFacesIsTheMeshThatFollowsIt) {
   }
   EXPECT_LT(worst, 2.5e-3);
   EXPECT_LT(std::abs(sum / count), 1e-3);
+}
+
+// A tension stiffens the tool's way into the surface more than its way along it: along it the
+// surface's own displacement is as large, but the body is what mostly resists.
+TEST_F(Featured, ATensionStiffens) {
+  const Eigen::Matrix3d K = solve({}).K, tense = solve({{Feature::kTension, {4e-4}}}).K;
+  const double into = tense(2, 2) / K(2, 2), along = tense(0, 0) / K(0, 0);
+  std::printf("tension of 0.1 tool radii: %.3f into the surface, %.3f along it\n", into, along);
+  EXPECT_GT(into, 1.02);
+  EXPECT_GT(along, 1);
 }
 
 // A support that gives everywhere is in series with the body: more give, less stiffness, down to
