@@ -55,6 +55,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"tool-radius", {"set-up", "body", "learned-place"}},
       {"regions", body},
       {"layer", body},
+      {"pre-stress", {"set-up", "direction", "body", "learned-place"}},
       {"inclusion", body},
       {"anisotropic", {"set-up", "direction", "body", "learned-place"}},
       {"base", body}};

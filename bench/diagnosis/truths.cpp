@@ -242,6 +242,8 @@ std::vector<Truth> features() {
                                {3e-3, 0.2},
                                {4e-3, 4},
                                {1e-3, 15}}));
+  t.push_back(
+      listed("pre-stress", {{4e-4}, {8e-4}, {3e-4}, {1e-3}, {6e-4}, {5e-4}, {7e-4}, {2e-3}}));
   t.push_back(listed("anisotropic", {{2, 1, 1.4, 0.3},
                                      {2.5, 1, 1.4, 0.3},
                                      {0.5, 1, 1.4, 1.2},

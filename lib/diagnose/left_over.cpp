@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/structure.h"
+#include "diagnose/candidate.h"
 #include "diagnose/gates.h"
 #include "estimate/probability.h"
 
@@ -21,8 +22,16 @@ struct Ground {
   const TrialGround& g;
   Eigen::VectorXd f;
   std::vector<GainBlock> blocks;
+  double noise;  // of an independent sample [N]
   Weights weights;
 };
+
+Ground ground_of(const TrialGround& g, const Eigen::VectorXd& f, double noise) {
+  const Selection all = all_episodes(g.dataset);
+  return {g, f,
+          g.allowance.floor > 0 ? gain_directions(g.dataset, all, f) : std::vector<GainBlock>{},
+          noise, Weights(g.dataset, all, f, noise, g.allowance.floor)};
+}
 
 // The gains of each position over delta, and the residual without them.
 struct Posterior {
@@ -37,7 +46,7 @@ struct Posterior {
 
 Posterior posterior(const Eigen::VectorXd& residual, const Ground& on) {
   Posterior p{{}, residual};
-  const double sigma = on.g.allowance.noise;
+  const double sigma = on.noise;
   for (const GainBlock& block : on.blocks) {
     const auto position = static_cast<std::size_t>(block.position);
     const Eigen::MatrixXd D =
@@ -190,14 +199,19 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
   const Selection all = all_episodes(g.dataset);
   const Eigen::VectorXd f = model_forces(fitted, g.experiment, all, false).f;
   const Eigen::VectorXd residual = measured_forces(g.dataset, all) - f;
-  const bool allowed = g.allowance.floor > 0;
-  const Ground on{g, f, allowed ? gain_directions(g.dataset, all, f) : std::vector<GainBlock>{},
-                  Weights(g.dataset, all, f, g.allowance.noise, g.allowance.floor)};
+  const Ground on = ground_of(g, f, g.allowance.noise);
   const Posterior p = posterior(residual, on);
   LeftOver left;
   left.error = force_error(g.dataset, residual).told() / g.allowance.noise;
   left.beside_gains = force_error(g.dataset, p.beside).told() / g.allowance.noise;
-  if (allowed) judge_gains(p, residual, on, left);
+  // What is no larger than the noise has its colour: so many samples are as one of them.
+  const double alike = left.beside_gains < kLikeNoise ? autocorrelation_time(p.beside, g) : 1;
+  if (g.allowance.floor > 0 && alike < kLikeWhite) {
+    judge_gains(p, residual, on, left);
+  } else if (g.allowance.floor > 0) {
+    const Ground coloured = ground_of(g, f, std::sqrt(alike) * g.allowance.noise);
+    judge_gains(posterior(residual, coloured), residual, coloured, left);
+  }
   left.structured = is_structured(residual, on);
   if (left.noise_alone()) return left;
   // The gains are the story where they take most of it away.

@@ -1,5 +1,7 @@
 #include "diagnose/round_winner.h"
 
+#include "effects/catalogue.h"
+
 namespace hapsim {
 namespace {
 
@@ -12,6 +14,17 @@ bool learned_beats(const Finding& learned, const Finding& named) {
 bool decided(const Finding& winner, const Finding& rival, double noise) {
   return winner.rmse_after.pooled < kLikeNoise * noise && winner.memory < kLikeWhite &&
          winner.criterion_gain - rival.criterion_gain > kNoRival * winner.memory;
+}
+
+// A kernel of another form is worth a name only where more Maxwell elements do not help: enough of
+// them are any kernel.
+bool gives_way(std::size_t k, const Round& round, const Gates& gates, bool can_hold_out) {
+  if (!refines_relaxation(*round.candidates[k].effect)) return false;
+  for (std::size_t j = 0; j < round.findings.size(); ++j)
+    if (round.candidates[j].effect == &maxwell_effect() &&
+        passes(round.findings[j], gates, can_hold_out))
+      return true;
+  return false;
 }
 
 }  // namespace
@@ -33,6 +46,7 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
   };
   for (std::size_t k = 0; k < none; ++k) {
     if (!passes(round.findings[k], gates, can_hold_out)) continue;
+    if (gives_way(k, round, gates, can_hold_out)) continue;
     if (round.candidates[k].effect->card().is_field)
       field = k;
     else if (better(k))
@@ -52,6 +66,7 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
     if (k == best || !passes(f, gates, can_hold_out)) continue;
     const EffectCard& card = round.candidates[k].effect->card();
     if (card.per_press || decided(winner, f, noise)) continue;
+    if (gives_way(k, round, gates, can_hold_out)) continue;
     // Best of what is unseen: best_of() has compared them.
     if (card.is_field || round.candidates[best].effect->card().is_field) continue;
     if (contains(*round.candidates[best].effect, f.effect) ||

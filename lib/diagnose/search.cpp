@@ -77,10 +77,14 @@ void list_the_rest(const Round& last, const Gates& gates, Diagnosis& d) {
       d.findings.push_back(finding);
       continue;
     }
-    finding.verdict =
-        f.criterion_gain > gates.criterion_gain && !by_chance && f.share >= gates.share
-            ? Verdict::kPossible
-            : Verdict::kAbsent;
+    // Another kernel in the place of as many Maxwell elements as the data ask for need not do more
+    // than they do.
+    const bool in_place = refines_relaxation(require_effect(f.effect)) &&
+                          f.rmse_after.pooled <= kAlike * f.rmse_now.pooled;
+    finding.verdict = in_place || (f.criterion_gain > gates.criterion_gain && !by_chance &&
+                                   f.share >= gates.share)
+                          ? Verdict::kPossible
+                          : Verdict::kAbsent;
     d.findings.push_back(finding);
   }
 }

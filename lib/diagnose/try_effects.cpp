@@ -101,15 +101,9 @@ void judge_by_presses(const Candidate& c, const Baseline& base, const TrialGroun
 
 }  // namespace
 
-namespace {
-
-// Another law of what Maxwell's elements do is tried in their place, against one more of them:
-// where it is that there is a memory at all, every such law tells it.
 bool refines_relaxation(const Effect& effect) {
   return !effect.card().learned && contains(effect, maxwell_effect().card().name);
 }
-
-}  // namespace
 
 std::vector<const Effect*> untried(const Model& model, Kind kind, const std::string& unknown) {
   std::vector<const Effect*> effects;

@@ -17,6 +17,9 @@ struct Round {
 
 // What a round tries: effects that have a name, or curves of no law (EffectCard::learned).
 enum class Kind { kNamed, kLearned };
+// Another law of what Maxwell elements do, which is tried in their place once they were found: that
+// there is a memory at all every such law tells.
+bool refines_relaxation(const Effect& effect);
 // Effects worth trying on top of a model: those it lacks, and one more term of those with terms;
 // never `unknown` (DiagnoseOptions).
 std::vector<const Effect*> untried(const Model& model, Kind kind, const std::string& unknown);

@@ -49,6 +49,7 @@ class Fractional : public Effect {
                        {"tau0", "s", "time from which on the power rules", 0.05, 0.05, 1e-5, 1e4, 1,
                         true}},
         .needs_time = true,
+        .among_presses = true,
         .screened = true,
         .signature =
             "too soft in fast loading and too stiff late, the more slowly the longer one waits: "

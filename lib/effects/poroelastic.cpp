@@ -57,6 +57,7 @@ class Poroelastic : public Effect {
                        {"D", "m^2/s", "diffusivity of the liquid in the body", 1e-6, 1e-6, 1e-14, 1,
                         1e-6, true}},
         .needs_time = true,
+        .among_presses = true,
         .form_error = 0.03,
         .screened = true,
         .signature =

@@ -12,15 +12,18 @@ class PreStress : public Effect {
         .stage = Stage::kBody,
         .title = "the surface is under tension before it is pressed",
         .equation =
-            "to the body's energy is added (T/2) int |grad_s u|^2 over the free surface, T = E "
+            "to the body's energy is added (T/2) int |grad_s (u.n)|^2 over the free surface, T = E "
             "length a tension [N/m] that is the same everywhere and in every direction",
         .source =
-            "initial stress of a membrane (Timoshenko and Woinowsky-Krieger, Theory of Plates and "
+            "a membrane under tension (Timoshenko and Woinowsky-Krieger, Theory of Plates and "
             "Shells, 1959); the length as in elastocapillarity: Style et al., Annu. Rev. Condens. "
             "Matter Phys. 8, 2017",
         .assumptions =
-            "to first order in the displacement; the tension does not change with the press; the "
-            "curvature that it has given the body is in the scan",
+            "to first order in the displacement; the tension does not change with the press, so "
+            "that "
+            "ways along the surface do not change it; the curvature that it has given the body is "
+            "in "
+            "the scan",
         .parameters = {{"length", "m", "tension over Young's modulus", 0, 5e-4, 0, 1, 5e-4, false}},
         .one_body = true,
         .solved = true,

@@ -63,6 +63,7 @@ class Qlv : public Effect {
                        {"m", "1", "power of the depth: 0 linear, above 0 deeper presses relax more",
                         0, 0.5, -0.9, 4, 0.3, false}},
         .needs_time = true,
+        .among_presses = true,
         .screened = true,
         .signature =
             "the share that relaxes differs between shallow and deep presses, or along one",

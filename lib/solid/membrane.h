@@ -8,9 +8,10 @@
 
 namespace hapsim {
 
-// One face of it: the consistent matrix over its 3 or 6 nodes per unit tension [N/m over N/m],
-// int grad_s N_a . grad_s N_b dA for each direction of displacement: the initial-stress stiffness
-// of an isotropic membrane stress (Zienkiewicz and Taylor, The Finite Element Method, vol. 2).
+// One face of it: the consistent matrix over its 3 or 6 nodes per unit tension, n n' int grad_s N_a
+// . grad_s N_b dA with n the face's normal: what the slope of the displacement across the surface
+// costs. Displacements along it cost nothing but at its border (Gurtin and Murdoch, Arch. Ration.
+// Mech. Anal. 57, 1975), as long as the tension does not change with them.
 struct MembraneFace {
   std::vector<int> nodes;
   Eigen::MatrixXd matrix;

@@ -34,8 +34,8 @@ std::vector<Triangle> top_of(const TetMesh& mesh, double height) {
   return top;
 }
 
-// Slopes of a plane: half of the sum of their squares an area, in any direction of displacement;
-// what moves as one, or only changes across the face, costs nothing.
+// Slopes of a plane: half of the sum of their squares an area; what moves along the face, as one,
+// or only changes across it, costs nothing.
 TEST(Membrane, CostsTheSlopeAlongIt) {
   for (const int order : {1, 2}) {
     const TetMesh mesh = test::block_mesh({0.06, 0.04, 0.02}, 6, 4, 2, order);
@@ -44,8 +44,7 @@ TEST(Membrane, CostsTheSlopeAlongIt) {
     const auto of = [&](const auto& field) { return energy(mesh, faces, field); };
     EXPECT_NEAR(of([](const Vec3& x) { return Vec3(0, 0, 0.3 * x.x() - 0.4 * x.y()); }),
                 0.5 * 0.25 * area, 1e-12);
-    EXPECT_NEAR(of([](const Vec3& x) { return Vec3(0.3 * x.y(), 0.1 * x.x(), 0); }),
-                0.5 * 0.1 * area, 1e-12);
+    EXPECT_NEAR(of([](const Vec3& x) { return Vec3(0.3 * x.y(), 0.1 * x.x(), 0); }), 0, 1e-12);
     EXPECT_NEAR(of([](const Vec3& x) { return Vec3(1, 2, 3 + 0.5 * x.z()); }), 0, 1e-12);
   }
 }
