@@ -1,4 +1,4 @@
-"""Causes in the set-up: what each makes of a recording that hides nothing.
+"""Causes in the set-up and in the material: what each makes of a recording that hides nothing.
 
 kind: what has to be said where no name is found; fixed before anything was diagnosed. names: of the catalogue, that
 mean the cause."""
@@ -159,6 +159,56 @@ def smoothed(frequency, damping, parts=10):
     return forces
 
 
+def remembers(kernel, power=0.0, depth=4e-3):
+    """What was pressed is remembered: int kernel(t - s) dg(s), g the force times (|u| / depth)^power, summed step by step
+    with the kernel at the middle of each."""
+
+    def forces(null):
+        f = null.f.copy()
+        for rows in presses(null):
+            t, g = null.t[rows], null.f[rows]
+            if power:
+                g = g * ((np.linalg.norm(null.u[rows], axis=1) / depth) ** power)[:, None]
+            steps, middle = np.diff(g, axis=0), (t[1:] + t[:-1]) / 2
+            for i in range(len(rows)):
+                f[rows[i]] += kernel(t[i] - t[0]) * g[0] + kernel(t[i] - middle[:i]) @ steps[:i]
+        return f
+
+    return forces
+
+
+def heavy_tool(mass):
+    """The tool's mass times its acceleration, by differences to both sides of each sample."""
+
+    def forces(null):
+        f = null.f.copy()
+        for rows in presses(null):
+            t, u = null.t[rows], null.u[rows]
+            v = np.diff(u, axis=0) / np.diff(t)[:, None]
+            a = np.diff(v, axis=0) / ((t[2:] - t[:-2]) / 2)[:, None]
+            f[rows[1:-1]] -= mass * a
+        return f
+
+    return forces
+
+
+def stays(share, yields):
+    """Of what is deeper than `yields` [m] that share stays, for good, at each place."""
+
+    def path(null):
+        u, deepest = null.u.copy(), {}
+        for rows in presses(null):
+            key = tuple(null.x[rows[0]])
+            for row in rows:
+                q = np.linalg.norm(null.u[row])
+                deepest[key] = max(deepest.get(key, 0.0), q)
+                gone = share * max(0.0, deepest[key] - yields)
+                u[row] = null.u[row] * (1 - gone / q) if q > gone else 0.0
+        return null.forces(u)
+
+    return path
+
+
 def larger(factor):
     return lambda random, null: random.normal(0, factor * null.noise, null.f.shape)
 
@@ -186,6 +236,7 @@ def declared(factor):
 
 
 SETUP, TIME, SENSOR = "set-up", "time", "depth"
+MEMORY = ["viscoelastic", "fractional", "learned-kernel"]
 
 
 def every_cause():
@@ -217,5 +268,11 @@ def every_cause():
         Cause("filtered", TIME, ["filter"], forces=smoothed(2.5, 0.6)),
         Cause("filtered-fast", TIME, ["filter"], forces=smoothed(6, 0.866)),
         Cause("drifts-off", TIME, ["sensor-settling"], forces=drifting((0.05, -0.04, 0.1), 300)),
+        Cause("power-memory", TIME, MEMORY, forces=remembers(lambda s: 0.6 * (1 + s / 0.05) ** -0.3)),
+        Cause("drains", TIME, MEMORY + ["poroelastic"],
+              forces=remembers(lambda s: 0.5 * (1.304 * np.exp(-np.sqrt(s / 1.3)) - 0.304 * np.exp(-0.254 * s / 1.3)))),
+        Cause("qlv", TIME, ["qlv"], forces=remembers(lambda s: 0.8 * np.exp(-s / 0.7), power=0.8)),
+        Cause("sets", SENSOR, ["plastic"], path=back_and_forth, forces=stays(0.2, 0.5e-3)),
+        Cause("heavy-tool", TIME, ["tool-inertia"], forces=heavy_tool(2.0)),
         Cause("settles-soon", TIME, ["sensor-settling"], forces=drifting((0.02, 0, 0.06), 80)),
     ]
