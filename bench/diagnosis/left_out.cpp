@@ -19,7 +19,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
   static const std::vector<std::string> set_up{"set-up", "direction"},
       body{"body", "place", "position", "learned-place"}, zero{"offset", "drift", "learned-drift"},
       depth{"depth", "learned-depth"}, time{"contact-time", "rate", "learned-kernel"},
-      session{"session-time", "drift", "cycle", "learned-drift"};
+      session{"session-time", "drift", "cycle", "learned-drift", "learned-gain"};
   static const std::map<std::string, std::vector<std::string>> table{
       {"viscoelastic", time},
       {"fractional", time},
