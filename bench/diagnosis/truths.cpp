@@ -157,7 +157,7 @@ std::vector<Truth> own_forms() {
   }));
   t.push_back(
       own_form("backlash", "backlash", 3e-3, [](double s) { return std::vector<double>{s}; }));
-  t.push_back(own_form("plastic", "plastic", 0.9, [](double s) {
+  t.push_back(own_form("plastic", "plastic", 0.4, [](double s) {
     return std::vector<double>{s, 2e-4};
   }));
   t.push_back(
@@ -183,7 +183,7 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("motion-scale", "motion-scale", 3, [](double s) {
     return std::vector<double>{1, 1 + s};
   }));
-  t.push_back(own_form("arm-compliance", "arm-compliance", 0.5, [](double s) {
+  t.push_back(own_form("arm-compliance", "arm-compliance", 0.01, [](double s) {
     return std::vector<double>{s, s, 0.5 * s};
   }));
   t.push_back(own_form("drag", "drag", 5, [](double s) {

@@ -29,7 +29,7 @@ constexpr double kBesideEdge = 0.03;
 // What yields as a whole by more than its contact does: coarse meshes of limbs scatter, too.
 constexpr double kLimb = 2;
 // And where the body hardly changes its volume: by 1 to 8 % about a scanned bunny at 0.499.
-constexpr double kHardlyCompressible = 0.495;
+constexpr double kHardlyCompressible = 0.485;
 // A place that was refused says little of those beyond that share of a radius, which are tried.
 constexpr double kNearRefused = 0.3;
 // The share of the pool that may be less sure than this, in tolerances: twice that is the worst.
