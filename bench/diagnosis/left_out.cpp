@@ -46,7 +46,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"sensor-bias", zero},
       {"tare", zero},
       {"drag", {"offset", "rate"}},
-      {"tool-inertia", {"rate", "direction"}},
+      {"tool-inertia", {"rate", "direction", "event"}},
       {"sensor-rotation", set_up},
       {"sensor-gain", set_up},
       {"sensor-crosstalk", set_up},

@@ -101,7 +101,9 @@ inline std::vector<std::string> gates_in_words() {
           "position), and where what is left beside them is more than noise and neighbouring "
           "samples "
           "err alike, a model without missing effects is unexplained, and beside missing ones that "
-          "is said: the names do not explain all. Gains that all positions share come from the "
+          "is said: the names do not explain all; so are samples far off that come at one part of "
+          "the "
+          "presses. Gains that all positions share come from the "
           "set-up (sensor, robot, tool), those that differ by place from the body; the rest is "
           "told "
           "as hs-compare tells it.",

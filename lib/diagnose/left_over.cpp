@@ -174,6 +174,13 @@ std::string words_of(const LeftOver& left) {
   const std::string much = fmt::format("{:.2g} x the noise is left", left.error);
   const std::string strain =
       fmt::format("{:.2g} times the squares that mesh and shape are allowed", left.strain);
+  if (left.events.found)
+    return fmt::format(
+        "{}, in single samples at one part of the presses ({} of {} presses err by more than {:g} "
+        "times the noise at {:.0f} to {:.0f} % of their samples): look at what happens there, a "
+        "change of speed or direction, a switch.",
+        much, left.events.presses, left.events.of, LockedEvents::kFarOff, 100 * left.events.from,
+        100 * left.events.until);
   if (left.kind == kSetUp)
     return fmt::format(
         "{}, and it is the same gain at all positions ({:.2g} standard deviations of what mesh and "
@@ -213,7 +220,13 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
     judge_gains(posterior(residual, coloured), residual, coloured, left);
   }
   left.structured = is_structured(residual, on);
+  if (left.noise_alone()) left.events = find_locked_events(g.dataset, p.beside, g.allowance.noise);
   if (left.noise_alone()) return left;
+  if (left.events.found) {
+    left.kind = "event";
+    left.words = words_of(left);
+    return left;
+  }
   // The gains are the story where they take most of it away.
   const double all_of_it = left.error * left.error - 1;
   const bool by_gains =

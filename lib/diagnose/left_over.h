@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "diagnose/locked_events.h"
 #include "diagnose/trial_ground.h"
 #include "fit/fit.h"
 
@@ -28,11 +29,13 @@ struct LeftOver {
   Vec3 where = Vec3::Zero();  // the position of the largest |c_p| [m]
   bool strained = false;    // by all positions, by their mean or by one, beyond chance (kStrained)
   bool structured = false;  // beside the allowance: more than noise, and neighbours err alike
-  // "": noise alone; "set-up", "body", "place" (one) where the allowance is strained, else what
-  // hs-compare tells of it: "depth", "contact-time", "offset", ...
+  LockedEvents events;      // looked for where neither is the case
+  // "": noise alone; "set-up", "body", "place" (one) where the allowance is strained, "event"
+  // of single samples at one part of the presses, else what hs-compare tells of it: "depth",
+  // "contact-time", "offset", ...
   std::string kind;
 
-  bool noise_alone() const { return !strained && !structured; }
+  bool noise_alone() const { return !strained && !structured && !events.found; }
   // How much is left, of which kind, and where to look: sentences; "" of noise alone.
   std::string words;
 };
