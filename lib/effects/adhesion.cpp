@@ -62,7 +62,7 @@ class Adhesion : public Effect {
             "a constant force within a range after Dugdale",
         .assumptions =
             "one force and one range for all positions; along the normal; no growth with rate or "
-            "time of contact",
+            "time of contact; how the range is used up is taken for straight",
         .parameters = {{"F", "N", "force that holds the tool when it leaves", 0, 0.1, 0, 1e6, 0.1,
                         false},
                        {"d", "m", "range: retreat that mobilises it, height that ends it", 1e-4,
@@ -72,6 +72,7 @@ class Adhesion : public Effect {
         .needs_return = true,
         .needs_rim = true,
         .one_tool = true,
+        .form_error = 0.05,
         .signature = "too stiff while the tool leaves, down to a pull before it comes off",
         .confounders = {"viscoelastic", "softening", "backlash", "deadband", "slack"},
         .separated_by =
