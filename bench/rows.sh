@@ -2,10 +2,11 @@
 # rows.sh BIN [ROWS...] [--places N]: identification and diagnosis as recordings grow. The phantom's presses (12
 # places, 36 presses, simulated with fine contact meshes), or one press of a ramp, a hold and a way back at each of N
 # places, sampled to each number of ROWS (7e3, 1e5, 1e6), with noise of 0.02 N, simulated on the true surface;
-# identified and diagnosed on the body of the scan, everything prepared. Truths: a relaxation; with --places also
-# friction, a skin and a soft inclusion. A line a run: rows as recorded and as fitted, processor seconds of all
-# threads, seconds by the clock, peak memory, and of the answer what can be checked: how far E1 and tau1 are from the
-# truth, in percent and standard errors, or the verdict and the names.
+# identified and diagnosed on the body of the scan, everything prepared. Truths: a relaxation, nothing, nothing with
+# noise as large that wanders within 50 ms; with --places a relaxation, friction, a skin and a soft inclusion. A line a
+# run: rows as recorded and as fitted, processor seconds of all threads, seconds by the clock, peak memory, and of the
+# answer what can be checked: how far E1 and tau1 are from the truth, in percent and standard errors, or the verdict
+# and the names.
 # Recorded in bench/results/rows.txt and rows-places.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd)
@@ -79,6 +80,17 @@ model() { # what is beside E and nu
     inclusion) printf 'inclusion,0,x,0.01\ninclusion,0,y,0\ninclusion,0,z,0.026\ninclusion,0,radius,0.007\ninclusion,0,ratio,0.2\n' ;;
   esac
 }
+# Noise of 0.02 N in place of white one, each component from the one before in a press; declared.
+wandering() {
+  awk -F, -v OFS=, 'BEGIN { srand(3) }
+    function normal() { return sqrt(-2 * log(1 - rand())) * cos(6.283185307179586 * rand()) }
+    /^# simulated/ { print; print "# force_noise: 0.02"; next }
+    /^#/ { print; next }
+    /^press/ { for (i = 1; i <= NF; ++i) if ($i ~ /^f[xyz]$/) force[++n] = i; print; next }
+    { keep = $1 == press ? exp(($1 == press ? t - $2 : 0) / 0.05) : 0; press = $1; t = $2
+      for (k = 1; k <= n; ++k) { e[k] = keep * e[k] + sqrt(1 - keep * keep) * 0.02 * normal()
+        $force[k] = sprintf("%.7g", $force[k] + e[k]) } print }'
+}
 # Runs a tool; its times and memory into `took`, what it says into said.
 run() {
   if ! /usr/bin/time -f '%U %S %e %M' -o took "$@" 2>said; then
@@ -87,7 +99,9 @@ run() {
   fi
 }
 told() { # TRUTH, TOOL, ROWS, answer
-  awk -v truth="$1" -v tool="$2" -v recorded="$3" -v answer="$4" -v fitted="$(sed -n 's/.* rows are fitted as \([0-9]*\) .*/\1/p' said)" '
+  local fitted
+  fitted=$(sed -n 's/.* rows are fitted as \([0-9]*\) .*/\1/p' said)
+  awk -v truth="$1" -v tool="$2" -v recorded="$3" -v answer="$4" -v fitted="$fitted" '
     END { printf "%-10s %-24s %9d %9d %8.1f %8.1f %7.0f  %s\n", truth, tool, recorded, fitted ? fitted : recorded, $1 + $2,
       $3, $4 / 1024, answer }' took
 }
@@ -100,13 +114,14 @@ verdict() { # DIAGNOSIS
 }
 
 printf '%-10s %-24s %9s %9s %8s %8s %7s  %s\n' truth run rows fitted cpu_s clock_s MB answer
-truths=(relaxation) fine=(--rim-edge 0.12)
+truths=(relaxation nothing wandering) fine=(--rim-edge 0.12)
 ((places == 0)) || truths=(relaxation friction skin inclusion) fine=()
 for n in "${rows[@]}"; do
   motion "$n" >motion.csv
   for truth in "${truths[@]}"; do
     model "$truth" >truth.csv
-    "$bin/hs-simulate" -q motion.csv --body true.ply --model truth.csv "${fine[@]}" --add-noise 0.02 -o data.csv
+    simulated=("$bin/hs-simulate" -q motion.csv --body true.ply --model truth.csv "${fine[@]}")
+    if [[ $truth == wandering ]]; then "${simulated[@]}" | wandering >data.csv; else "${simulated[@]}" --add-noise 0.02 -o data.csv; fi
     count=$(grep -c '^[0-9]' data.csv)
     # What is prepared once a body is not counted.
     "$bin/hs-identify" -q data.csv --body body.ply --effects elastic --folds 0 -o m0.csv
@@ -116,7 +131,7 @@ for n in "${rows[@]}"; do
       run "$bin/hs-identify" data.csv --body body.ply --effects elastic,viscoelastic --robust huber -o m1.csv &&
         told "$truth" 'hs-identify, huber' "$count" "$(values m1.csv)"
       ((count > 200000)) &&
-        run "$bin/hs-identify" data.csv --body body.ply --effects elastic,viscoelastic --rows 0 -o m1.csv &&
+        run "$bin/hs-identify" data.csv --body body.ply --effects elastic,viscoelastic --most-rows 0 -o m1.csv &&
         told "$truth" 'hs-identify, all rows' "$count" "$(values m1.csv)"
     fi
     "$bin/hs-diagnose" -q data.csv --body body.ply --model m0.csv -o effects.csv

@@ -105,7 +105,7 @@ ToolSpec specification() {
        .group = "Diagnosis",
        .default_text = "1",
        .minimum = 0},
-      rows_flag("60000")};
+      most_rows_flag("60000")};
   spec.options.insert(spec.options.end(), own.begin(), own.end());
   spec.tables = {
       {"Diagnosis (output)",

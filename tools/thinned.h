@@ -1,6 +1,7 @@
 // Long recordings, fitted as means of neighbouring rows.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,11 @@
 
 namespace hapsim {
 namespace flag {
-inline constexpr IntegerFlag rows{"--rows"};
+inline constexpr IntegerFlag most_rows{"--most-rows"};
 }  // namespace flag
 
-inline Option rows_flag(const std::string& most) {
-  return {.flag = flag::rows,
+inline Option most_rows_flag(const std::string& most) {
+  return {.flag = flag::most_rows,
           .value = "N",
           .help =
               "Of a recording with more rows, neighbours in a press become means of 2, 4, 8 ... "
@@ -25,14 +26,14 @@ inline Option rows_flag(const std::string& most) {
           .maximum = 1e9};
 }
 
-// Recordings together of at most --rows rows. Where some are thinned and the noise is that of
+// Recordings together of at most --most-rows rows. Where some are thinned and the noise is that of
 // --noise, which is a row's, each declares its own and `options` ask for none.
 inline std::vector<Recording> load_thinned(const Arguments& arguments, const std::string& tool,
                                            const std::vector<std::string>& paths,
                                            ExperimentOptions& options) {
   constexpr std::size_t kFewest = 1000;  // of one of many recordings
-  std::size_t most = static_cast<std::size_t>(arguments[flag::rows]);
-  if (most > 0) most = std::max(kFewest, most / paths.size());
+  std::size_t most = static_cast<std::size_t>(arguments[flag::most_rows]);
+  most = std::max(std::min(most, kFewest), most / paths.size());
   const double noise = arguments.given(flag::noise) ? arguments[flag::noise] : 0;
   std::vector<Recording> recordings;
   std::vector<Thinning> thinnings;

@@ -70,7 +70,7 @@ std::string thinning_words(const Thinning& t) {
   if (!std::isnan(t.rate)) words += fmt::format(", {:.4g} % of rates", kept(t.rate));
   if (t.noise_after > 0)
     words += fmt::format("; noise {:.3g} N a row, {:.3g} N a mean", t.noise_before, t.noise_after);
-  return words + " (--rows 0 fits all)";
+  return words + " (--most-rows 0 fits all)";
 }
 
 bool Thinner::go_together(const Recording& r, std::size_t a, std::size_t b) const {

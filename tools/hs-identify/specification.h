@@ -220,7 +220,7 @@ inline ToolSpec identify_specification() {
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
            "need not be symmetric.",
        .group = "Output"},
-      rows_flag("200000")};
+      most_rows_flag("200000")};
   for (const auto& more : {recording_flags(), own, search_flags(), library_flags(), follow_flags()})
     spec.options.insert(spec.options.end(), more.begin(), more.end());
   spec.options.push_back(answer_option("Output"));

@@ -149,7 +149,7 @@ TEST(Thinning, IsToldWithWhatItLoses) {
       thinning_words(t),
       "1000000 rows are fitted as 31250 means of 32, over 0.031 s each: what is faster is not "
       "seen; they keep 99.99 % of what the rows tell of displacements, 97.15 % of rates; noise "
-      "0.02 N a row, 0.0036 N a mean (--rows 0 fits all)");
+      "0.02 N a row, 0.0036 N a mean (--most-rows 0 fits all)");
 }
 
 }  // namespace
