@@ -49,7 +49,7 @@ corners() {
       split("0 0.3 0.6 1 2.5 3 3.3", t, " ")
       for (i = 1; i <= 7; ++i)
         printf "%d,%.3f,%.6f,%.6f,%.6f,%.7f,%.7f,%.7f,%d\n", k, 10 * k + t[i], x, y, z, (-q[i] * nx / l + s[i] * tx) * d,
-          (-q[i] * ny / l + s[i] * ty) * d, -q[i] * nz / l * d, q[i] >= 0 } }'
+          (-q[i] * ny / l + s[i] * ty) * d, -q[i] * nz / l * d, (q[i] >= 0) } }'
 }
 corners >corners.csv
 # The same motion in about ROWS rows, evenly in time.
