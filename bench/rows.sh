@@ -7,7 +7,7 @@
 # line a run: rows as recorded and as fitted, processor seconds of all threads, seconds by the clock, peak memory, and
 # of the answer what can be checked: how far E1 and tau1 are from the truth, in percent and standard errors, or the
 # verdict and the names.
-# Recorded in bench/results/rows.txt and rows-places.txt (bench/record.sh).
+# Recorded in bench/results/rows.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd)
 shift
