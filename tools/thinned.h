@@ -18,8 +18,9 @@ inline Option most_rows_flag(const std::string& most) {
           .value = "N",
           .help =
               "Of a recording with more rows, neighbours in a press become means of 2, 4, 8 ... "
-              "while it is read, until N are left at most; what that loses, and the noise that "
-              "is left, is said. 0: all rows.",
+              "while it is read, until N are left at most (or 40 of each press's way through "
+              "air or contact, where that is more); what that loses, and the noise that is "
+              "left, is said. 0: all rows.",
           .group = "Fit",
           .default_text = most,
           .minimum = 0,

@@ -36,7 +36,7 @@ void each_mean(Recording& r, const Visit& visit) {
 // unequal rows at their ends are as good: those are few, and the median does not see them.
 template <class Runs>
 double difference_variance(const std::vector<Vec3>& f, const Runs& runs) {
-  constexpr double kNormalMedian = 0.6745;  // median(|x|) of a normal deviate over its deviation
+  constexpr double kMiddle = 0.6745;  // median(|x|) of a normal deviate over its deviation
   const double gain = std::sqrt(1.0 + 16 + 36 + 16 + 1);
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
@@ -45,7 +45,7 @@ double difference_variance(const std::vector<Vec3>& f, const Runs& runs) {
       for (std::size_t i = run.begin; i + 4 < run.end; ++i)
         sizes.push_back(
             std::abs(f[i][k] - 4 * f[i + 1][k] + 6 * f[i + 2][k] - 4 * f[i + 3][k] + f[i + 4][k]));
-    const double sigma = upper_median(std::move(sizes)) / (kNormalMedian * gain);
+    const double sigma = upper_median(std::move(sizes)) / (kMiddle * gain);
     sum += sigma * sigma;
   }
   return sum / measured_axes(f);
@@ -121,7 +121,7 @@ void Thinner::added(Recording& r) {
     last_.pop_back();
     return;
   }
-  if (most_ > 0 && r.rows() > most_ && block_ < (1 << 20)) halve(r);
+  if (most_ > 0 && r.rows() > most_) halve(r);
 }
 
 void Thinner::look_at_noise(const Recording& r) {
@@ -169,11 +169,18 @@ void Thinner::merge(Recording& r, const std::vector<std::size_t>& to) {
 }
 
 void Thinner::halve(Recording& r) {
+  // Of many short presses nothing is left to be told from fewer rows: as many again are taken.
+  constexpr std::size_t kLeastOfRun = 20;
+  const std::vector<Run> all = runs(r);
+  if (r.rows() < 2 * kLeastOfRun * all.size()) {
+    most_ = 2 * r.rows();
+    return;
+  }
   look_at_noise(r);
   std::vector<std::size_t> to;
   to.reserve(r.rows());
   std::size_t next = 0;
-  for (const Run& run : runs(r)) {
+  for (const Run& run : all) {
     for (std::size_t row = run.begin; row < run.end; ++row)
       to.push_back(next + (row - run.begin) / 2);
     next = to.back() + 1;

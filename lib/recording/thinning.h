@@ -30,9 +30,10 @@ std::string thinning_words(const Thinning& thinning);
 
 // Rows of one press that follow one another at one place, all in contact or all in the air, become
 // means of 2, 4, 8 ... of them as soon as there are more than `most` rows in all: as many of each
-// press's rows a mean, so that all means are worth the same. Forces in proportion to displacements
-// are unchanged by that; what happens within a mean is lost. The mean has the first row's line,
-// place and unknown columns, and the times' mean.
+// press's rows a mean, so that all means are worth the same; not where fewer than 20 means would be
+// left of a run of such rows, on average. Forces in proportion to displacements are unchanged by
+// that; what happens within a mean is lost. The mean has the first row's line, place and unknown
+// columns, and the times' mean.
 //
 // The noise of a mean is that of a row over the root of their number only where neighbours do not
 // err alike. How far they do is measured at every number on the way, from fourth differences of
@@ -76,7 +77,7 @@ class Thinner {
   double seen_ = 0, now_ = 0;  // max_k v_k, v [N^2]
 };
 
-// As read_recording(), at most so many rows (and twice the number of runs); 0: all of them.
+// As read_recording(), at most so many rows, or 40 of each run where that is more; 0: all of them.
 Recording read_thinned(Input& input, bool need_forces, std::size_t most, double noise,
                        Thinning& thinning);
 

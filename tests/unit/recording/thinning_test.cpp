@@ -123,8 +123,20 @@ TEST(Thinning, MeansStayWithinPressPlaceAndContact) {
     EXPECT_EQ(r.press[i], whole.press[at]);
     EXPECT_EQ(r.position[i], whole.position[at]);
     EXPECT_EQ(r.contact[i], whole.contact[at]);
-    if (i > 0 && r.press[i] == r.press[i - 1]) EXPECT_GT(r.t[i], r.t[i - 1]);
+    const bool goes_on = i > 0 && r.press[i] == r.press[i - 1];
+    EXPECT_TRUE(!goes_on || r.t[i] > r.t[i - 1]) << i;
   }
+}
+
+TEST(Thinning, ShortPressesAreNotMadeShorter) {
+  Random random(5);
+  Recording whole = presses(100, 25, white(random, 0.01));
+  Thinning t;
+  EXPECT_EQ(read_at_most(whole, 200, t).rows(), 2500u);
+  EXPECT_FALSE(t.thinned());
+  whole = presses(50, 100, white(random, 0.01));
+  EXPECT_EQ(read_at_most(whole, 200, t).rows(), 50u * 25);
+  EXPECT_EQ(t.block, 4);
 }
 
 // Readings at a sensor's end stay exactly equal, or nobody would see it.
