@@ -35,14 +35,17 @@ inline std::string calibration_words(const Arguments& arguments) {
 }
 
 // A measured recording as it is to be used; what was done to it is said.
-inline Recording read_measured(const Arguments& arguments, Input& input, bool need_forces = true) {
-  Recording recording = read_recording(input, need_forces);
+inline Recording calibrated(const Arguments& arguments, Recording recording) {
   if (!arguments.given(flag::calibration) || recording.f.empty()) return recording;
   const Calibration calibration = load_calibration(arguments);
   const RigCorrection correction = calibrate_recording(calibration, recording);
   for (const std::string& words : correction_words(calibration, correction))
     say(arguments, recording.name + ": " + words);
   return recording;
+}
+
+inline Recording read_measured(const Arguments& arguments, Input& input, bool need_forces = true) {
+  return calibrated(arguments, read_recording(input, need_forces));
 }
 
 }  // namespace hapsim

@@ -9,6 +9,7 @@
 #include "experiment/preparation_flags.h"
 #include "fit/fit_words.h"
 #include "plan/press_plan.h"
+#include "thinned.h"
 
 namespace hapsim {
 namespace flag {
@@ -103,7 +104,8 @@ ToolSpec specification() {
        .help = "Seed of the flips.",
        .group = "Diagnosis",
        .default_text = "1",
-       .minimum = 0}};
+       .minimum = 0},
+      most_rows_flag("60000")};
   spec.options.insert(spec.options.end(), own.begin(), own.end());
   spec.tables = {
       {"Diagnosis (output)",
@@ -156,9 +158,10 @@ int run(const Arguments& arguments) {
   std::vector<Vec3> window;
   const TetMesh body = load_body(arguments, &window);
   std::shared_ptr<Progress> progress;
-  const ExperimentOptions options = experiment_options(arguments, progress);
-  const Experiment w = draft_experiment(
-      body, window, model, load_recording(arguments, arguments.input(), true), options);
+  ExperimentOptions options = experiment_options(arguments, progress);
+  std::vector<Recording> recording =
+      load_thinned(arguments, "hs-diagnose", {arguments.input()}, options);
+  const Experiment w = draft_experiment(body, window, model, std::move(recording.front()), options);
   progress.reset();
   for (const std::string& words : left_out_words(w)) say(arguments, "hs-diagnose", words);
   for (const std::string& known : known_words(model, w.dataset))

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
 #include <optional>
+#include <thread>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "diagnose/departures.h"
 #include "diagnose/held_out.h"
 #include "diagnose/screens.h"
@@ -144,6 +148,36 @@ Finding not_testable(const Effect& effect, const std::string& lack) {
 
 using Counted = std::function<void(const Effect&)>;  // tells of the next effect that is tested
 
+// Tells on the thread that this is called on, and on no other: what is told may speak to a terminal
+// or to an interpreter.
+std::function<void(const std::string&, std::size_t, std::size_t)> telling_here(
+    const DiagnoseOptions& options) {
+  return [&options, own = std::this_thread::get_id()](const std::string& what, std::size_t k,
+                                                      std::size_t n) {
+    if (std::this_thread::get_id() == own) options.tell(what, k, n);
+  };
+}
+
+// What is known of an effect before finite elements are solved for it.
+struct Estimate {
+  bool worth = true;
+  std::optional<Candidate> candidate;
+  std::string lack;  // why there is none
+};
+
+// Several at once: each depends on the baseline alone.
+std::vector<Estimate> estimate_all(const std::vector<const Effect*>& effects, const Baseline& base,
+                                   const TrialGround& g, const Counted& count) {
+  std::vector<Estimate> estimates(effects.size());
+  in_parallel(effects.size(), g.experiment.places.threads(), [&](std::size_t k) {
+    count(*effects[k]);
+    Estimate& e = estimates[k];
+    e.worth = worth_a_fit(*effects[k], base, g);
+    if (e.worth) e.candidate = try_effect(*effects[k], base, g, e.lack);
+  });
+  return estimates;
+}
+
 // Tries effects at some places, and at all of them those that could be rivals of what leaves the
 // `least` error, the best first: solved for once, at the values that the screen gave.
 void try_at_some_first(const std::vector<const Effect*>& effects, const Departures& departures,
@@ -210,51 +244,64 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
   double least = base.fitted.error.pooled;
   std::vector<const Effect*> at_some_first;
   const std::vector<const Effect*> effects = untried(base.fitted.model, kind, options.unknown);
-  std::size_t tested = 0;
+  std::atomic<std::size_t> tested{0};
+  const auto tell = telling_here(options);
   const Counted count = [&](const Effect& effect) {
-    options.tell("testing " + effect.card().name, ++tested, effects.size());
+    tell("testing " + effect.card().name, ++tested, effects.size());
+  };
+  std::vector<const Effect*> estimated;
+  enum class Way { kRuledOut, kAtSomeFirst, kEstimated };
+  const auto way_of = [&](const Effect& effect) {
+    if (!effect.card().solved || !lacking_for(effect.card(), g.dataset).empty())
+      return Way::kEstimated;
+    if (!departs) return Way::kRuledOut;
+    return has_many_places(g.dataset) ? Way::kAtSomeFirst : Way::kEstimated;
   };
   for (const Effect* effect : effects) {
-    const bool solved = effect->card().solved && lacking_for(effect->card(), g.dataset).empty();
-    if (solved && !departs) {
-      ++tested;
-      round.ruled_out.push_back(ruled_out(*effect, base));
-      continue;
-    }
-    if (solved && has_many_places(g.dataset)) {
-      at_some_first.push_back(effect);
-      continue;
-    }
-    count(*effect);
-    if (!worth_a_fit(*effect, base, g)) {
+    const Way way = way_of(*effect);
+    if (way == Way::kRuledOut) ++tested;
+    if (way == Way::kEstimated) estimated.push_back(effect);
+  }
+  std::vector<Estimate> estimates = estimate_all(estimated, base, g, count);
+  auto estimate = estimates.begin();
+  for (const Effect* effect : effects) {
+    const Way way = way_of(*effect);
+    if (way == Way::kRuledOut) round.ruled_out.push_back(ruled_out(*effect, base));
+    if (way == Way::kAtSomeFirst) at_some_first.push_back(effect);
+    if (way != Way::kEstimated) continue;
+    Estimate& e = *estimate++;
+    if (!e.worth) {
       round.ruled_out.push_back(ruled_out(*effect, base));
       round.ruled_out.back().evidence = kTakesNothing;
       continue;
     }
-    std::string lack;
-    auto candidate = try_effect(*effect, base, g, lack);
-    if (!candidate) {
-      round.untestable.push_back(not_testable(*effect, lack));
+    if (!e.candidate) {
+      round.untestable.push_back(not_testable(*effect, e.lack));
       continue;
     }
-    if (!effect->card().per_press) least = std::min(least, candidate->fitted.error.pooled);
-    round.candidates.push_back(std::move(*candidate));
+    if (!effect->card().per_press) least = std::min(least, e.candidate->fitted.error.pooled);
+    round.candidates.push_back(std::move(*e.candidate));
   }
   try_at_some_first(at_some_first, departures, least, base, g, options, count, round);
   refine_promising(round.candidates, base, g, options);
   for (Candidate& c : round.candidates)
     if (c.effect->card().is_field) hold_out(c, g, folds);
   const Yardstick yardstick = make_yardstick(base, round.candidates, g);
-  std::vector<Measured> measured;
-  for (const Candidate& c : round.candidates) measured.push_back(measure(c, base, yardstick, g));
+  std::vector<Measured> measured(round.candidates.size());
+  const int threads = g.experiment.places.threads();
+  in_parallel(measured.size(), threads, [&](std::size_t k) {
+    measured[k] = measure(round.candidates[k], base, yardstick, g);
+  });
   const std::vector<double> p = p_values(measured, options.flips, random);
   const double noise = g.allowance.noise * g.allowance.noise;
   const double by_laws = left_by_laws(base.fitted, g);
   const double beyond_noise = base.fitted.error.pooled * base.fitted.error.pooled - noise;
-  for (std::size_t k = 0; k < round.candidates.size(); ++k) {
+  round.findings.resize(round.candidates.size());
+  // Refits for held-out positions cost most, and each finding depends on its own candidate alone.
+  in_parallel(round.candidates.size(), threads, [&](std::size_t k) {
     Candidate& c = round.candidates[k];
     const Measured& m = measured[k];
-    Finding f;
+    Finding& f = round.findings[k];
     f.effect = c.effect->card().name;
     f.one_more_term = c.one_more_term;
     f.rmse_now = base.fitted.error;
@@ -262,10 +309,7 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
     f.held_out_now = held_out_for(*c.effect, base).error;
     f.held_out_after = {};
     f.evidence = implausible(c.fitted.model, *c.effect, g.dataset);
-    if (!f.evidence.empty()) {
-      round.findings.push_back(f);
-      continue;
-    }
+    if (!f.evidence.empty()) return;
     f.p_value = p[k];
     f.criterion_gain = m.criterion_gain;
     f.memory = m.memory;
@@ -278,10 +322,10 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
     if (beyond_noise > 0.01 * noise)
       f.share = std::clamp((all_of_it ? fall : m.explained) / beyond_noise, 0.0, 1.0);
     f.hidden = m.hidden && f.share >= options.gates.share;
-    // Refits for held-out positions cost most and only matter to what passes otherwise.
+    // Those refits only matter to what passes otherwise.
     if (!c.effect->card().is_field && f.criterion_gain > options.gates.criterion_gain &&
         f.share >= options.gates.share) {
-      options.tell(f.effect + " on unseen data");
+      tell(f.effect + " on unseen data", 0, 0);
       hold_out(c, g, folds);
       prefer_sites(c, base, g, folds);
       f.every_site = c.every_site;
@@ -309,8 +353,7 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
           "unseen "
           "error is that of presses: press around it";
     f.next_measurement = c.effect->card().separated_by;
-    round.findings.push_back(f);
-  }
+  });
   return round;
 }
 

@@ -126,7 +126,7 @@ struct Starts {
   std::vector<Model> models;
   Linearisation known;
 };
-// Builds them from the episodes it may see.
+// Builds them from the episodes it may see; asked by several threads at once.
 using ModelBuilder = std::function<Starts(const Selection& training)>;
 
 struct HeldOut {
@@ -135,7 +135,8 @@ struct HeldOut {
   std::vector<double> components;  // 3 x rows by fold
   std::vector<double> by_place;    // sum of squares by position [N^2]
 };
-// Truly refitted for every fold; bodies with features stay linear about what is known.
+// Truly refitted for every fold, several at once; bodies with features stay linear about what is
+// known. The watch is asked on the calling thread alone.
 HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment,
                        const Folds& folds, const FitOptions& options);
 

@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <memory>
+#include <thread>
 
+#include "base/parallel.h"
 #include "fit/fit.h"
 #include "fit/learned_field.h"
 #include "fit/press_offsets.h"
@@ -34,6 +38,54 @@ Folds make_press_folds(const Dataset& dataset, int count) {
   return folds;
 }
 
+namespace {
+
+// What one fold says.
+struct HeldOutPart {
+  double squares = 0;            // [N^2]
+  double components = 0;         // 3 x rows
+  std::vector<double> by_press;  // sum of squares [N^2], in the order of the fold
+};
+
+// A watch that several fits ask at once: only the thread that made it asks what it stands for,
+// which may speak to a terminal or to an interpreter; the others hear what that said last.
+std::function<bool(const FitProgress&)> heard_by_all(
+    std::function<bool(const FitProgress&)> watch) {
+  if (!watch) return watch;
+  auto goes_on = std::make_shared<std::atomic<bool>>(true);
+  return [watch = std::move(watch), goes_on,
+          own = std::this_thread::get_id()](const FitProgress& progress) {
+    if (std::this_thread::get_id() == own && !watch(progress)) *goes_on = false;
+    return goes_on->load();
+  };
+}
+
+HeldOutPart held_out_part(const ModelBuilder& builder, const Experiment& experiment,
+                          const Selection& held_out, const FitOptions& about) {
+  const Dataset& dataset = experiment.dataset;
+  Selection training;
+  for (const int e : all_episodes(dataset))
+    if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
+  Starts starts = builder(training);
+  // What a field has learned of the places left out is not to be known.
+  for (Model& start : starts.models) forget_field(start);
+  const Fit fitted = fit_best(starts.models, experiment, training, about, starts.known);
+  Eigen::VectorXd r =
+      measured_forces(dataset, held_out) - model_forces(fitted, experiment, held_out, false).f;
+  if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);
+  HeldOutPart part{r.squaredNorm(), static_cast<double>(r.size()), {}};
+  Eigen::Index at = 0;
+  for (const int e : held_out) {
+    const auto n =
+        static_cast<Eigen::Index>(3 * dataset.episodes[static_cast<std::size_t>(e)].rows.size());
+    part.by_press.push_back(r.segment(at, n).squaredNorm());
+    at += n;
+  }
+  return part;
+}
+
+}  // namespace
+
 HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment,
                        const Folds& folds, const FitOptions& options) {
   const Dataset& dataset = experiment.dataset;
@@ -44,29 +96,22 @@ HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment
   about.rounds = 0;
   about.keep_scales = false;
   about.keep = nullptr;
+  about.watch = heard_by_all(options.watch);
+  std::vector<HeldOutPart> parts(folds.held_out.size());
+  in_parallel(parts.size(), experiment.places.threads(), [&](std::size_t k) {
+    parts[k] = held_out_part(builder, experiment, folds.held_out[k], about);
+  });
   double squares = 0, components = 0;
-  for (const Selection& held_out : folds.held_out) {
-    Selection training;
-    for (const int e : all_episodes(dataset))
-      if (std::find(held_out.begin(), held_out.end(), e) == held_out.end()) training.push_back(e);
-    Starts starts = builder(training);
-    // What a field has learned of the places left out is not to be known.
-    for (Model& start : starts.models) forget_field(start);
-    const Fit fitted = fit_best(starts.models, experiment, training, about, starts.known);
-    Eigen::VectorXd r =
-        measured_forces(dataset, held_out) - model_forces(fitted, experiment, held_out, false).f;
-    if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);
-    Eigen::Index at = 0;
-    for (const int e : held_out) {
-      const Episode& episode = dataset.episodes[static_cast<std::size_t>(e)];
-      const auto n = static_cast<Eigen::Index>(3 * episode.rows.size());
-      result.by_place[static_cast<std::size_t>(episode.position)] += r.segment(at, n).squaredNorm();
-      at += n;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    for (std::size_t i = 0; i < parts[k].by_press.size(); ++i) {
+      const auto e = static_cast<std::size_t>(folds.held_out[k][i]);
+      result.by_place[static_cast<std::size_t>(dataset.episodes[e].position)] +=
+          parts[k].by_press[i];
     }
-    result.squares.push_back(r.squaredNorm());
-    result.components.push_back(static_cast<double>(r.size()));
-    squares += result.squares.back();
-    components += result.components.back();
+    result.squares.push_back(parts[k].squares);
+    result.components.push_back(parts[k].components);
+    squares += parts[k].squares;
+    components += parts[k].components;
   }
   if (components > 0) result.error.pooled = std::sqrt(squares / components);
   return result;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/csv.h"
 #include "recording/recording.h"
+#include "recording/thinning.h"
 
 namespace hapsim {
 namespace {
@@ -35,7 +36,8 @@ class RecordingReader {
     find_columns(need_forces);
   }
 
-  Recording read() {
+  // `thinner`: may be null.
+  Recording read(Thinner* thinner) {
     std::vector<std::string_view> fields;
     while (csv_.next(fields)) {
       if (!parse(fields)) {
@@ -44,6 +46,7 @@ class RecordingReader {
       }
       check();
       store(fields);
+      if (thinner != nullptr) thinner->added(recording_);
     }
     bad_.fail_if_any(recording_.name);
     if (recording_.rows() == 0)
@@ -161,7 +164,15 @@ class RecordingReader {
 }  // namespace
 
 Recording read_recording(Input& input, bool need_forces) {
-  return RecordingReader(input, need_forces).read();
+  return RecordingReader(input, need_forces).read(nullptr);
+}
+
+Recording read_thinned(Input& input, bool need_forces, std::size_t most, double noise,
+                       Thinning& thinning) {
+  Thinner thinner(most, noise);
+  Recording recording = RecordingReader(input, need_forces).read(&thinner);
+  thinning = thinner.end(recording);
+  return recording;
 }
 
 }  // namespace hapsim

@@ -22,6 +22,16 @@ expect 0 'error' data.csv "${common[@]}" --effects auto --fix nu=0.45
 grep -q '^elastic,0,nu,0.45,.*,fixed$' out.csv || complain '--effects auto with --fix'
 expect 2 "the model has no parameter 'tau1'" data.csv "${common[@]}" --effects auto --fix tau1=3
 
+# A long recording is fitted as means of neighbours, which is said; what is not long as it is.
+expect 0 'data.csv: 244 rows are fitted as 124 means of 2, over 0.05 s each' data.csv "${common[@]}" --add viscoelastic \
+  --noise 0.002 --most-rows 150
+awk -F, '$3 == "E" { near += ($4 / 10000 - 1) ^ 2 < 0.05 ^ 2 } $3 == "tau1" { near += ($4 / 0.4 - 1) ^ 2 < 0.1 ^ 2 }
+  /^# force_noise:/ { split($0, n, ": "); near += n[2] > 0.001 && n[2] < 0.0017 } END { exit near != 3 }' out.csv ||
+  complain 'means of neighbours tell the material, and have less noise'
+"$tool" -q data.csv "${common[@]}" --add viscoelastic && cp out.csv usual.csv
+"$tool" -q data.csv "${common[@]}" --add viscoelastic --most-rows 0 && cmp usual.csv out.csv || complain 'few rows stay as they are'
+expect 2 '--most-rows is -1; give a number from 0' data.csv "${common[@]}" --most-rows -1
+
 # Two recordings of one body fitted together are the one that they were cut from.
 awk -F, '/^[#p]/ || $1 < 2' data.csv >first.csv
 awk -F, '/^[#p]/ || $1 >= 2' data.csv | sed 's/^2,/0,/; s/^3,/1,/' >second.csv

@@ -28,7 +28,8 @@ inline int run_acfm(const Arguments& arguments) {
                 flag::resume,   flag::until,   flag::constrain, flag::region_names})
     if (arguments.given(flag))
       fail_usage(flag + " is of models with effects, and --acfm has none", "leave one of them out");
-  const GivenRecordings given = load_recordings(arguments, {});
+  ExperimentOptions prepared = preparation_options(arguments);
+  const GivenRecordings given = load_recordings(arguments, {}, prepared);
   const Dataset& dataset = given.dataset;
   const SignedDistance surface(boundary_surface(given.bodies.front()), "body");
   require_one_setup(dataset, flag::acfm.name);
@@ -42,8 +43,8 @@ inline int run_acfm(const Arguments& arguments) {
   if (!options.windows.empty() && static_cast<int>(options.windows.size()) != options.terms)
     fail_usage(fmt::format("{} windows for {} elements", options.windows.size(), options.terms),
                "give each element one window");
-  const Noise noise = arguments.given(flag::noise) ? Noise{arguments[flag::noise], false}
-                                                   : force_noise(dataset.recording);
+  const Noise noise =
+      prepared.noise > 0 ? Noise{prepared.noise, false} : force_noise(dataset.recording);
   options.noise = noise.value;
   AcfmFit fit = fit_acfm(dataset, normals, options);
   record_fit(fit, dataset, noise);

@@ -101,15 +101,15 @@ int run(const Arguments& arguments) {
   const std::vector<Relation> constraints =
       parse_constraints(arguments.list(flag::constrain), flag::constrain.name);
   const SearchState search = search_asked(arguments, plan.start);
-  GivenRecordings given = load_recordings(arguments, plan.start);
+  std::shared_ptr<Progress> progress;
+  ExperimentOptions options = experiment_options(arguments, progress);
+  GivenRecordings given = load_recordings(arguments, plan.start, options);
   require_fit_for(arguments, plan, given.dataset);
   say_together(arguments, "hs-identify", given.dataset.recording);
   RestOfPress rest(arguments, given);
   const TetMesh& body = given.bodies.front();
   const std::unique_ptr<LibraryUse> library =
       asked_library(arguments, given.dataset.recording, body);
-  std::shared_ptr<Progress> progress;
-  ExperimentOptions options = experiment_options(arguments, progress);
   set_poisson_range(plan, options);
   options.windows = given.windows;
   const Experiment w = make_experiment(given.bodies, std::move(given.dataset), options);

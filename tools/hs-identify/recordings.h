@@ -15,6 +15,7 @@
 #include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
 #include "identify/given_recordings.h"
+#include "thinned.h"
 
 namespace hapsim {
 
@@ -39,8 +40,9 @@ inline std::vector<Option> recording_flags() {
 
 // Error(kUsage) when there is neither one body nor one for each recording; Error(kBadInput) for a
 // recording whose presses cannot be what they claim (require_presses()). `start`: the model that is
-// gone on with, empty without.
-inline GivenRecordings load_recordings(const Arguments& arguments, const Model& start) {
+// gone on with, empty without. `options` know no noise where the recordings declare it.
+inline GivenRecordings load_recordings(const Arguments& arguments, const Model& start,
+                                       ExperimentOptions& options) {
   std::vector<std::string> paths = arguments.list(flag::data);
   paths.insert(paths.begin(), arguments.input());
   const std::vector<std::string> bodies = arguments.list(flag::body);
@@ -62,8 +64,7 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
     given.windows.emplace_back();
     given.bodies.push_back(read_body(input, &given.windows.back()));
   }
-  std::vector<Recording> recordings;
-  for (const std::string& path : paths) recordings.push_back(load_recording(arguments, path, true));
+  std::vector<Recording> recordings = load_thinned(arguments, "hs-identify", paths, options);
   body_of.resize(paths.size(), body_of.front());
   join_given(given, body_of, std::move(recordings), start);
   return given;

@@ -12,6 +12,7 @@
 #include "hs-identify/recordings.h"
 #include "hs-identify/search.h"
 #include "hs-identify/until.h"
+#include "thinned.h"
 
 namespace hapsim {
 
@@ -218,7 +219,8 @@ inline ToolSpec identify_specification() {
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
            "need not be symmetric.",
-       .group = "Output"}};
+       .group = "Output"},
+      most_rows_flag("200000")};
   for (const auto& more : {recording_flags(), own, search_flags(), library_flags(), follow_flags()})
     spec.options.insert(spec.options.end(), more.begin(), more.end());
   spec.options.push_back(answer_option("Output"));

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace hapsim {
@@ -31,6 +33,38 @@ TEST(Parallel, AFailureReachesTheCaller) {
     // How many others run meanwhile is the scheduler's affair.
     if (threads == 1) EXPECT_EQ(runs, 4);
   }
+}
+
+// Calls within tasks take no more threads than the outermost was given, and those that are free.
+TEST(Parallel, CallsWithinTasksShareTheThreads) {
+  for (const int threads : {1, 3}) {
+    std::atomic<int> now{0}, most{0}, runs{0};
+    in_parallel(4, threads, [&](std::size_t) {
+      in_parallel(8, 16, [&](std::size_t) {
+        const int running = ++now;
+        for (int seen = most; seen < running && !most.compare_exchange_weak(seen, running);) {
+        }
+        ++runs;
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        --now;
+      });
+    });
+    EXPECT_EQ(runs, 32);
+    EXPECT_LE(most, threads);
+    if (threads > 1) EXPECT_GT(most, 1);
+  }
+}
+
+TEST(Parallel, ALoneTaskLeavesItsThreadsToWhatItCalls) {
+  std::atomic<int> inside{0};
+  in_parallel(1, 2, [&](std::size_t) {
+    in_parallel(2, 2, [&](std::size_t) {
+      ++inside;
+      // Each waits for the other: they run side by side, or the test ends by its limit.
+      while (inside < 2) std::this_thread::yield();
+    });
+  });
+  EXPECT_EQ(inside, 2);
 }
 
 }  // namespace

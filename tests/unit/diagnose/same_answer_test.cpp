@@ -51,8 +51,9 @@ std::string bytes_of(const Diagnosis& d) {
 }
 
 // Six places on a body with a skin.
-Experiment pressed(std::size_t memory) {
+Experiment pressed(std::size_t memory, int threads = 0) {
   ExperimentOptions options;
+  options.threads = threads;
   options.rim_edge = 0.3;
   options.noise = 0.01;
   options.floor = 0.01;
@@ -68,6 +69,17 @@ DiagnoseOptions few_flips() {
   options.flips = 99;
   options.folds = 3;
   return options;
+}
+
+TEST(SameAnswer, OfADiagnosisByOneThreadAndByMany) {
+  std::string first;
+  for (const int threads : {1, 2, 5}) {
+    const Experiment e = pressed(Memo::kDefaultBudget, threads);
+    const Model model = elastic_model(e, all_episodes(e.dataset));
+    const std::string bytes = bytes_of(diagnose(model, e, e.allowance(), few_flips()));
+    if (first.empty()) first = bytes;
+    EXPECT_EQ(bytes, first) << threads << " threads";
+  }
 }
 
 TEST(SameAnswer, OfADiagnosisAskedTwiceAndInTwoThreads) {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "expect_error.h"
 #include "support/model_derivatives.h"
@@ -68,6 +70,28 @@ TEST_F(Fitted, AnEffectAndItsAbsenceShowInHeldOutPositions) {
   };
   EXPECT_GT(held_out(test::elastic(1.5e4, 0.4)), 0.02);
   EXPECT_LT(held_out(truth), 0.0115);
+}
+
+// What a watch speaks to, a terminal or an interpreter, is one thread's.
+TEST_F(Fitted, OfFoldsFittedSideBySideTheWatchIsAskedByTheCallerAlone) {
+  test::measure(w(), test::with(test::elastic(1.5e4, 0.4), "viscoelastic", {8e3, 0.5}), 0.01, 3);
+  const Folds folds = make_folds(w().dataset, 6);
+  const ModelBuilder builder = [](const Selection&) {
+    return Starts{{test::with(test::elastic(1e4, 0.4), "viscoelastic", {4e3, 0.2})}, {}};
+  };
+  FitOptions watched = options();
+  std::atomic<int> asked{0}, elsewhere{0};
+  watched.watch = [&, own = std::this_thread::get_id()](const FitProgress&) {
+    ++asked;
+    elsewhere += std::this_thread::get_id() != own;
+    return true;
+  };
+  const HeldOut with = held_out_error(builder, w(), folds, watched);
+  EXPECT_GT(asked, 0);
+  EXPECT_EQ(elsewhere, 0);
+  const HeldOut without = held_out_error(builder, w(), folds, options());
+  EXPECT_EQ(with.squares, without.squares);
+  EXPECT_EQ(with.by_place, without.by_place);
 }
 
 TEST_F(Fitted, PoissonsRatioFixedStaysFixed) {
