@@ -9,10 +9,12 @@
 #include "experiment/preparation_flags.h"
 #include "fit/fit_words.h"
 #include "plan/press_plan.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace flag {
 inline constexpr SwitchFlag check{"--check"};
+inline constexpr ChoiceFlag torques{"--torques"};
 inline constexpr FileFlag junit{"--junit"}, plan{"--plan"};
 inline constexpr IntegerFlag plan_presses{"--plan-presses"}, folds{"--folds"}, flips{"--flips"},
     seed{"--seed"};
@@ -98,6 +100,12 @@ ToolSpec specification() {
        .default_text = "999",
        .minimum = 99,
        .maximum = 1000000},
+      {.flag = flag::torques,
+       .value = "WHAT",
+       .help = "Whether measured torques of the tool (tqx,tqy,tqz) are judged: use or ignore.",
+       .group = "Diagnosis",
+       .default_text = "use",
+       .choices = {"use", "ignore"}},
       {.flag = flag::seed,
        .value = "N",
        .help = "Seed of the flips.",
@@ -157,8 +165,9 @@ int run(const Arguments& arguments) {
   const TetMesh body = load_body(arguments, &window);
   std::shared_ptr<Progress> progress;
   const ExperimentOptions options = experiment_options(arguments, progress);
-  const Experiment w = draft_experiment(
-      body, window, model, load_recording(arguments, arguments.input(), true), options);
+  Recording recording = load_recording(arguments, arguments.input(), true);
+  if (arguments[flag::torques] == "ignore") forget_torques(recording);
+  const Experiment w = draft_experiment(body, window, model, std::move(recording), options);
   progress.reset();
   for (const std::string& words : left_out_words(w)) say(arguments, "hs-diagnose", words);
   for (const std::string& known : known_words(model, w.dataset))

@@ -15,6 +15,7 @@
 #include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
 #include "identify/given_recordings.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 
@@ -63,7 +64,10 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
     given.bodies.push_back(read_body(input, &given.windows.back()));
   }
   std::vector<Recording> recordings;
-  for (const std::string& path : paths) recordings.push_back(load_recording(arguments, path, true));
+  for (const std::string& path : paths) {
+    recordings.push_back(load_recording(arguments, path, true));
+    if (arguments[flag::torques] == "ignore") forget_torques(recordings.back());
+  }
   body_of.resize(paths.size(), body_of.front());
   join_given(given, body_of, std::move(recordings), start);
   return given;
