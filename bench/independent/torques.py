@@ -39,7 +39,7 @@ def by_calculix(folder, mesh, materials, point):
     """Lever (3, 3) [mm] by the tractions that move the patch along each axis."""
     text = calculix.deck(mesh, materials, mesh.bottom)
     for axis in range(3):
-        text += "*STEP\n*STATIC, SOLVER=ITERATIVE CHOLESKY\n*BOUNDARY, OP=MOD\n"
+        text += "*STEP\n*STATIC, SOLVER=SPOOLES\n*BOUNDARY, OP=MOD\n"
         text += "".join("PATCH, %d, %d, %g\n" % (k + 1, k + 1, float(k == axis)) for k in range(3))
         text += "*NODE PRINT, NSET=PATCH\nRF\n*END STEP\n"
     # CalculiX prints the nodes of a set in ascending order.
@@ -50,7 +50,7 @@ def by_calculix(folder, mesh, materials, point):
     return T @ np.linalg.inv(K)
 
 
-def by_hapsim(folder, bin, body_file, point, radius, nu, regions=""):
+def by_hapsim(folder, bin, body_file, point, radius, nu, regions="", more=()):
     """Lever (3, 3) [mm] from presses along each axis."""
     with open(folder / "motion.csv", "w") as out:
         out.write("# tool_radius: %g\npress,x,y,z,ux,uy,uz\n" % (1e-3 * radius))
@@ -62,7 +62,7 @@ def by_hapsim(folder, bin, body_file, point, radius, nu, regions=""):
                   "elastic,0,E,%g,Pa,,,,fixed\nelastic,0,nu,%g,1,,,,fixed\n%s" % (MODULUS, nu, regions))
     out = folder / "forces.csv"
     subprocess.run([bin / "hs-simulate", "-q", folder / "motion.csv", "--body", body_file, "--model",
-                    folder / "model.csv", "--torques", "-o", out], check=True)
+                    folder / "model.csv", "--torques", *more, "-o", out], check=True)
     lines = [line for line in out.read_text().split("\n") if line and not line.startswith("#")]
     names = lines[0].split(",")
     rows = np.array([[float(v) for v in line.split(",")] for line in lines[1:]])

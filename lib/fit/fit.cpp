@@ -20,6 +20,7 @@
 #include "fit/press_offsets.h"
 #include "fit/torque_rows.h"
 #include "model/body_parameters.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace {
@@ -82,11 +83,15 @@ class Fitting {
     result_.starts_done = options.starts;
     if (has_offsets_) set_offsets(result_.model, dataset_, {}, {}, 0);
     if (options.torques) torques_ = TorqueRows(start, experiment, selection, options, has_offsets_);
-    // What forces and torques tell of one thing is weighed by what each is worth.
-    if (!torques_.empty() && options.floor > 0)
-      force_weights_.emplace(dataset_, selection, measured_, options.noise, options.floor);
     const MaterialSpec asked = material_of(start);
     result_.about = experiment.places.estimate(asked, known);
+    // What forces and torques tell of one thing is weighed by what each is worth. By forces of a
+    // model: relative errors of measured ones would draw the fit to small forces, which their
+    // noise makes look better.
+    if (!torques_.empty() && options.floor > 0)
+      force_weights_.emplace(dataset_, selection,
+                             model_forces(start, experiment, result_.about, selection, false).f,
+                             options.noise, options.floor);
     // What is not solved for is estimated, over the whole range.
     is_linearised_ = is_linearised(asked, options.exact_regions) &&
                      (options.rounds > 0 || result_.about.is_solved_for(asked));
@@ -424,8 +429,10 @@ Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selec
   return model_forces(fitted.model, experiment, fitted.about, selection, derivatives);
 }
 
-Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
-        const FitOptions& options, const Linearisation& known) {
+namespace {
+
+Fit fit_from(const Model& start, const Experiment& experiment, const Selection& selection,
+             const FitOptions& options, const Linearisation& known) {
   Fitting without(start, experiment, selection, options, known);
   without.search();
   const BoundConstraints own = bind_constraints(without.model(), options.constraints);
@@ -462,6 +469,26 @@ Fit fit(const Model& start, const Experiment& experiment, const Selection& selec
     kept.message = "the constraints are not kept";
   }
   return named(std::move(kept), without.converged() ? without.told_error() : std::nan(""));
+}
+
+}  // namespace
+
+Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
+        const FitOptions& options, const Linearisation& known) {
+  if (!options.torques || !has_torques(experiment.dataset.recording))
+    return fit_from(start, experiment, selection, options, known);
+  // The forces alone come first: they say how large each position's errors are in newtons.
+  FitOptions forces = options;
+  forces.torques = forces.profile = false;
+  Fit alone = fit_from(start, experiment, selection, forces, known);
+  if (!alone.converged) return alone;
+  FitOptions beside = options;
+  beside.starts = 1;
+  beside.skip = 0;
+  beside.after_start = nullptr;
+  Fit both = fit_from(alone.model, experiment, selection, beside, alone.about);
+  both.starts_done = options.starts;
+  return both;
 }
 
 }  // namespace hapsim

@@ -39,16 +39,17 @@ TorqueRows::TorqueRows(const Model& start, const Experiment& experiment, const S
     return;
   }
   measured_ = stacked(torques.values, experiment.dataset, selection);
-  solve(material_of(start));
+  const MaterialSpec material = material_of(start);
+  solve(material);
+  // The weights are constant, by the forces that the start has.
+  weights_ = std::make_shared<const TorqueWeights>(
+      experiment.dataset, selection, solved_forces(start, experiment, selection, false).f, levers_,
+      material, noise_.value, floor_);
 }
 
 void TorqueRows::solve(const MaterialSpec& material) {
   if (empty()) return;
   levers_ = TorqueLevers(experiment_->places, material, exact_regions_);
-  // The measured forces say how large the levers' doubts are, so that the weights are constant.
-  weights_ = std::make_shared<const TorqueWeights>(
-      experiment_->dataset, *selection_, measured_forces(experiment_->dataset, *selection_),
-      levers_, material, noise_.value, floor_);
 }
 
 Signal TorqueRows::modelled(const Model& model, const Linearisation& about, const Signal* forces,
