@@ -7,6 +7,7 @@
 
 #include "common_options.h"
 #include "recording/thinning.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace flag {
@@ -45,6 +46,13 @@ inline std::vector<Recording> load_thinned(const Arguments& arguments, const std
     Recording recording = calibrated(arguments, read_thinned(input, true, most, noise, thinning));
     recordings.push_back(as_asked(arguments, std::move(recording), true,
                                   [&](const std::string& words) { say(arguments, words); }));
+    // A mean's unknown columns are those of its first row, and torques are read from these.
+    if (thinning.thinned() && has_torques(recordings.back())) {
+      forget_torques(recordings.back());
+      say(arguments, tool,
+          recordings.back().name +
+              ": rows are means of several, whose torques are not used (--most-rows 0 uses them)");
+    }
     any = any || thinning.thinned();
     thinnings.push_back(thinning);
   }

@@ -16,7 +16,7 @@ hs_status hs_compare(const hs_recording* measured, const hs_recording* simulated
     const Comparison c = compare(m, s);
     auto handle = std::make_unique<hs_comparison>();
     handle->json = comparison_json(c, m.name, s.name);
-    handle->residuals.recording = with_residuals(m, s.f);
+    handle->residuals.recording = residuals_of(c, m, s);
     return handle;
   });
 }

@@ -56,7 +56,14 @@ Comparison compare(const Recording& measured, const Recording& simulated) {
   c.facts = row_facts(measured);
   c.breakdowns = break_down(c.facts, measured.f, simulated.f, c.noise.value);
   c.observations = find_structure(c.facts, measured.f, simulated.f, c.noise.value);
+  c.torque = compare_torques(measured, simulated);
   return c;
+}
+
+Recording residuals_of(const Comparison& c, const Recording& measured, const Recording& simulated) {
+  Recording residuals = with_residuals(measured, simulated.f);
+  if (!c.torque.compared()) return residuals;
+  return with_torque_residuals(residuals, c.torque.measured, c.torque.simulated);
 }
 
 std::string comparison_json(const Comparison& c, const std::string& measured_name,
@@ -67,19 +74,24 @@ std::string comparison_json(const Comparison& c, const std::string& measured_nam
         {{"kind", f.kind}, {"sentence", f.sentence}, {"p_value", f.p_value}, {"share", f.share}});
   Json breakdowns = Json::object();
   for (const Breakdown& b : c.breakdowns) breakdowns[b.grouping.name] = bins_json(b);
-  const Json json = {{"measured", measured_name},
-                     {"simulated", simulated_name},
-                     {"rows", c.facts.press.size()},
-                     {"presses", c.facts.press_ids.size()},
-                     {"positions", c.facts.positions.size()},
-                     {"rmse", c.size.rmse},
-                     {"rmse_axes", vector(c.size.rmse_axis)},
-                     {"force_rms", c.size.force_rms},
-                     {"force_peak", c.size.force_peak},
-                     {"noise", c.noise.value},
-                     {"noise_source", c.noise.estimated ? "measured" : "force_noise"},
-                     {"observations", observations},
-                     {"breakdowns", breakdowns}};
+  Json json = {{"measured", measured_name},
+               {"simulated", simulated_name},
+               {"rows", c.facts.press.size()},
+               {"presses", c.facts.press_ids.size()},
+               {"positions", c.facts.positions.size()},
+               {"rmse", c.size.rmse},
+               {"rmse_axes", vector(c.size.rmse_axis)},
+               {"force_rms", c.size.force_rms},
+               {"force_peak", c.size.force_peak},
+               {"noise", c.noise.value},
+               {"noise_source", c.noise.estimated ? "measured" : "force_noise"},
+               {"observations", observations},
+               {"breakdowns", breakdowns}};
+  if (c.torque.compared()) {
+    json["torque_rmse"] = number(c.torque.error.rms);
+    json["torque_rms"] = number(c.torque.error.size);
+    json["torque_noise"] = number(c.torque.error.noise);
+  }
   // A file name need not be UTF-8; what is not becomes a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

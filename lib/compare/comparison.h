@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compare/structure.h"
+#include "compare/torque_comparison.h"
 
 namespace hapsim {
 
@@ -15,6 +16,7 @@ struct Comparison {
   RowFacts facts;
   std::vector<Breakdown> breakdowns;  // the first is by position
   std::vector<Observation> observations;
+  TorqueComparison torque;
 
   const Breakdown& by_position() const { return breakdowns.front(); }
   std::vector<int> worst_positions() const;  // bins of by_position(), largest rmse first
@@ -23,9 +25,13 @@ struct Comparison {
 // Checks that the two match (check_match) and compares them.
 Comparison compare(const Recording& measured, const Recording& simulated);
 
+// The measured recording with its residuals, of torques too where they were compared.
+Recording residuals_of(const Comparison& comparison, const Recording& measured,
+                       const Recording& simulated);
+
 // The comparison as JSON text (two spaces of indent, a newline at the end): rows, presses, rmse,
-// rmse_axes, force_rms, force_peak, noise, noise_source, observations, breakdowns. NaN becomes
-// null.
+// rmse_axes, force_rms, force_peak, noise, noise_source, observations, breakdowns; where torques
+// were compared torque_rmse, torque_rms and torque_noise [N m]. NaN becomes null.
 std::string comparison_json(const Comparison& comparison, const std::string& measured_name,
                             const std::string& simulated_name);
 

@@ -159,6 +159,13 @@ void add_numbers(const Comparison& c, const Metadata& simulated, Report& report)
         {"mesh uncertainty", newtons(report.mesh_uncertainty),
          fmt::format("{:.2g} % of the force, as hs-simulate says", 100 * *share)});
   }
+  if (c.torque.compared()) {
+    const TorqueError& e = c.torque.error;
+    report.numbers.push_back(
+        {"torque error (rmse)", fmt::format("{:.3g} N m", e.rms),
+         fmt::format("{:.2g} × its noise of {:.3g} N m ({}), of torques of {:.3g} N m",
+                     e.rms / e.noise, e.noise, e.noise_origin, e.size)});
+  }
   for (auto version = report.versions.rbegin(); version != report.versions.rend(); ++version)
     if (std::isfinite(version->held_out)) {
       report.numbers.push_back({"error on unseen positions", newtons(version->held_out),

@@ -20,6 +20,30 @@ constexpr double kSameNumber = 1e-5;  // [m]; a file with five decimals still ma
              "simulate this very recording: hs-simulate data.csv ... -o forces.csv");
 }
 
+using Names = std::array<const char*, 6>;  // of what was simulated, and of what is left
+
+Recording with_columns(const Recording& measured, const Names& names,
+                       const std::vector<Vec3>& values, const std::vector<Vec3>& simulated) {
+  Recording result = measured;
+  result.extra_header.clear();
+  result.extra.clear();
+  for (std::size_t c = 0; c < measured.extra_header.size(); ++c) {
+    if (std::find(names.begin(), names.end(), measured.extra_header[c]) != names.end()) continue;
+    result.extra_header.push_back(measured.extra_header[c]);
+    result.extra.push_back(measured.extra[c]);
+  }
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const auto k = static_cast<Eigen::Index>(c % 3);
+    std::vector<std::string> column;
+    column.reserve(measured.rows());
+    for (std::size_t i = 0; i < measured.rows(); ++i)
+      column.push_back(format_number(c < 3 ? simulated[i][k] : values[i][k] - simulated[i][k]));
+    result.extra_header.emplace_back(names[c]);
+    result.extra.push_back(std::move(column));
+  }
+  return result;
+}
+
 }  // namespace
 
 NoiseLevel noise_level(const Recording& measured) {
@@ -73,25 +97,13 @@ void check_match(const Recording& measured, const Recording& simulated) {
 }
 
 Recording with_residuals(const Recording& measured, const std::vector<Vec3>& simulated) {
-  static const std::array<const char*, 6> kNames{"sx", "sy", "sz", "rx", "ry", "rz"};
-  Recording result = measured;
-  result.extra_header.clear();
-  result.extra.clear();
-  for (std::size_t c = 0; c < measured.extra_header.size(); ++c) {
-    if (std::find(kNames.begin(), kNames.end(), measured.extra_header[c]) != kNames.end()) continue;
-    result.extra_header.push_back(measured.extra_header[c]);
-    result.extra.push_back(measured.extra[c]);
-  }
-  for (std::size_t c = 0; c < kNames.size(); ++c) {
-    const auto k = static_cast<Eigen::Index>(c % 3);
-    std::vector<std::string> column;
-    column.reserve(measured.rows());
-    for (std::size_t i = 0; i < measured.rows(); ++i)
-      column.push_back(format_number(c < 3 ? simulated[i][k] : measured.f[i][k] - simulated[i][k]));
-    result.extra_header.emplace_back(kNames[c]);
-    result.extra.push_back(std::move(column));
-  }
-  return result;
+  return with_columns(measured, {"sx", "sy", "sz", "rx", "ry", "rz"}, measured.f, simulated);
+}
+
+Recording with_torque_residuals(const Recording& measured, const std::vector<Vec3>& torque,
+                                const std::vector<Vec3>& simulated) {
+  return with_columns(measured, {"stqx", "stqy", "stqz", "rtqx", "rtqy", "rtqz"}, torque,
+                      simulated);
 }
 
 }  // namespace hapsim

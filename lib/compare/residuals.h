@@ -37,6 +37,9 @@ void check_match(const Recording& measured, const Recording& simulated);
 // The measured recording with sx,sy,sz (simulated) and rx,ry,rz (measured minus simulated)
 // appended; columns of these names that were there are replaced.
 Recording with_residuals(const Recording& measured, const std::vector<Vec3>& simulated);
+// The same of torques, stqx,stqy,stqz and rtqx,rtqy,rtqz [N m], one each a row.
+Recording with_torque_residuals(const Recording& measured, const std::vector<Vec3>& torque,
+                                const std::vector<Vec3>& simulated);
 
 enum class Phase { kLoading, kHold, kUnloading, kAir };
 

@@ -27,11 +27,12 @@ std::string times_noise(const Comparison& c) {
 }
 
 bool within_doubt(const Comparison& c) {
-  return c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh);
+  return c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh) && torques_explained(c.torque);
 }
 
 bool only_noise_left(const Comparison& c) {
-  return c.observations.empty() && c.size.rmse <= kAlike * c.noise.value;
+  return c.observations.empty() && c.size.rmse <= kAlike * c.noise.value &&
+         torques_explained(c.torque);
 }
 
 std::string verdict_line(const Comparison& c) {
@@ -42,6 +43,11 @@ std::string verdict_line(const Comparison& c) {
     return fmt::format(
         "The model is as good as sensor and meshes let it be: typical error {}, noise {}.",
         newtons(c.size.rmse), newtons(c.noise.value));
+  if (!torques_explained(c.torque) && c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh))
+    return fmt::format(
+        "The model has the forces (typical error {}), but misses the torques by {:.3g} N m, {:.2g} "
+        "times their noise.",
+        newtons(c.size.rmse), c.torque.error.rms, c.torque.error.rms / c.torque.error.noise);
   std::string text =
       fmt::format("The model misses the measurement by typically {}, {} of the force",
                   newtons(c.size.rmse), percent_of(c.size.rmse, c.size.force_rms));
@@ -58,8 +64,11 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
                                     : Summary::Mark::kBad;
   s.verdict = measured.name + (noise   ? ": nothing is left but sensor noise"
                                : doubt ? ": as good as sensor and meshes let it be"
-                               : even  ? ": more is left than sensor noise"
-                                       : ": the model misses the measurement");
+                               : !torques_explained(c.torque) &&
+                                       c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh)
+                                   ? ": the model has the forces and misses the torques"
+                               : even ? ": more is left than sensor noise"
+                                      : ": the model misses the measurement");
   if (doubt && !even) s.verdict += ", but for a trace";
   s.size = fmt::format("error {} = {} x noise", newtons(c.size.rmse), times_noise(c));
   s.items.push_back(
@@ -76,6 +85,8 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
     for (const SimulatedVersion& v : versions)
       s.items[0].facts.push_back(
           fmt::format("{}: {}", v.name, newtons(error_size(measured.f, v.recording.f).rmse)));
+  if (std::vector<std::string> facts = torque_facts(c.torque); !facts.empty())
+    s.items.push_back({"TORQUE", "", "", std::move(facts)});
   SummaryItem depends{"DEPENDS", "", "", {}};
   for (const Observation& o : c.observations) depends.facts.push_back(o.sentence);
   if (depends.facts.empty())

@@ -57,6 +57,16 @@ void UnitStiffness::evaluate(double nu, Eigen::Matrix3d& K, Eigen::Matrix3d& dK_
   dK_dnu = (coordinate_slope(nu) * dg - 2 * K) / (2 * (1 + nu));
 }
 
+std::vector<double> poisson_nodes(double nu_low, double nu_high) {
+  if (!(nu_high > nu_low)) return {nu_low};
+  // Chebyshev points of the coordinate over the range: three doubled nodes, a quintic.
+  const double a = coordinate(nu_high), b = coordinate(nu_low);
+  std::vector<double> nus;
+  for (const double x : {-0.8660254037844387, 0.0, 0.8660254037844387})
+    nus.push_back((1 - std::pow(0.5 * (a + b) + 0.5 * (b - a) * x, 3)) / 2);
+  return nus;
+}
+
 ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
                                const ContactLibraryOptions& options)
     : boundary_(body_boundary(body)),
@@ -182,6 +192,27 @@ std::vector<std::optional<SampledContact>> ContactLibrary::sample(const std::vec
   return results;
 }
 
+std::vector<TorqueSolution> ContactLibrary::torques(const std::vector<Vec3>& positions,
+                                                    const Material& material,
+                                                    const std::string& description) const {
+  const ContentHash common = key_of(material, "torque " + description);
+  std::vector<TorqueSolution> results(positions.size());
+  in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
+    ContentHash hash = common;
+    hash.add(positions[p].data(), sizeof(double) * 3);
+    if (const auto found = cache_.load(hash.hex()))
+      if (auto known = unpacked(*found)) {
+        results[p] = std::move(*known);
+        return;
+      }
+    const std::shared_ptr<ContactBodies> bodies = take_bodies(positions[p]);
+    results[p] = bodies->torque(material);
+    put_bodies(positions[p], bodies);
+    cache_.store(hash.hex(), packed(results[p]));
+  });
+  return results;
+}
+
 std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
     const std::vector<Vec3>& positions) const {
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());
@@ -195,14 +226,7 @@ std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
 
 std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& positions,
                                                      double nu_low, double nu_high) const {
-  std::vector<double> nus{nu_low};
-  if (nu_high > nu_low) {
-    // Chebyshev points of the coordinate over the range: three doubled nodes, a quintic.
-    const double a = coordinate(nu_high), b = coordinate(nu_low);
-    nus.clear();
-    for (const double x : {-0.8660254037844387, 0.0, 0.8660254037844387})
-      nus.push_back((1 - std::pow(0.5 * (a + b) + 0.5 * (b - a) * x, 3)) / 2);
-  }
+  const std::vector<double> nus = poisson_nodes(nu_low, nu_high);
   std::vector<Task> tasks;
   for (const double nu : nus) {
     const Material material{nu, {1.0}, nullptr};

@@ -12,6 +12,7 @@
 #include "contact/contact_cache.h"
 #include "contact/contact_stiffness.h"
 #include "contact/feature_estimate.h"
+#include "contact/tool_torque_solution.h"
 
 namespace hapsim {
 
@@ -57,6 +58,9 @@ struct ContactLibraryOptions {
   std::function<void()> step;  // called once a position is ready (from any thread)
 };
 
+// Poisson's ratios at which a UnitStiffness of the range is solved: one where the ends are equal.
+std::vector<double> poisson_nodes(double nu_low, double nu_high);
+
 class ContactLibrary {
  public:
   ContactLibrary(const TetMesh& body, double tool_radius, const ContactLibraryOptions& options);
@@ -73,6 +77,11 @@ class ContactLibrary {
                                        const std::vector<PreparedContact>& contacts,
                                        const Material& material,
                                        const std::string& description) const;
+
+  // What the tool's torque is at each position, of a material without features; `description` as
+  // solve(). Positions that prepare() calls unfit are not asked for.
+  std::vector<TorqueSolution> torques(const std::vector<Vec3>& positions, const Material& material,
+                                      const std::string& description) const;
 
   // The stiffness alone, on one mesh of each place;
   // nothing where the tool cannot be laid on or the place cannot be meshed. `keep`: the meshes stay

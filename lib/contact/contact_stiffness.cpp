@@ -6,6 +6,7 @@
 
 #include "contact/feature_estimate.h"
 #include "contact/featured_body.h"
+#include "contact/tool_torque_solution.h"
 #include "solid/elastic_body.h"
 
 namespace hapsim {
@@ -186,6 +187,14 @@ SampledContact ContactBodies::sample(const Material& material, ContactLevel whic
       std::vector<Lame>(own.contact.mesh.tets.size(), {modulus * unit.lambda, modulus * unit.mu}));
   result.K = body.solve(Eigen::Matrix3d::Identity()).reaction;
   return result;
+}
+
+TorqueSolution ContactBodies::torque(const Material& material) {
+  TorqueSolution solution = solve_torque(level(0).contact, material);
+  const TorqueSolution coarse = solve_torque(level(1).contact, material);
+  solution.coarse_K = coarse.K;
+  solution.coarse_T = coarse.T;
+  return solution;
 }
 
 void ContactBodies::forget_systems() {

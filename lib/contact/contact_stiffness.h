@@ -84,6 +84,7 @@ std::shared_ptr<const SurfaceTree> free_surface(const ContactBase& base);
 
 class FeatureEstimate;
 class FeaturedBody;
+struct TorqueSolution;
 
 // The meshes of a position, made when first needed, to be solved for several materials.
 class ContactBodies {
@@ -105,6 +106,9 @@ class ContactBodies {
   // The stiffness alone on one mesh, of any material.
   SampledContact sample(const Material& material, ContactLevel which);
   void forget_systems();  // that the last two keep
+  // What the tool's torque is, of a material without features, on both meshes
+  // (contact/tool_torque_solution.h).
+  TorqueSolution torque(const Material& material);
   // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh, which
   // it shares.
   std::shared_ptr<const FeatureEstimate> estimate(double poisson_ratio);

@@ -93,14 +93,21 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;
   if (few_presses || !ambiguous) d.left = left_over(base.fitted, g);
+  d.torque = torque_left(base.fitted, g);
   const bool missing =
       std::any_of(d.findings.begin(), d.findings.end(),
                   [](const Finding& finding) { return finding.verdict == Verdict::kMissing; });
-  d.verdict = ambiguous               ? ModelVerdict::kAmbiguous
-              : missing               ? ModelVerdict::kIncomplete
-              : !d.left.noise_alone() ? ModelVerdict::kUnexplained
-                                      : ModelVerdict::kComplete;
+  d.verdict = ambiguous                                        ? ModelVerdict::kAmbiguous
+              : missing                                        ? ModelVerdict::kIncomplete
+              : !d.left.noise_alone() || !d.torque.explained() ? ModelVerdict::kUnexplained
+                                                               : ModelVerdict::kComplete;
+  const bool torques_alone = d.verdict == ModelVerdict::kUnexplained && d.left.noise_alone();
+  if (torques_alone) {
+    d.explanation = d.torque.words;
+    return d;
+  }
   d.explanation = describe_verdict(d);
+  if (!d.torque.words.empty()) d.explanation += " " + d.torque.words;
   if (!few_presses) return d;
   const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);

@@ -9,6 +9,7 @@
 
 #include "diagnose/gates.h"
 #include "diagnose/left_over.h"
+#include "diagnose/torque_left.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
 
@@ -77,7 +78,8 @@ struct Diagnosis {
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
-  LeftOver left;  // with all missing effects, of an ambiguous verdict with the best rival
+  LeftOver left;      // with all missing effects, of an ambiguous verdict with the best rival
+  TorqueLeft torque;  // of the same model, where torques were measured
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
   // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the

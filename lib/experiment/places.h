@@ -29,6 +29,7 @@ class Places {
   std::size_t size() const { return place_->size(); }  // positions
   std::size_t setups() const { return setups_.size(); }
   const std::shared_ptr<const SetupPlaces>& setup(std::size_t s) const { return setups_[s]; }
+  const Linearisation::Place& place(std::size_t position) const { return (*place_)[position]; }
   const PreparedContact& contact(std::size_t position) const;
   const Vec3& position(std::size_t position) const;
   std::vector<ToolStand> stands() const;

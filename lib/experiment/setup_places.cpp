@@ -78,6 +78,11 @@ std::size_t held_bytes(const PreparedPlaces& prepared) {
   return held_bytes(prepared.positions) + held_bytes(prepared.contacts);
 }
 
+std::size_t held_bytes(const TorquePlaces& torques) {
+  return held_bytes(torques.material) + hapsim::held_bytes(torques.nu) +
+         hapsim::held_bytes(torques.solutions);
+}
+
 SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library,
                          std::shared_ptr<const PreparedPlaces> prepared, double nu_low,
                          double nu_high)
@@ -160,21 +165,51 @@ std::shared_ptr<const SetupPlaces> SetupPlaces::before_move(const MaterialSpec& 
   }));
 }
 
+namespace {
+
+// The material as elements have it, its moduli over that of region 0. Refers to `material`.
+Material of_elements(const MaterialSpec& material) {
+  Material m;
+  m.nu = material.nu;
+  m.modulus.clear();
+  for (const double modulus : material.modulus) m.modulus.push_back(modulus / material.modulus[0]);
+  if (has_regions(material))
+    m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
+  for (const FeatureSpec& f : material.features) m.features.push_back(f.feature);
+  return m;
+}
+
+}  // namespace
+
 std::shared_ptr<const SolvedPlaces> SetupPlaces::solve(const MaterialSpec& material) const {
   return kept<SolvedPlaces>(content(material), [&] {
-    Material m;
-    m.nu = material.nu;
-    m.modulus.clear();
-    for (const double modulus : material.modulus)
-      m.modulus.push_back(modulus / material.modulus[0]);
-    if (has_regions(material))
-      m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
-    for (const FeatureSpec& f : material.features) m.features.push_back(f.feature);
+    const Material m = of_elements(material);
     auto solved = std::make_shared<SolvedPlaces>();
     solved->material = material;
     solved->material.modulus = m.modulus;
     solved->solutions = library_->solve(positions(), contacts(), m, layout(material).hex());
     return solved;
+  });
+}
+
+std::shared_ptr<const TorquePlaces> SetupPlaces::torques(const MaterialSpec& material,
+                                                         bool regions) const {
+  const bool apart = regions && has_regions(material);
+  return kept<TorquePlaces>(apart ? "torque " + content(material) : "torque", [&] {
+    auto made = std::make_shared<TorquePlaces>();
+    made->material = material;
+    if (apart) {
+      const Material m = of_elements(material);
+      made->material.modulus = m.modulus;
+      made->nu = {material.nu};
+      made->solutions = {library_->torques(positions(), m, layout(material).hex())};
+      return made;
+    }
+    made->nu = poisson_nodes(nu_low_, nu_high_);
+    for (const double nu : made->nu)
+      made->solutions.push_back(
+          library_->torques(positions(), {nu, {1.0}, nullptr, {}}, "homogeneous"));
+    return made;
   });
 }
 

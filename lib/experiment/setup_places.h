@@ -22,6 +22,15 @@ std::size_t held_bytes(const SolvedPlaces& solved);
 using RegionShares = std::vector<std::vector<double>>;  // [place][region], sums to 1
 using FeatureEstimates = std::vector<std::shared_ptr<const FeatureEstimate>>;  // by place
 
+// What the tool's torque is at all places: of a homogeneous body at some Poisson's ratios, of one
+// with regions for one material.
+struct TorquePlaces {
+  MaterialSpec material;  // of regions, its moduli over that of region 0; else as it was asked for
+  std::vector<double> nu;
+  std::vector<std::vector<TorqueSolution>> solutions;  // [nu][place]
+};
+std::size_t held_bytes(const TorquePlaces& torques);
+
 // Where a body is pressed, and the homogeneous body there.
 struct PreparedPlaces {
   std::vector<Vec3> positions;
@@ -49,6 +58,9 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
 
   // For a material that has not moved, whatever else it is.
   std::shared_ptr<const SolvedPlaces> solve(const MaterialSpec& material) const;
+  // The tool's torques for a material without features, in its regions where it has any and
+  // `regions` says so, else as if all were one.
+  std::shared_ptr<const TorquePlaces> torques(const MaterialSpec& material, bool regions) const;
   // Shares of the homogeneous body's strain energy in the material's regions.
   std::shared_ptr<const RegionShares> shares(const MaterialSpec& material) const;
   // What features do at each place, to first order.

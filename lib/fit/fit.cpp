@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
@@ -17,7 +18,9 @@
 #include "fit/maxwell_terms.h"
 #include "fit/move_limits.h"
 #include "fit/press_offsets.h"
+#include "fit/torque_rows.h"
 #include "model/body_parameters.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace {
@@ -79,8 +82,16 @@ class Fitting {
     result_.model = start;
     result_.starts_done = options.starts;
     if (has_offsets_) set_offsets(result_.model, dataset_, {}, {}, 0);
+    if (options.torques) torques_ = TorqueRows(start, experiment, selection, options, has_offsets_);
     const MaterialSpec asked = material_of(start);
     result_.about = experiment.places.estimate(asked, known);
+    // What forces and torques tell of one thing is weighed by what each is worth. By forces of a
+    // model: relative errors of measured ones would draw the fit to small forces, which their
+    // noise makes look better.
+    if (!torques_.empty() && options.floor > 0)
+      force_weights_.emplace(dataset_, selection,
+                             model_forces(start, experiment, result_.about, selection, false).f,
+                             options.noise, options.floor);
     // What is not solved for is estimated, over the whole range.
     is_linearised_ = is_linearised(asked, options.exact_regions) &&
                      (options.rounds > 0 || result_.about.is_solved_for(asked));
@@ -145,20 +156,29 @@ class Fitting {
       } catch (const Error& error) {
         // A law without an equilibrium there: a step that far is not taken.
         if (error.code() != ExitCode::kNoConvergence || J != nullptr) throw;
-        r.setConstant(measured_.size(), std::numeric_limits<double>::quiet_NaN());
+        r.setConstant(rows(), std::numeric_limits<double>::quiet_NaN());
         return;
       }
-      r = (signal.f - measured_) / options_.noise;
-      if (J != nullptr) *J = signal.df / options_.noise;
-      if (!has_offsets_) return;
-      take_out_press_means(dataset_, selection_, r);
-      if (J != nullptr) take_out_press_means(dataset_, selection_, *J);
+      // Beside torques, forces count over the error of each position too (whiten()).
+      const double unit = force_weights_ ? 1 : options_.noise;
+      r = (signal.f - measured_) / unit;
+      if (J != nullptr) *J = signal.df / unit;
+      if (has_offsets_) {
+        take_out_press_means(dataset_, selection_, r);
+        if (J != nullptr) take_out_press_means(dataset_, selection_, *J);
+      }
+      if (force_weights_) force_weights_->whiten(r);
+      if (force_weights_ && J != nullptr) force_weights_->whiten(*J);
+      torques_.append(model, result_.about, signal, r, J);
     };
   }
 
+  // Of the residuals, forces and torques.
+  Eigen::Index rows() const { return measured_.size() + torques_.size(); }
+
   // Tells the watch; false when the fit is to end.
   bool go_on(double sum) {
-    const double now = options_.noise * std::sqrt(sum / static_cast<double>(measured_.size()));
+    const double now = options_.noise * std::sqrt(sum / static_cast<double>(rows()));
     if (!(progress_.rmse <= now)) progress_.rmse = now;
     return !options_.watch || options_.watch(progress_);
   }
@@ -180,9 +200,8 @@ class Fitting {
     set_values(result_.model, solution_.x);
     result_.stopped = solution_.stopped;
     if (options_.keep)
-      options_.keep(result_.model,
-                    options_.noise * std::sqrt(solution_.sum_of_squares /
-                                               static_cast<double>(measured_.size())));
+      options_.keep(result_.model, options_.noise * std::sqrt(solution_.sum_of_squares /
+                                                              static_cast<double>(rows())));
   }
 
   // From many starts, once: later rounds improve on the valley found.
@@ -265,6 +284,7 @@ class Fitting {
   double solved_sum() {
     const MaterialSpec material = material_of(result_.model);
     result_.about = experiment_.places.solve(material);
+    torques_.solve(material);
     const ResidualFunction residuals = residuals_of(result_.model);
     const std::vector<Unknown> open = unknowns(result_.model);
     if (material.modulus.size() == 1) {
@@ -330,20 +350,26 @@ class Fitting {
     const auto free = static_cast<double>(constraints_.empty()
                                               ? result_.model.free_parameters().size()
                                               : static_cast<std::size_t>(under_.directions.cols()));
-    const double freedom = std::max(1.0, static_cast<double>(result_.residuals) - free);
+    const double freedom = std::max(1.0, static_cast<double>(rows()) - free);
     const double variance = std::max(1.0, solution_.sum_of_squares / freedom);
-    set_standard_errors(result_, solution_, signal, experiment_, selection_, options_, variance);
+    FitOptions errors = options_;
+    if (force_weights_) errors.floor = 0;  // it is in the weights
+    set_standard_errors(result_, solution_, signal, experiment_, selection_, errors, variance);
+    Eigen::VectorXd whitened = residual / options_.noise;
+    Eigen::MatrixXd J = signal.df / options_.noise;
+    torques_.append(result_.model, result_.about, signal, whitened, &J);
+    result_.torque = torques_.error(result_.model, result_.about);
     if (constraints_.empty())
-      tell_what_is_not_seen(result_, signal.df / options_.noise, std::sqrt(variance));
+      tell_what_is_not_seen(result_, J, std::sqrt(variance));
     else
-      tell_constraints(signal.df / options_.noise, variance);
+      tell_constraints(J, variance);
     if (options_.profile && result_.converged)
       tell_intervals(result_, residuals_of(result_.model), solution_, variance);
   }
 
   // What the active ones cost, and what they leave to be known.
   void tell_constraints(const Eigen::MatrixXd& J, double variance) {
-    const double count = static_cast<double>(result_.residuals);
+    const double count = static_cast<double>(rows());
     const double told = options_.noise * std::sqrt(3.0 / result_.error.axes / count);
     const double sum = solution_.sum_of_squares;
     for (std::size_t c = 0; c < constraints_.size(); ++c) {
@@ -378,6 +404,8 @@ class Fitting {
   const std::vector<SmoothConstraint> constraints_;
   const Eigen::VectorXd measured_;
   const bool has_offsets_, learns_field_;
+  TorqueRows torques_;
+  std::optional<Weights> force_weights_;
   bool is_linearised_ = false;
   FitProgress progress_;
   LeastSquaresOptions search_;
@@ -401,8 +429,10 @@ Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selec
   return model_forces(fitted.model, experiment, fitted.about, selection, derivatives);
 }
 
-Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
-        const FitOptions& options, const Linearisation& known) {
+namespace {
+
+Fit fit_from(const Model& start, const Experiment& experiment, const Selection& selection,
+             const FitOptions& options, const Linearisation& known) {
   Fitting without(start, experiment, selection, options, known);
   without.search();
   const BoundConstraints own = bind_constraints(without.model(), options.constraints);
@@ -439,6 +469,26 @@ Fit fit(const Model& start, const Experiment& experiment, const Selection& selec
     kept.message = "the constraints are not kept";
   }
   return named(std::move(kept), without.converged() ? without.told_error() : std::nan(""));
+}
+
+}  // namespace
+
+Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
+        const FitOptions& options, const Linearisation& known) {
+  if (!options.torques || !has_torques(experiment.dataset.recording))
+    return fit_from(start, experiment, selection, options, known);
+  // The forces alone come first: they say how large each position's errors are in newtons.
+  FitOptions forces = options;
+  forces.torques = forces.profile = false;
+  Fit alone = fit_from(start, experiment, selection, forces, known);
+  if (!alone.converged) return alone;
+  FitOptions beside = options;
+  beside.starts = 1;
+  beside.skip = 0;
+  beside.after_start = nullptr;
+  Fit both = fit_from(alone.model, experiment, selection, beside, alone.about);
+  both.starts_done = options.starts;
+  return both;
 }
 
 }  // namespace hapsim

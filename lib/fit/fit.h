@@ -9,6 +9,7 @@
 
 #include "estimate/expression.h"
 #include "estimate/robust.h"
+#include "experiment/torques.h"
 #include "experiment/weights.h"
 
 namespace hapsim {
@@ -41,6 +42,9 @@ struct FitOptions {
   // Kept by the fit where the model has all their names (fit/constraints.h); the others are not
   // asked. Relaxation times are then sorted where that keeps them, and not moved apart.
   std::vector<Relation> constraints;
+  // Measured torques of the tool count beside the forces, each with its own noise, where the model
+  // says what they are (fit/torque_rows.h).
+  bool torques = false;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
   // Asked again and again; false ends the fit with what there is. May be empty.
   std::function<bool(const FitProgress&)> watch;
@@ -82,6 +86,7 @@ struct Fit {
   std::vector<std::string> held;  // parameters to which active constraints leave no freedom
   double unconstrained = std::numeric_limits<double>::quiet_NaN();  // told error without them [N]
   int discounted = 0;  // force components that the robust loss halves or drops
+  TorqueError torque;  // on what was fitted; no rows where torques did not count
 };
 
 // A model as it is, its bodies solved.

@@ -11,7 +11,8 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   Model& model = fitted.model;
   model.metadata = start;
   unmark(model);
-  for (const char* key : {"heldout", "until", "heldout_later", "constraints", "binding"})
+  for (const char* key : {"heldout", "until", "heldout_later", "constraints", "binding",
+                          "torque_rmse", "torque_noise"})
     model.metadata.remove(key);
   std::string all, binding;
   for (const KeptConstraint& c : fitted.constraints) {
@@ -22,6 +23,10 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   if (!binding.empty()) model.metadata.set("binding", binding);
   model.metadata.set("rmse", format_number(fitted.error.told()));
   model.metadata.set("force_noise", format_number(w.noise.value));
+  if (fitted.torque.rows > 0) {
+    model.metadata.set("torque_rmse", format_number(fitted.torque.rms));
+    model.metadata.set("torque_noise", format_number(fitted.torque.noise));
+  }
   model.metadata.set("depth", format_number(w.depth.depth));
   record_range(w.dataset, model.metadata);
   if (w.dataset.tools() > 1)

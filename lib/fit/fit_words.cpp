@@ -146,6 +146,7 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
   if (w.dataset.positions.size() == 1)
     add("all presses are at one place: how the body differs from place to place is not seen");
   add(strange_modulus(result.model));
+  add(result.torque.unused);
   for (const std::string& sentence : result.blind) add(sentence);
   for (const std::string& sentence : untold_times(result.model, w.dataset)) add(sentence);
   for (const std::string& interval : result.intervals) add(interval);
@@ -166,12 +167,16 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
   Summary s;
   const double error = result.error.told(), noise = w.noise.value;
   const bool unseen = !by.empty() && !std::isnan(held_out);
-  const bool only_noise = error <= kNoiseAlone * noise, known = result.at_bound.empty();
+  const bool torques_too = result.torque.rows == 0 || result.torque.whitened <= kNoiseAlone;
+  const bool only_noise = error <= kNoiseAlone * noise && torques_too,
+             known = result.at_bound.empty();
   s.mark = only_noise && known ? Summary::Mark::kGood : Summary::Mark::kOpen;
   s.verdict = fmt::format("{}: {} fits{}", w.dataset.recording.name, effects_label(result.model),
-                          !only_noise ? "; more than noise is left"
-                          : known     ? " to the noise"
-                                      : " to the noise, but at a bound");
+                          !only_noise && error <= kNoiseAlone * noise
+                              ? " the forces to the noise, and not the torques"
+                          : !only_noise ? "; more than noise is left"
+                          : known       ? " to the noise"
+                                        : " to the noise, but at a bound");
   s.size = fmt::format("error {:.4g} N = {:.3g} x noise", error, error / noise);
   s.items = {
       {"ERROR", "", "", {fmt::format("{:.3g} % of the force's rms", 100 * error / force_rms)}}};
@@ -179,10 +184,24 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
     s.items[0].facts.push_back(
         fmt::format("on {} not seen by the fit {:.4g} N = {:.3g} %, {:.3g} x noise", by, held_out,
                     100 * held_out / force_rms, held_out / noise));
+  const TorqueError& torque = result.torque;
+  if (torque.rows > 0)
+    s.items.push_back(
+        {"TORQUES",
+         "",
+         "",
+         {fmt::format("{} count beside the forces: error {:.3g} N m = {:.3g} x noise ({:.3g} N m, "
+                      "{}), {:.3g} of what noise and levers let it be; torque rms {:.3g} N m",
+                      counted(torque.rows, "row", "rows"), torque.rms, torque.rms / torque.noise,
+                      torque.noise, torque.noise_origin, torque.whitened, torque.size)}});
   s.values = {{"error", error, "N"},
               {"heldout", unseen ? held_out : std::nan(""), "N"},
               {"force_noise", noise, "N"},
               {"force_rms", force_rms, "N"}};
+  if (torque.rows > 0) {
+    s.values.push_back({"torque_error", torque.rms, "N m"});
+    s.values.push_back({"torque_noise", torque.noise, "N m"});
+  }
   s.items.push_back(values_item(result.model, s.values));
   if (std::vector<std::string> words = constraint_words(result); !words.empty()) {
     s.items.push_back({"CONSTRAINTS", "", "", std::move(words)});

@@ -10,9 +10,11 @@
 #include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_words.h"
+#include "fit/torque_rows.h"
 #include "io/number.h"
 #include "model/model_edit.h"
 #include "model/search_state.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace {
@@ -72,6 +74,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
   FitOptions final_options = request.options;
   final_options.noise = fit_options.noise;
   final_options.floor = fit_options.floor;
+  final_options.torques = true;
   ExtendOptions extend;
   extend.regions = request.regions;
   extend.terms = request.fit.terms.count;
@@ -87,6 +90,13 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
         improve_step_by_step(request, body, std::move(options), fit_options, w, result.force_rms);
     result.fitted = std::move(improvement.steps.back().fitted);
     unseen = improvement.steps.back().held_out;
+    // The search compares effects by their forces; what it has found is fitted to torques as well.
+    if (has_torques(w.dataset.recording) && !improvement.stopped) {
+      final_options.starts = 1;
+      final_options.skip = 0;
+      Fit both = fit(result.fitted.model, w, all, final_options, result.fitted.about);
+      if (both.converged) result.fitted = std::move(both);
+    }
     if (improvement.stopped)
       result.cut_short = "the model was improved";
     else
@@ -102,7 +112,10 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
     require_constraints(starts.models.front(), fit_options.constraints);
     if (request.starts) request.starts(starts.models);
     result.fitted = fit_best(starts.models, w, all, final_options, starts.known);
-    if (request.refine && result.fitted.converged) result.fitted = request.refine(result.fitted);
+    if (request.refine && result.fitted.converged) {
+      result.fitted = request.refine(result.fitted);
+      result.fitted.torque = torque_error(result.fitted, w, all, final_options);
+    }
   }
   if (result.fitted.stopped) return result;
   if (!result.fitted.converged)

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "io/number.h"
 #include "recording/force_noise.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace {
@@ -49,6 +50,25 @@ void pool_noise(const std::vector<Recording>& recordings, Recording& all) {
   if (!std::isnan(rows)) all.metadata.set("force_noise", format_number(std::sqrt(squares / rows)));
 }
 
+// Torques where each recording has them; their noise where all declare the same.
+void join_torques(const std::vector<Recording>& recordings, Recording& all) {
+  std::vector<Vec3> torques;
+  bool alike = true;
+  for (const Recording& r : recordings) {
+    const std::vector<Vec3> own = read_torques(r).values;
+    alike = alike &&
+            r.metadata.find("torque_noise") == recordings.front().metadata.find("torque_noise");
+    if (own.empty()) {
+      torques.clear();
+      break;
+    }
+    torques.insert(torques.end(), own.begin(), own.end());
+  }
+  all.metadata.remove("torque_at");
+  if (!alike || torques.empty()) forget_torque_noise(all.metadata);
+  set_torques(all, torques);
+}
+
 }  // namespace
 
 Recording join_recordings(const std::vector<Recording>& recordings) {
@@ -86,6 +106,7 @@ Recording join_recordings(const std::vector<Recording>& recordings) {
     if (has_contact) all.contact.resize(all.rows(), 1);
   }
   pool_noise(recordings, all);
+  join_torques(recordings, all);
   return all;
 }
 

@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
 #include "base/random.h"
 #include "experiment/contact_radius.h"
+#include "experiment/torques.h"
 #include "io/number.h"
 #include "model/model_edit.h"
 #include "recording/force_noise.h"
 #include "recording/tools_together.h"
+#include "recording/torque_columns.h"
 #include "simulate/regional_relaxation.h"
 #include "simulate/traction.h"
 
@@ -45,11 +51,36 @@ Eigen::VectorXd contact_mesh_forces(const Model& model, const Experiment& w, con
   return model_forces(model, w.dataset, contact_mesh_stiffness(model, w, say), all, false).f;
 }
 
+// The model's torques in the place of measured ones.
+void simulate_torques(const Model& model, const Experiment& w, const Selection& all,
+                      Recording& out) {
+  const MaterialSpec material = material_of(model);
+  const TorqueLevers levers(w.places, material, true);
+  const Signal forces = forces_before_sensor(model, w, w.places.solve(material), all, false);
+  const Eigen::VectorXd torque = model_torques(forces, w.dataset, levers, material, all).f;
+  std::vector<Vec3> of_row(out.rows(), Vec3::Zero());
+  double doubt = 0;  // squares
+  Eigen::Index at = 0;
+  for (const int e : all) {
+    const Episode& episode = w.dataset.episodes[static_cast<std::size_t>(e)];
+    const double lever = levers.at(static_cast<std::size_t>(episode.position), material).doubt;
+    for (const int row : episode.rows) {
+      of_row[static_cast<std::size_t>(row)] = torque.segment<3>(at);
+      doubt += std::pow(lever * forces.f.segment<3>(at).norm(), 2);
+      at += 3;
+    }
+  }
+  set_torques(out, of_row);
+  if (at > 0)
+    out.metadata.set("torque_uncertainty",
+                     fmt::format("{:.2g}", std::sqrt(3 * doubt / static_cast<double>(at))));
+}
+
 }  // namespace
 
 Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
                    ExperimentOptions options, const std::function<void(const std::string&)>& say,
-                   Control control) {
+                   Control control, bool torques) {
   const auto told = [&](const std::string& words) {
     if (say && !words.empty()) say(words);
   };
@@ -62,6 +93,14 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
   const Selection all = all_episodes(w.dataset);
   if (control == Control::kDisplacement) told(beyond_depth(w.depth, model));
   told(tools_together(w.dataset.recording));
+  const bool wanted = torques || has_torques(w.dataset.recording);
+  const std::string refusal = control == Control::kForce
+                                  ? "displacements are found, and torques are not"
+                              : wanted ? torque_refusal(model, w.dataset)
+                                       : "";
+  if (torques && !refusal.empty())
+    fail_input(model.name.empty() ? "the model" : model.name, "no torques of it: " + refusal,
+               "leave out --torques");
   Simulated simulated;
   simulated.mesh_uncertainty = w.places.mesh_uncertainty();
   simulated.positions = w.dataset.positions.size();
@@ -69,11 +108,18 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
     simulated.recording =
         with_displacements(model, w.dataset, contact_mesh_stiffness(model, w, told));
     told(beyond_depth(press_depth(body, simulated.recording), model));
+    told(without_torques(simulated.recording, refusal));
     mark_simulated(simulated.recording.metadata, effects_label(model));
     return simulated;
   }
   const Eigen::VectorXd f = contact_mesh_forces(model, w, all, told);
-  simulated.recording = with_forces(std::move(w.dataset), all, f, simulated.mesh_uncertainty);
+  Recording out = with_forces(w.dataset, all, f, simulated.mesh_uncertainty);
+  out.metadata.remove("torque_uncertainty");
+  if (wanted && refusal.empty())
+    simulate_torques(model, w, all, out);
+  else
+    told(without_torques(out, refusal));
+  simulated.recording = std::move(out);
   mark_simulated(simulated.recording.metadata, effects_label(model));
   return simulated;
 }
@@ -93,6 +139,7 @@ Recording with_forces(Dataset dataset, const Selection& episodes, const Eigen::V
 
 void mark_simulated(Metadata& metadata, const std::string& label) {
   forget_force_noise(metadata);
+  forget_torque_noise(metadata);
   metadata.set("simulated", label);
 }
 
@@ -102,6 +149,24 @@ void add_noise(Recording& recording, double noise, std::uint64_t seed) {
     for (int k = 0; k < 3; ++k) force[k] += noise * random.normal();
   recording.metadata.set("force_noise", format_number(noise));
   recording.metadata.set("seed", std::to_string(seed));
+}
+
+void add_torque_noise(Recording& recording, double noise, std::uint64_t seed) {
+  std::vector<Vec3> torques = read_torques(recording).values;
+  if (torques.empty()) fail_usage("there are no torques to add noise to", "add --torques");
+  constexpr std::uint64_t kOther = 0x746f72717565;  // than the forces' numbers
+  Random random(seed ^ kOther);
+  for (Vec3& torque : torques)
+    for (int k = 0; k < 3; ++k) torque[k] += noise * random.normal();
+  set_torques(recording, torques);
+  recording.metadata.set("torque_noise", format_number(noise));
+  recording.metadata.set("seed", std::to_string(seed));
+}
+
+std::string without_torques(Recording& recording, const std::string& why) {
+  if (!has_tip_torques(recording)) return "";
+  set_torques(recording, {});
+  return "torques tqx,tqy,tqz are left out: " + why;
 }
 
 }  // namespace hapsim

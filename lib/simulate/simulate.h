@@ -22,10 +22,13 @@ struct Simulated {
 enum class Control { kDisplacement, kForce };
 
 // `motion` as it was read, with its tool's radius. `say` is told what was left out, is beyond what
-// the model is valid for, or how regions relax; may be empty. Errors of make_experiment().
+// the model is valid for, or how regions relax; may be empty. Torques of the tool (tqx,tqy,tqz) are
+// written where the motion has them or `torques` asks for them; metadata torque_uncertainty is what
+// the meshes leave open of a component, root mean square [N m]. Errors of make_experiment();
+// Error(kBadInput) where torques are asked for that the model does not say (torque_refusal()).
 Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
                    ExperimentOptions options, const std::function<void(const std::string&)>& say,
-                   Control control = Control::kDisplacement);
+                   Control control = Control::kDisplacement, bool torques = false);
 
 // The dataset's recording with the stacked forces `f` of these episodes, zero elsewhere;
 // `mesh_uncertainty` as its metadata, none where it is 0.
@@ -37,5 +40,9 @@ void mark_simulated(Metadata& metadata, const std::string& label);
 
 // Gaussian noise of this standard deviation [N] on every component of every force, declared.
 void add_noise(Recording& recording, double noise, std::uint64_t seed);
+// The same of torques [N m], independent of the forces'. Error(kUsage): there are none.
+void add_torque_noise(Recording& recording, double noise, std::uint64_t seed);
+// Takes away torques that are measured ones; a sentence where there were any, with the reason.
+std::string without_torques(Recording& recording, const std::string& why);
 
 }  // namespace hapsim

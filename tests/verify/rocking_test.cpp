@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "contact/rigid_stiffness.h"
+#include "contact/tool_torque_solution.h"
 #include "realtime/disc_rotation.h"
 #include "solid/elastic_body.h"
 #include "support/half_space.h"
@@ -62,6 +63,21 @@ TEST(Rocking, IsTheHalfSpaces) {
   const double slips = frictionless_rocking(coarse, 0.3) * 2.6 * 3 * 0.7 / 8;
   std::printf("without friction, rim twice as coarse: %.4f of the half-space's\n", slips);
   EXPECT_NEAR(slips, 1, 0.04);
+}
+
+// The batch mode's lever on a half-space is the live mode's: same pole, same sign.
+TEST(Rocking, BatchAndLiveHaveOneLever) {
+  ContactMesh contact = test::half_space(1.0 / 6, 40);
+  contact.point.setZero();
+  for (const double nu : {0.2, 0.4, 0.49}) {
+    const TorqueSolution s = solve_torque(contact, {nu, {1.0}, nullptr, {}});
+    const Eigen::Matrix3d batch = s.T * s.K.inverse();
+    const Matrix6 K = disc_stiffness(s.K, 1, nu, 1, Vec3::UnitZ());
+    const Eigen::Matrix3d live = K.bottomLeftCorner<3, 3>() * K.topLeftCorner<3, 3>().inverse();
+    std::printf("nu %.2f: lever over radius %.4f in batch, %.4f live\n", nu, batch(1, 0),
+                live(1, 0));
+    EXPECT_LT((batch - live).cwiseAbs().maxCoeff(), 0.01);
+  }
 }
 
 }  // namespace

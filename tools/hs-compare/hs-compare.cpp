@@ -128,7 +128,7 @@ int run(const Arguments& arguments) {
   if (arguments.given(flag::ply))
     write_ply(open(arguments[flag::ply]), coloured_ply(map, top_error(c)));
   if (result_is_wanted(arguments))
-    write_recording(open(arguments.output()), with_residuals(measured, simulated.f));
+    write_recording(open(arguments.output()), residuals_of(c, measured, simulated));
   for (const auto& output : outputs) output->stream().flush();
   std::for_each(outputs.rbegin(), outputs.rend(), [](auto& output) { output->commit(); });
 

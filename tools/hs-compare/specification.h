@@ -59,6 +59,11 @@ inline ToolSpec compare_specification() {
       "put up with. From where two touch at once the rest of their presses is left out, and how "
       "many "
       "lines that are is told.",
+      "Where both files have torques of the tool (tqx,tqy,tqz, or of the measured one tx,ty,tz "
+      "with "
+      "'# torque_at: X Y Z', see hs-identify(1)) they are compared too, with their own noise; a "
+      "model that has the forces and misses the torques is said to, and whether the tool seems to "
+      "touch at another point.",
       "Rows of a stream have a column contact, 0 where the tool is off the body; without it every "
       "row is in contact, and a displacement out of the body pulls. SIGINT or SIGTERM ends the "
       "stream; what was answered until then, or before a bad row, is written."};
@@ -138,7 +143,9 @@ inline ToolSpec compare_specification() {
       {"Residuals (output)",
        {{"...", "the columns of the measured recording"},
         {"sx, sy, sz", "simulated force [N]"},
-        {"rx, ry, rz", "measured minus simulated force [N]"}}},
+        {"rx, ry, rz", "measured minus simulated force [N]"},
+        {"stqx, stqy, stqz", "simulated torque about the tip [N m], where both have torques"},
+        {"rtqx, rtqy, rtqz", "measured minus simulated torque [N m]"}}},
       {"Changes (--events)",
        {{"begun, alarm, named", "when it changed, was noticed and was named [s]"},
         {"change", "moved, gone, material, sensor or unexplained"},

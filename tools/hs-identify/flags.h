@@ -18,7 +18,7 @@ inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"},
     boundary{"--refine-boundary"}, starts{"--starts"}, seed{"--seed"};
 inline constexpr SwitchFlag stiffening{"--stiffening"}, profile{"--profile"}, follow{"--follow"},
     resume{"--resume"};
-inline constexpr ChoiceFlag robust{"--robust"};
+inline constexpr ChoiceFlag robust{"--robust"}, torques{"--torques"};
 }  // namespace flag
 
 }  // namespace hapsim

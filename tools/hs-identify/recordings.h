@@ -15,6 +15,7 @@
 #include "hs-identify/flags.h"
 #include "hs-identify/plan.h"
 #include "identify/given_recordings.h"
+#include "recording/torque_columns.h"
 #include "thinned.h"
 
 namespace hapsim {
@@ -65,6 +66,8 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
     given.bodies.push_back(read_body(input, &given.windows.back()));
   }
   std::vector<Recording> recordings = load_thinned(arguments, "hs-identify", paths, options);
+  if (arguments[flag::torques] == "ignore")
+    for (Recording& recording : recordings) forget_torques(recording);
   body_of.resize(paths.size(), body_of.front());
   join_given(given, body_of, std::move(recordings), start);
   return given;

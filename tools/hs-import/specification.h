@@ -200,7 +200,8 @@ inline ToolSpec import_specification() {
       "between their stamps at those of the forces; where no position is near, the force is left "
       "out and "
       "counted. Torques and the orientation are carried through as tx,ty,tz and qw,qx,qy,qz, which "
-      "--calibration reads.",
+      "--calibration reads. Torques about the sensor's origin count in hs-identify, hs-compare and "
+      "hs-diagnose once the recording says where that lies from the tip, '# torque_at: X Y Z' [m].",
       "Where the table holds the centre of the tool's ball at first contact and the contact point, "
       "their "
       "distance is the ball's radius: tool: sphere and tool_radius are written, and another "

@@ -9,11 +9,12 @@ namespace flag {
 inline constexpr ForceFlag add_noise{"--add-noise"};
 inline constexpr IntegerFlag seed{"--seed"}, tools{"--tools"};
 inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
-    force_control{"--force-control"}, live{"--live"}, uncertainty{"--uncertainty"};
+    force_control{"--force-control"}, torques{"--torques"}, live{"--live"},
+    uncertainty{"--uncertainty"};
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
 inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
 inline constexpr FileFlag contacts{"--contacts"};
-inline constexpr NumberFlag rate{"--rate"};
+inline constexpr NumberFlag rate{"--rate"}, torque_noise{"--add-torque-noise"};
 }  // namespace flag
 
 }  // namespace hapsim

@@ -42,9 +42,18 @@ void write_simulated(const Arguments& arguments, const std::string& label, Recor
   mark_simulated(out.metadata, label);
   if (arguments.given(flag::add_noise))
     add_noise(out, arguments[flag::add_noise], static_cast<std::uint64_t>(arguments[flag::seed]));
+  if (arguments.given(flag::torque_noise))
+    add_torque_noise(out, arguments[flag::torque_noise],
+                     static_cast<std::uint64_t>(arguments[flag::seed]));
   Output output(result_file(arguments));
   write_recording(output.stream(), out);
   output.commit();
+}
+
+// Other modes have forces alone: measured torques are not to pass for simulated ones.
+void leave_torques(const Arguments& arguments, Recording& out) {
+  const std::string words = without_torques(out, "this mode has forces alone");
+  if (!words.empty()) say(arguments, "hs-simulate", words);
 }
 
 // Forces of how many rows (with --force-control displacements), and a comparison with what was
@@ -82,6 +91,7 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
   FullResult result = simulate_full(body, model, out, options);
   out.f = std::move(result.force);
   out.u = std::move(result.motion);
+  leave_torques(arguments, out);
   write_simulated(arguments, effects_label(model), out);
   Summary summary = simulated_summary(arguments, out.rows(), effects_label(model),
                                       measured && !options.force_control);
@@ -125,6 +135,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
           ? with_displacements(model, dataset, stiffness_at)
           : with_forces(dataset, all, model_forces(model, dataset, stiffness_at, all, false).f);
   if (forces_given) say_beyond(arguments, press_depth(mesh, out), model);
+  leave_torques(arguments, out);
   write_simulated(arguments, effects_label(model), out);
   for (const FieldRow& row : fields) {
     Output output(fmt::format("{}-{}.vtu", arguments[flag::vtu], row.row + 1));
@@ -155,6 +166,7 @@ int run_acfm(const Arguments& arguments, const Acfm& model) {
   const Dataset dataset = make_dataset(load_recording(arguments, arguments.input(), false));
   Recording out = dataset.recording;
   out.f = acfm_forces(model, dataset);
+  leave_torques(arguments, out);
   write_simulated(arguments, "acfm", out);
   Summary summary =
       simulated_summary(arguments, dataset.rows(), "acfm", !dataset.recording.f.empty());
@@ -192,6 +204,13 @@ int run(const Arguments& arguments) {
     fail_usage("--vtu is of displacements that are given", "simulate the found motion with --vtu");
   if (arguments.given(flag::rows) && !arguments.given(flag::vtu))
     fail_usage("--rows says which fields --vtu writes", "add --vtu PREFIX, or leave it out");
+  for (const AnyFlag& flag : AnyFlags{flag::torques, flag::torque_noise})
+    for (const AnyFlag& mode :
+         AnyFlags{flag::live, flag::own_mesh, flag::full, flag::force_control})
+      if (arguments.given(flag) && arguments.given(mode))
+        fail_usage(flag + " is of forces at prepared places, which " + mode + " does without",
+                   "leave one of them out; the live mode has torques of a tool that turns, with "
+                   "columns thx,thy,thz");
   Input file(arguments[flag::model]);
   const std::string bytes = file.read_all();
   Input model_input = Input::from_bytes(bytes, file.name());
@@ -212,6 +231,8 @@ int run(const Arguments& arguments) {
     if (arguments.given(flag))
       fail_usage(flag + " is of the live mode", "add --live, or leave it out");
   hand_limits(arguments);
+  if (acfm && (arguments.given(flag::torques) || arguments.given(flag::torque_noise)))
+    fail_usage("torques are of finite elements, and this model has none", "leave out --torques");
   if (acfm) return run_acfm(arguments, *acfm);
   if (arguments[flag::full]) return run_full_mode(arguments, model);
   if (arguments[flag::own_mesh]) return run_own_mesh(arguments, model);
@@ -227,7 +248,7 @@ int run(const Arguments& arguments) {
         progress.reset();
         say(arguments, "hs-simulate", words);
       },
-      control);
+      control, arguments[flag::torques]);
   progress.reset();
   Recording& out = simulated.recording;
   Summary summary = simulated_summary(arguments, out.rows(), effects_label(model), measured);

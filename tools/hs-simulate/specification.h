@@ -22,6 +22,14 @@ inline ToolSpec simulate_specification() {
       "Measured and simulated recordings have one format, so the output feeds hs-compare and "
       "hs-identify alike. Its metadata mesh_uncertainty is the share of the force that the contact "
       "meshes leave open, the median over the positions.",
+      "Torques (--torques) are those about the tool's tip, the middle of its flat face, which "
+      "moves with it: by finite elements a lever of each place times the body's force, to a few "
+      "hundredths of a millimetre (metadata torque_uncertainty, root mean square over the rows [N "
+      "m]). They are of a flat tool that does not turn, on a body that is linear, relaxes by one "
+      "law and has no layers or inclusions; what the sensor does acts on the force alone. Where a "
+      "model does not say what they are, torques of the motion are left out, with a line that "
+      "says why. The live mode's are those of a half-space beside them: the same far from edges "
+      "and regions.",
       "With --live every motion line is answered by its force line at once, from a body prepared "
       "beforehand: its stiffness is sampled on contact meshes as those of the batch mode, where "
       "edges, curvature, thin parts, the support and regions ask for it, and interpolated by a "
@@ -136,6 +144,17 @@ inline ToolSpec simulate_specification() {
                           .value = "N",
                           .help = "Adds Gaussian noise of this standard deviation [N] to every "
                                   "force component and declares it as force_noise.",
+                          .group = "Output",
+                          .minimum = 0});
+  spec.options.push_back(
+      {.flag = flag::torques,
+       .help = "Writes the torque of the body on the tool about its tip too, tqx,tqy,tqz [N m]; "
+               "of itself where the motion has these columns.",
+       .group = "Output"});
+  spec.options.push_back({.flag = flag::torque_noise,
+                          .value = "N",
+                          .help = "Adds Gaussian noise of this standard deviation [N m] to every "
+                                  "torque component and declares it as torque_noise.",
                           .group = "Output",
                           .minimum = 0});
   spec.options.push_back({.flag = flag::seed,
