@@ -66,7 +66,7 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     recordings.push_back(load_recording(arguments, path, true));
-    if (arguments[flag::torques] == "ignore") forget_torques(recordings.back());
+    if (arguments[flag::ignore_torques]) forget_torques(recordings.back());
   }
   body_of.resize(paths.size(), body_of.front());
   join_given(given, body_of, std::move(recordings), start);

@@ -232,13 +232,9 @@ inline ToolSpec identify_specification() {
        .group = "Fit",
        .default_text = "none",
        .choices = {"none", "huber", "tukey"}},
-      {.flag = flag::torques,
-       .value = "WHAT",
-       .help = "Whether measured torques of the tool (tqx,tqy,tqz) count beside the forces: use or "
-               "ignore.",
-       .group = "Fit",
-       .default_text = "use",
-       .choices = {"use", "ignore"}},
+      {.flag = flag::ignore_torques,
+       .help = "Leaves measured torques of the tool (tqx,tqy,tqz) out.",
+       .group = "Input"},
       {.flag = flag::profile,
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
