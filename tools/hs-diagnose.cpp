@@ -14,8 +14,7 @@
 
 namespace hapsim {
 namespace flag {
-inline constexpr SwitchFlag check{"--check"};
-inline constexpr ChoiceFlag torques{"--torques"};
+inline constexpr SwitchFlag check{"--check"}, ignore_torques{"--ignore-torques"};
 inline constexpr FileFlag junit{"--junit"}, plan{"--plan"};
 inline constexpr IntegerFlag plan_presses{"--plan-presses"}, folds{"--folds"}, flips{"--flips"},
     seed{"--seed"};
@@ -108,12 +107,9 @@ ToolSpec specification() {
        .default_text = "999",
        .minimum = 99,
        .maximum = 1000000},
-      {.flag = flag::torques,
-       .value = "WHAT",
-       .help = "Whether measured torques of the tool (tqx,tqy,tqz) are judged: use or ignore.",
-       .group = "Diagnosis",
-       .default_text = "use",
-       .choices = {"use", "ignore"}},
+      {.flag = flag::ignore_torques,
+       .help = "Leaves measured torques of the tool (tqx,tqy,tqz) out.",
+       .group = "Input"},
       {.flag = flag::seed,
        .value = "N",
        .help = "Seed of the flips.",
@@ -176,7 +172,7 @@ int run(const Arguments& arguments) {
   ExperimentOptions options = experiment_options(arguments, progress);
   std::vector<Recording> recording =
       load_thinned(arguments, "hs-diagnose", {arguments.input()}, options);
-  if (arguments[flag::torques] == "ignore") forget_torques(recording.front());
+  if (arguments[flag::ignore_torques]) forget_torques(recording.front());
   const Experiment w = draft_experiment(body, window, model, std::move(recording.front()), options);
   progress.reset();
   for (const std::string& words : left_out_words(w)) say(arguments, "hs-diagnose", words);

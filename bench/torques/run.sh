@@ -42,7 +42,7 @@ tell() { # NAME POINTS SLANT REGIONS
   sed 's/^# torque_noise.*/# torque_noise: 1000/' data.csv >numb.csv
   for how in 'forces alone' 'weighed by position' 'with torques'; do
     case $how in
-      forces*) "$bin/hs-identify" -q data.csv --body block.ply --model start.csv --folds 0 --torques ignore -o m.csv ;;
+      forces*) "$bin/hs-identify" -q data.csv --body block.ply --model start.csv --folds 0 --ignore-torques -o m.csv ;;
       weighed*) "$bin/hs-identify" -q numb.csv --body block.ply --model start.csv --folds 0 -o m.csv ;;
       *) "$bin/hs-identify" -q data.csv --body block.ply --model start.csv --folds 0 -o m.csv ;;
     esac

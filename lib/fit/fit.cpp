@@ -483,6 +483,9 @@ Fit fit(const Model& start, const Experiment& experiment, const Selection& selec
   Fit alone = fit_from(start, experiment, selection, forces, known);
   if (!alone.converged) return alone;
   FitOptions beside = options;
+  // A model that leaves more than noise is wrong in shape, not in gains: against its misfit the
+  // error of each position is small, and the weights are those of the forces alone.
+  beside.noise = std::max(options.noise, alone.error.pooled);
   beside.starts = 1;
   beside.skip = 0;
   beside.after_start = nullptr;

@@ -41,10 +41,12 @@ TorqueRows::TorqueRows(const Model& start, const Experiment& experiment, const S
   measured_ = stacked(torques.values, experiment.dataset, selection);
   const MaterialSpec material = material_of(start);
   solve(material);
-  // The weights are constant, by the forces that the start has.
+  // The weights are constant, by the forces that the start has. Where these leave so many times
+  // their noise, the model is thought to leave as many times that of torques.
+  const double scale = std::max(1.0, options.noise / experiment.noise.value);
   weights_ = std::make_shared<const TorqueWeights>(
       experiment.dataset, selection, solved_forces(start, experiment, selection, false).f, levers_,
-      material, noise_.value, floor_);
+      material, scale * noise_.value, floor_);
 }
 
 void TorqueRows::solve(const MaterialSpec& material) {

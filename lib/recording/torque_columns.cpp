@@ -104,7 +104,8 @@ Torques read_torques(const Recording& r) {
     const std::optional<Vec3> origin = origin_of(r);
     if (!origin || r.f.empty()) {
       torques.unused =
-          "torques tx,ty,tz of the recording are about the sensor's origin and are not used: say where that "
+          "torques tx,ty,tz of the recording are about the sensor's origin and are not used: say "
+          "where that "
           "lies from the tip, '# torque_at: X Y Z' [m]";
       return torques;
     }

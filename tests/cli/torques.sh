@@ -38,7 +38,7 @@ holds() { # MODEL: nu within three standard errors of the truth
   awk -v v="$(value "$1" nu 4)" -v e="$(value "$1" nu 6)" 'BEGIN { exit !(e > 0 && (v - 0.42)^2 < 9 * e^2) }'
 }
 "$bin/hs-identify" data.csv --body block.ply --effects elastic --folds 0 -o with.csv 2>with.txt || complain 'fit with torques'
-"$bin/hs-identify" -q data.csv --body block.ply --effects elastic --folds 0 --torques ignore -o without.csv ||
+"$bin/hs-identify" -q data.csv --body block.ply --effects elastic --folds 0 --ignore-torques -o without.csv ||
   complain 'fit without torques'
 flat with.txt | grep -q 'TORQUES 315 rows count beside the forces' || complain "said of the torques: $(flat with.txt)"
 holds with.csv || complain "nu with torques $(value with.csv nu 4) +- $(value with.csv nu 6)"
@@ -67,7 +67,7 @@ flat off.txt | grep -q 'touched 1 mm from where it is said to, at (1.0' || compl
 "$bin/hs-diagnose" -q off.csv --body block.ply --model with.csv --check -o d_off.csv
 [[ $? == 1 ]] || complain 'a tip 1 mm off is complete'
 grep -q '^0,model,unexplained,.*touched' d_off.csv || complain "diagnosis of a tip 1 mm off: $(grep '^0,' d_off.csv)"
-"$bin/hs-diagnose" -q off.csv --body block.ply --model with.csv --torques ignore --check -o d.csv ||
+"$bin/hs-diagnose" -q off.csv --body block.ply --model with.csv --ignore-torques --check -o d.csv ||
   complain 'complete without torques'
 
 # Refused, or left out and said.

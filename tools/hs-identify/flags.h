@@ -17,8 +17,8 @@ inline constexpr TimesFlag windows{"--windows"};
 inline constexpr IntegerFlag acfm{"--acfm"}, folds{"--folds"}, every{"--every"}, memory{"--memory"},
     boundary{"--refine-boundary"}, starts{"--starts"}, seed{"--seed"};
 inline constexpr SwitchFlag stiffening{"--stiffening"}, profile{"--profile"}, follow{"--follow"},
-    resume{"--resume"};
-inline constexpr ChoiceFlag robust{"--robust"}, torques{"--torques"};
+    resume{"--resume"}, ignore_torques{"--ignore-torques"};
+inline constexpr ChoiceFlag robust{"--robust"};
 }  // namespace flag
 
 }  // namespace hapsim

@@ -66,7 +66,7 @@ inline GivenRecordings load_recordings(const Arguments& arguments, const Model& 
     given.bodies.push_back(read_body(input, &given.windows.back()));
   }
   std::vector<Recording> recordings = load_thinned(arguments, "hs-identify", paths, options);
-  if (arguments[flag::torques] == "ignore")
+  if (arguments[flag::ignore_torques])
     for (Recording& recording : recordings) forget_torques(recording);
   body_of.resize(paths.size(), body_of.front());
   join_given(given, body_of, std::move(recordings), start);

@@ -74,7 +74,8 @@ inline ToolSpec identify_specification() {
       "where that lies from the tip [m]. Each has its own noise (metadata torque_noise [N m], else "
       "measured from the data), and both are then weighed by what mesh and shape are worth at each "
       "position (of a lever, --floor times the tool's radius, and what its two meshes differ by). "
-      "The forces alone are fitted first. A torque about the tip is a lever of the place times the "
+      "The forces alone are fitted first; of a model that leaves several times the noise both "
+      "noises count as many times larger. A torque about the tip is a lever of the place times the "
       "force, in which a common modulus drops out: it tells Poisson's ratio, and of stiffnesses "
       "beside the tool next to nothing. Five places of a block, a tool of 3 mm, forces of 1 N to 4 "
       "mN, torques to 0.016 N mm: the standard error of nu falls by a fifth where presses are "
@@ -232,13 +233,9 @@ inline ToolSpec identify_specification() {
        .group = "Fit",
        .default_text = "none",
        .choices = {"none", "huber", "tukey"}},
-      {.flag = flag::torques,
-       .value = "WHAT",
-       .help = "Whether measured torques of the tool (tqx,tqy,tqz) count beside the forces: use or "
-               "ignore.",
-       .group = "Fit",
-       .default_text = "use",
-       .choices = {"use", "ignore"}},
+      {.flag = flag::ignore_torques,
+       .help = "Leaves measured torques of the tool (tqx,tqy,tqz) out.",
+       .group = "Input"},
       {.flag = flag::profile,
        .help =
            "Tells the 95 % interval of each parameter from the profile of the likelihood, which "
