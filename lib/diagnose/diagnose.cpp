@@ -102,16 +102,12 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
               : !d.left.noise_alone() || !d.torque.explained() ? ModelVerdict::kUnexplained
                                                                : ModelVerdict::kComplete;
   const bool torques_alone = d.verdict == ModelVerdict::kUnexplained && d.left.noise_alone();
-  if (torques_alone) {
-    d.explanation = d.torque.words;
-    return d;
-  }
-  d.explanation = describe_verdict(d);
-  if (!d.torque.words.empty()) d.explanation += " " + d.torque.words;
+  d.explanation = torques_alone ? d.torque.words : describe_verdict(d);
+  if (!torques_alone && !d.torque.words.empty()) d.explanation += " " + d.torque.words;
   if (!few_presses) return d;
   const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);
-  if (d.verdict == ModelVerdict::kUnexplained)
+  if (d.verdict == ModelVerdict::kUnexplained && !torques_alone)
     d.explanation = fmt::format(
         "the model fails by {:.2g} x noise, but {} cannot name the cause with a false-alarm rate; "
         "the possible effects stand below, the best first. Record {} presses or more.",

@@ -7,6 +7,7 @@
 #include "compare/torque_comparison.h"
 #include "diagnose/gates.h"
 #include "diagnose/held_out.h"
+#include "fit/press_offsets.h"
 #include "fit/torque_rows.h"
 #include "recording/torque_columns.h"
 
@@ -23,10 +24,14 @@ TorquePole pole_of(const Fit& fitted, const TrialGround& g, double noise) {
   const Signal forces = forces_before_sensor(fitted.model, g.experiment, fitted.about, all, false);
   const MaterialSpec material = material_of(fitted.model);
   const TorqueLevers levers(g.experiment.places, material, true);
-  const Eigen::VectorXd measured =
-      stacked(read_torques(g.dataset.recording).values, g.dataset, all);
-  return torque_pole(measured - model_torques(forces, g.dataset, levers, material, all).f, forces.f,
-                     noise);
+  Eigen::MatrixXd residual = stacked(read_torques(g.dataset.recording).values, g.dataset, all) -
+                             model_torques(forces, g.dataset, levers, material, all).f;
+  Eigen::MatrixXd f = forces.f;
+  if (offset_effect(fitted.model) != nullptr) {
+    take_out_press_means(g.dataset, all, residual);
+    take_out_press_means(g.dataset, all, f);
+  }
+  return torque_pole(residual.col(0), f.col(0), noise);
 }
 
 }  // namespace
@@ -35,6 +40,7 @@ TorqueLeft torque_left(const Fit& fitted, const TrialGround& g) {
   TorqueLeft left;
   if (!has_torques(g.dataset.recording)) {
     left.error.unused = read_torques(g.dataset.recording).unused;
+    if (!left.error.unused.empty()) left.words = "T" + left.error.unused.substr(1) + ".";
     return left;
   }
   FitOptions options = trial_fit_options(g);
@@ -63,8 +69,8 @@ TorqueLeft torque_left(const Fit& fitted, const TrialGround& g) {
         "times what it is without torques",
         left.force_error);
   const std::string pole = pole_words(left.pole, left.error.rms);
-  left.words += pole.empty() ? "; look at the tool's weight, its tip, and at what lies beside the "
-                               "places"
+  left.words += pole.empty() ? "; look at the torques' zero, the tool's weight, its tip, and at "
+                               "what lies beside the places"
                              : "; " + pole;
   left.words += '.';
   return left;

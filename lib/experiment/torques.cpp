@@ -9,28 +9,54 @@
 #include <map>
 
 #include "effects/catalogue.h"
-#include "io/number.h"
 #include "model/relaxation_steps.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace {
 
-bool turns(const Recording& r) {
-  for (std::size_t c = 0; c < r.extra_header.size(); ++c) {
-    const std::string& name = r.extra_header[c];
-    if (name != "thx" && name != "thy" && name != "thz") continue;
-    const bool turned = std::any_of(r.extra[c].begin(), r.extra[c].end(), [](const auto& cell) {
-      double value = 0;
-      return parse_number(cell, value) && value != 0;
-    });
-    if (turned) return true;
-  }
-  return false;
+// The longest press, as effects see it.
+PressView example_press(const Dataset& dataset) {
+  const auto longest = std::max_element(
+      dataset.episodes.begin(), dataset.episodes.end(),
+      [](const Episode& a, const Episode& b) { return a.rows.size() < b.rows.size(); });
+  PressView view = longest->view;
+  view.modulus = view.contact.modulus = 1e4;
+  return view;
 }
 
-// Why an effect leaves torque and force no common lever.
-bool has_no_lever(const EffectInstance& instance) {
-  if (instance.effect->card().stage == Stage::kContact) return true;
+// The force after an effect of the force f before it; where free values are those at which it does
+// nothing, at others.
+Eigen::VectorXd after(const EffectInstance& instance, const PressView& view,
+                      const Eigen::VectorXd& f) {
+  Values values = instance.values;
+  for (ParameterValue& v : values) {
+    const auto& cards = instance.effect->card().parameters;
+    const auto card = std::find_if(cards.begin(), cards.end(),
+                                   [&](const ParameterCard& c) { return c.name == v.name; });
+    if (v.column >= 0 && card != cards.end() && v.value == card->identity)
+      v.value = card->start == card->identity ? card->identity + card->scale : card->start;
+    v.column = -1;
+  }
+  Signal signal{f, Eigen::MatrixXd(f.size(), 0)};
+  instance.effect->apply(view, values, signal);
+  return signal.f;
+}
+
+// Why an effect leaves torque and force no common lever: the tool touches otherwise; what it adds
+// to the force comes not through the body (a dashpot at the tool); or the sensor shows the force
+// changed, and would show the torque changed as well, nobody knows how. An offset of the forces is
+// none of these.
+bool has_no_lever(const EffectInstance& instance, const PressView& view) {
+  const Stage stage = instance.effect->card().stage;
+  if (stage == Stage::kContact) return true;
+  const auto n = 3 * static_cast<Eigen::Index>(view.size());
+  const Eigen::VectorXd nothing = after(instance, view, Eigen::VectorXd::Zero(n));
+  if (stage == Stage::kBody && nothing.norm() > 0) return true;
+  if (stage == Stage::kSensor) {
+    const Eigen::VectorXd wave = Eigen::VectorXd::LinSpaced(n, 0.1, 3).array().sin().matrix();
+    return !(after(instance, view, wave) - nothing).isApprox(wave, 1e-9);
+  }
   MaterialSpec material;
   instance.effect->describe(instance.values, material);
   if (!material.features.empty()) return true;
@@ -58,11 +84,13 @@ Model before_sensor(const Model& model, std::vector<Eigen::Index>& columns) {
 
 std::string torque_refusal(const Model& model, const Dataset& dataset) {
   if (dataset.recording.has_ball()) return "under a ball the contact grows";
-  if (turns(dataset.recording)) return "the tool turns (thx,thy,thz)";
+  if (tool_turns(dataset.recording)) return "the tool turns (thx,thy,thz)";
   for (const Episode& e : dataset.episodes)
     if (e.view.height > 0) return "the tool covers the whole body";
-  for (const EffectInstance& i : effect_instances(model, false))
-    if (has_no_lever(i))
+  if (dataset.episodes.empty()) return "";
+  const PressView view = example_press(dataset);
+  for (const EffectInstance& i : effect_instances(model, true))
+    if (has_no_lever(i, view))
       return fmt::format("with '{}' they are no lever times the force", i.effect->card().name);
   if (!regional_relaxation_of(model, material_of(model)).empty())
     return "its regions relax each in its own way";

@@ -151,8 +151,9 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
   for (const std::string& sentence : untold_times(result.model, w.dataset)) add(sentence);
   for (const std::string& interval : result.intervals) add(interval);
   if (result.discounted > 0)
-    add(fmt::format("{} of {} force components discounted as far off", result.discounted,
-                    result.residuals));
+    add(fmt::format("{} of {} {} components discounted as far off", result.discounted,
+                    result.residuals + 3 * static_cast<long>(result.torque.rows),
+                    result.torque.rows > 0 ? "force and torque" : "force"));
   if (!enough_data(result.residuals,
                    static_cast<Eigen::Index>(result.model.free_parameters().size())))
     add("fewer than ten force components a free parameter: noise may decide their values");

@@ -178,8 +178,8 @@ std::vector<PlaceView> FieldSampling::views_of(const std::vector<Vec3>& places) 
 
 ContactLevel FieldSampling::level_at(const PlaceView& view) const {
   if (clearance(*bonded_, view.point) < kBesideSupport * radius_) return ContactLevel::kFine;
-  const bool scatters = view.turned > kBesideEdge || view.yields > kLimb ||
-                        material_.solid.nu > kHardlyCompressible;
+  const bool scatters =
+      view.turned > kBesideEdge || view.yields > kLimb || material_.solid.nu > kHardlyCompressible;
   return scatters ? ContactLevel::kCoarse : ContactLevel::kSample;
 }
 

@@ -53,19 +53,25 @@ void pool_noise(const std::vector<Recording>& recordings, Recording& all) {
 // Torques where each recording has them; their noise where all declare the same.
 void join_torques(const std::vector<Recording>& recordings, Recording& all) {
   std::vector<Vec3> torques;
-  bool alike = true;
+  bool alike = true, any = false;
+  std::string without;
   for (const Recording& r : recordings) {
-    const std::vector<Vec3> own = read_torques(r).values;
+    const Torques read = read_torques(r);
+    const std::vector<Vec3>& own = read.values;
+    any = any || !own.empty() || !read.unused.empty();
+    if (!own.empty() && tool_turns(r)) without = "in " + r.name + " the tool turns";
+    if (own.empty()) without = r.name + " has none";
     alike = alike &&
             r.metadata.find("torque_noise") == recordings.front().metadata.find("torque_noise");
-    if (own.empty()) {
-      torques.clear();
-      break;
-    }
     torques.insert(torques.end(), own.begin(), own.end());
   }
   all.metadata.remove("torque_at");
-  if (!alike || torques.empty()) forget_torque_noise(all.metadata);
+  if (!without.empty()) {
+    forget_torques(all);
+    if (any) forget_torques_because(all, without);
+    return;
+  }
+  if (!alike) forget_torque_noise(all.metadata);
   set_torques(all, torques);
 }
 

@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kAtSensor[] = {"tx", "ty", "tz"};
 constexpr const char* kOrigin = "torque_at";
+constexpr const char* kUnused = "torques_unused";
 
 using Places = std::array<std::size_t, 3>;  // in extra
 
@@ -68,12 +69,13 @@ std::optional<Vec3> origin_of(const Recording& r) {
 void require_about_the_tip(const Recording& r, const std::vector<Vec3>& torques) {
   if (r.f.empty() || !r.metadata.find("tool_radius")) return;
   double torque = 0, force = 0;
+  const double noise = r.metadata.number("torque_noise", r.name).value_or(0);
   for (std::size_t row = 0; row < r.rows(); ++row) {
     if (r.in_air(row)) continue;
-    torque += torques[row].squaredNorm();
+    torque += torques[row].squaredNorm() - 3 * noise * noise;
     force += r.f[row].squaredNorm();
   }
-  const double lever = force > 0 ? std::sqrt(torque / force) : 0;
+  const double lever = force > 0 ? std::sqrt(std::max(0.0, torque) / force) : 0;
   const double radius = r.tool_radius();
   if (lever <= kMostLever * radius) return;
   fail_input(r.name,
@@ -82,7 +84,7 @@ void require_about_the_tip(const Recording& r, const std::vector<Vec3>& torques)
                          lever, lever / radius),
              "give tqx,tqy,tqz in N m (1 N mm is 0.001 N m), about the tool's tip; of torques "
              "about a sensor's origin (tx,ty,tz) say where it lies from the tip: "
-             "'# torque_at: 0 0 0.12'");
+             "'# torque_at: 0 0 0.12'; of torques that are mostly noise declare it (torque_noise)");
 }
 
 void take_away(Recording& r, const char* const (&names)[3]) {
@@ -105,12 +107,18 @@ Torques read_torques(const Recording& r) {
     if (!origin || r.f.empty()) {
       torques.unused =
           "torques tx,ty,tz of the recording are about the sensor's origin and are not used: say "
-          "where that "
-          "lies from the tip, '# torque_at: X Y Z' [m]";
+          "where that lies from the tip, '# torque_at: X Y Z' [m]";
       return torques;
     }
     torques.values = numbers(r, *raw, kAtSensor);
     for (std::size_t row = 0; row < r.rows(); ++row) torques.values[row] += origin->cross(r.f[row]);
+  }
+  if (torques.values.empty()) torques.unused = r.metadata.find(kUnused).value_or("");
+  const auto is_zero = [](const Vec3& torque) { return torque == Vec3::Zero(); };
+  if (!torques.values.empty() &&
+      std::all_of(torques.values.begin(), torques.values.end(), is_zero)) {
+    torques.values.clear();
+    torques.unused = "torques of the recording are all zero and are not used";
   }
   if (!torques.values.empty()) require_about_the_tip(r, torques.values);
   return torques;
@@ -150,6 +158,24 @@ void forget_torques(Recording& r) {
   take_away(r, kAtSensor);
   r.metadata.remove(kOrigin);
   forget_torque_noise(r.metadata);
+}
+
+void forget_torques_because(Recording& r, const std::string& why) {
+  forget_torques(r);
+  r.metadata.set(kUnused, "torques of the recording are not used: " + why);
+}
+
+bool tool_turns(const Recording& r) {
+  for (std::size_t c = 0; c < r.extra_header.size(); ++c) {
+    const std::string& name = r.extra_header[c];
+    if (name != "thx" && name != "thy" && name != "thz") continue;
+    const bool turned = std::any_of(r.extra[c].begin(), r.extra[c].end(), [](const auto& cell) {
+      double value = 0;
+      return parse_number(cell, value) && value != 0;
+    });
+    if (turned) return true;
+  }
+  return false;
 }
 
 Noise torque_noise(const Recording& r, const std::vector<Vec3>& torques) {

@@ -23,13 +23,18 @@ struct Torques {
 // force where the metadata `torque_at` says where that origin lies (x y z from the tip [m], in the
 // frame of the forces): tq = t + at x f. Error(kBadInput): a cell that is no number, or one or two
 // of the columns; torques that no body answers with, more than kMostLever radii of the tool times
-// the forces (newton millimetres, another point).
+// the forces beyond their declared noise (newton millimetres, another point).
 Torques read_torques(const Recording& recording);
 inline constexpr double kMostLever = 5;
 
 // Whether it has columns tqx,tqy,tqz; whether read_torques() finds torques in it.
 bool has_tip_torques(const Recording& recording);
 bool has_torques(const Recording& recording);
+
+// Whether one of its columns thx,thy,thz is not zero.
+bool tool_turns(const Recording& recording);
+// Says why the recording's torques, which are taken away, are not used: Torques::unused.
+void forget_torques_because(Recording& recording, const std::string& why);
 
 // Writes them as tqx,tqy,tqz, in the place of those that were there; none: takes those away.
 void set_torques(Recording& recording, const std::vector<Vec3>& torques);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "io/csv.h"
 #include "io/number.h"
+#include "recording/torque_columns.h"
 #include "rig/orientation.h"
 
 namespace hapsim {
@@ -136,6 +137,11 @@ RigCorrection calibrate_recording(const Calibration& c, Recording& r) {
   const RigColumns columns = columns_of(r);
   RigCorrection correction = correct_forces(c, columns, r.f);
   if (c.has(kTorqueOffset)) correct_torques(c, columns, r);
+  // Torques in another frame than the forces are none.
+  if (has_tip_torques(r) || (has_torques(r) && !c.has(kTorqueOffset))) {
+    forget_torques_because(r, "the calibration does not correct them");
+    correction.lacking.emplace_back("the calibration does not correct the recording's torques");
+  }
   if (const auto noise = r.force_noise(); noise && c.has(kCrosstalk)) {
     const double factor = c.crosstalk().inverse().norm() / std::sqrt(3.0);
     r.metadata.set("force_noise", fmt::format("{:.4g}", factor * *noise));

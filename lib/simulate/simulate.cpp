@@ -164,9 +164,10 @@ void add_torque_noise(Recording& recording, double noise, std::uint64_t seed) {
 }
 
 std::string without_torques(Recording& recording, const std::string& why) {
-  if (!has_tip_torques(recording)) return "";
-  set_torques(recording, {});
-  return "torques tqx,tqy,tqz are left out: " + why;
+  if (!has_torques(recording)) return "";
+  forget_torques(recording);
+  recording.metadata.remove("torque_uncertainty");
+  return "the torques are left out: " + why;
 }
 
 }  // namespace hapsim

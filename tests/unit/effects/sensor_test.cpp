@@ -216,7 +216,7 @@ TEST(Tare, IsTheOffsetOfItsOwnPress) {
   EXPECT_NEAR((forces_after(tare_effect(), press, values)[1] - Vec3(0.4, 0, 0)).norm(), 0, 1e-12);
 }
 
-// A tool that is accelerated evenly, in steps that are not even; the first two samples know
+// A tool that is accelerated evenly, in steps that are not even; the first sample and the last know
 // nothing.
 TEST(ToolInertia, IsMassTimesAcceleration) {
   const std::vector<double> t{0, 0.01, 0.03, 0.04, 0.07};

@@ -118,9 +118,10 @@ TEST(Torques, OfWhatHasNoLeverAreRefused) {
     for (const ParameterCard& p : effect.card().parameters) values.push_back(p.start);
     return test::with(model, name, values);
   };
-  for (const char* name : {"friction", "tip", "layer", "hyperelastic"})
+  for (const char* name : {"friction", "tip", "layer", "hyperelastic", "damper", "sensor-lag",
+                           "filter", "sensor-rotation", "sensor-gain"})
     EXPECT_NE(torque_refusal(more(name), w.dataset).find(name), std::string::npos) << name;
-  for (const char* name : {"viscoelastic", "sensor-bias", "tare", "temperature"})
+  for (const char* name : {"viscoelastic", "sensor-bias", "sensor-drift", "tare", "temperature"})
     EXPECT_EQ(torque_refusal(more(name), w.dataset), "") << name;
 }
 

@@ -100,5 +100,28 @@ TEST(TorqueColumns, AreJoinedWhereAllHaveThem) {
   EXPECT_FALSE(has_torques(join_recordings({a, pressed("", "note", "a")})));
 }
 
+TEST(TorqueColumns, OfAToolThatTurnsAreNotJoined) {
+  const Recording still = pressed("", "tqx,tqy,tqz", "1e-4,2e-4,-3e-4");
+  const Recording turned = pressed("", "tqx,tqy,tqz,thx,thy,thz", "1e-4,2e-4,-3e-4,0,0.1,0");
+  EXPECT_FALSE(tool_turns(still));
+  EXPECT_TRUE(tool_turns(turned));
+  const Torques joined = read_torques(join_recordings({still, turned}));
+  EXPECT_TRUE(joined.values.empty());
+  EXPECT_NE(joined.unused.find("the tool turns"), std::string::npos) << joined.unused;
+  const Recording without = pressed("", "other", "0");
+  EXPECT_NE(read_torques(join_recordings({still, without})).unused.find("has none"),
+            std::string::npos);
+}
+
+// Of a soft body they may be mostly noise, which is declared; all of them zero are none.
+TEST(TorqueColumns, MayBeNoiseOrNothing) {
+  const std::string noisy = "0.05,-0.06,0.04";
+  EXPECT_NE(refusal(pressed("", "tqx,tqy,tqz", noisy)), "");
+  EXPECT_EQ(refusal(pressed("# torque_noise: 0.05\n", "tqx,tqy,tqz", noisy)), "");
+  const Torques none = read_torques(pressed("", "tqx,tqy,tqz", "0,0,0"));
+  EXPECT_TRUE(none.values.empty());
+  EXPECT_NE(none.unused.find("all zero"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hapsim
