@@ -84,7 +84,14 @@ sed 's/tqx,tqy,tqz/tx,ty,tz/' data.csv >sensor.csv
 refuses "torque_at" 0 "$bin/hs-identify" sensor.csv --body block.ply --effects elastic --folds 0 -o x.csv
 { cat truth.csv; echo 'friction,0,mu,0.5,1,,,,fixed'; } >slips.csv
 refuses "with 'friction' they are no lever times the force" 3 "$bin/hs-simulate" motion.csv --body block.ply --model slips.csv --torques -o x.csv
-refuses 'torques tqx,tqy,tqz are left out' 0 "$bin/hs-simulate" data.csv --body block.ply --model slips.csv -o x.csv
+refuses 'the torques are left out' 0 "$bin/hs-simulate" data.csv --body block.ply --model slips.csv -o x.csv
+# A sensor that lags shows the torque late as well, and a dashpot at the tool has none.
+{ cat truth.csv; echo 'sensor-lag,0,tau,0.1,s,,,,fixed'; echo 'sensor-lag,0,delay,0,s,,,,fixed'; } >lags.csv
+refuses "with 'sensor-lag' they are no lever" 0 "$bin/hs-simulate" data.csv --body block.ply --model lags.csv -o x.csv
+grep -q tqx x.csv && complain 'measured torques pass for simulated ones of a sensor that lags'
+# Rows that are means of several have none.
+awk '/^[0-9]/ { print; print; print } { print }' data.csv >dense.csv
+refuses 'means of several, whose torques are not used' 0 "$bin/hs-identify" dense.csv --body block.ply --model truth.csv --folds 0 --most-rows 700 -o x.csv
 grep -q tqx x.csv && complain 'measured torques pass for simulated ones'
 refuses '--torques is of forces at prepared places' 2 "$bin/hs-simulate" motion.csv --body block.ply --model truth.csv --torques --full -o x.csv
 exit $((failures > 0))
