@@ -54,13 +54,13 @@ std::string ContentHash::hex() const {
   return text;
 }
 
-ContactCache::ContactCache(const std::string& directory, double limit_bytes) {
+ContactCache::ContactCache(const std::string& directory, double limit_bytes)
+    : limit_bytes_(limit_bytes) {
   if (directory.empty()) return;
   std::error_code failed;
   fs::create_directories(directory, failed);
   if (failed) return;
   directory_ = directory;
-  trim(limit_bytes);
 }
 
 std::optional<StiffnessSolution> ContactCache::load(const std::string& key) const {
@@ -106,6 +106,7 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
 
 void ContactCache::store(const std::string& key, const StiffnessSolution& s) const {
   if (directory_.empty()) return;
+  std::call_once(*trimmed_, [this] { trim(); });
   std::string bytes;
   Head head{{}, s.dK_dmodulus.size(), s.plan_share.size(), s.dK_dfeature.size()};
   std::memcpy(head.magic, kMagic, sizeof kMagic);
@@ -132,7 +133,7 @@ void ContactCache::store(const std::string& key, const StiffnessSolution& s) con
   }
 }
 
-void ContactCache::trim(double limit_bytes) const {
+void ContactCache::trim() const {
   struct Entry {
     fs::file_time_type time;
     double size;
@@ -148,11 +149,11 @@ void ContactCache::trim(double limit_bytes) const {
     total += entry.size;
     entries.push_back(entry);
   }
-  if (total <= limit_bytes) return;
+  if (total <= limit_bytes_) return;
   std::sort(entries.begin(), entries.end(),
             [](const Entry& a, const Entry& b) { return a.time < b.time; });
   for (const Entry& entry : entries) {
-    if (total <= 0.8 * limit_bytes) break;
+    if (total <= 0.8 * limit_bytes_) break;
     fs::remove(entry.path, ignored);
     total -= entry.size;
   }

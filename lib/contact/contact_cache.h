@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -25,16 +27,18 @@ class ContentHash {
 class ContactCache {
  public:
   // `directory` empty: no cache. Created on first use; when it cannot be written, caching is
-  // silently off, for no result depends on it. Entries beyond `limit_bytes` are removed, oldest
-  // first.
+  // silently off, for no result depends on it. Before the first entry is stored, those beyond
+  // `limit_bytes` are removed, oldest first: who only reads need not look at them all.
   explicit ContactCache(const std::string& directory, double limit_bytes = 1e9);
   // Nothing for an entry that is absent, damaged or of another layout.
   std::optional<StiffnessSolution> load(const std::string& key) const;
   void store(const std::string& key, const StiffnessSolution& solution) const;
 
  private:
-  void trim(double limit_bytes) const;
+  void trim() const;
   std::string directory_;
+  double limit_bytes_;
+  std::shared_ptr<std::once_flag> trimmed_ = std::make_shared<std::once_flag>();
 };
 
 // $XDG_CACHE_HOME/hapsim, else $HOME/.cache/hapsim, else none.
