@@ -35,9 +35,10 @@ std::string verdict_words(const Diagnosis& d) {
     case ModelVerdict::kAmbiguous:
       return "ambiguous: more than one effect would do";
     default:
-      return verdict_name(d.verdict) + (d.left.noise_alone() && !d.torque.explained()
-                                            ? ": the forces are, the tool's torques are not"
-                                            : ": no known effect takes the error away");
+      return verdict_name(d.verdict) +
+             (d.left.noise_alone() && !d.torque.explained()
+                  ? ": the forces are accounted for, the tool's torques are not"
+                  : ": no known effect takes the error away");
   }
 }
 

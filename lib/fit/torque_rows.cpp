@@ -34,10 +34,6 @@ TorqueRows::TorqueRows(const Model& start, const Experiment& experiment, const S
     return;
   }
   noise_ = torque_noise(recording, torques.values);
-  if (!(noise_.value > 0)) {  // a column of nothing
-    unused_ = "torques of the recording do not count: all are zero";
-    return;
-  }
   measured_ = stacked(torques.values, experiment.dataset, selection);
   const MaterialSpec material = material_of(start);
   solve(material);

@@ -85,11 +85,11 @@ inline ToolSpec identify_specification() {
       "middle. "
       "Torques do not count with a ball, a tool that turns (thx,thy,thz) or covers the body, "
       "friction and other laws of the contact, finite strain, layers and inclusions: a line says "
-      "so. So it does where the sensor does more to the forces than to add an offset (a lag, a "
-      "rotation), "
-      "since nobody knows what it does to the torques, and with a dashpot at the tool; a tare "
-      "takes each press's "
-      "mean out of its torques too. Torques in N mm, or about another point, are refused.",
+      "so. Nor do they with a dashpot at the tool, or where the sensor does more to the forces "
+      "than "
+      "to add an offset (a lag, a rotation), since nobody knows what it does to the torques. A "
+      "tare takes each press's mean out of its torques too. Held-out errors are of fits to the "
+      "forces alone. Torques in N mm, or about another point, are refused.",
       "--constrain keeps relations between the parameters: = or <=, >= between sums, products, "
       "quotients and powers (+ - * / ^ and parentheses). Parameters are named as the model file "
       "has them: elastic.E, elastic.E[2] of region 2, viscoelastic.tau1, inclusion.z; the effect "
