@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
@@ -217,9 +219,23 @@ std::string joined(const std::vector<std::string>& names) {
 
 struct Options {
   bool verbose = false;
+  std::string statements;  // file
   std::string keep;        // folder for the recordings; "": not kept
   bool leave_out = false;  // the truth's effect is taken from the catalogue
 };
+
+// What is said of each effect, and whether it is hidden: of which the probabilities are calibrated.
+void append_statements(const std::string& path, const Truth& truth, double level, int seed,
+                       const Diagnosis& d) {
+  std::ofstream out(path, std::ios::app);
+  for (const Finding& f : d.findings)
+    out << fmt::format(
+        "{},{:.3g},{},{},{},{:d},{:.5g},{:.4g},{:.5g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:d}\n",
+        truth.name, level, seed, f.effect, verdict_name(f.verdict),
+        std::count(truth.effects.begin(), truth.effects.end(), f.effect) > 0, f.criterion_gain,
+        f.memory, f.lead, f.p_value, f.share, f.rmse_now.pooled, f.rmse_after.pooled,
+        f.held_out_after.pooled, d.left.noise_alone());
+}
 
 Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const Levels& levels,
           int seed, const Options& options) {
@@ -260,6 +276,7 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
   const Diagnosis d = diagnose(model, w, w.allowance(), how);
   trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   trial.verdict = verdict_name(d.verdict);
+  append_statements(options.statements, truth, trial.level, seed, d);
   for (const Finding& finding : d.findings) {
     if (options.verbose)
       fmt::print(stderr,
@@ -311,6 +328,7 @@ int run_all(std::vector<std::string> a) {
     a.erase(flag, flag + 2);
   }
   const std::string results = a[3];
+  options.statements = std::filesystem::path(results).replace_filename("statements.csv").string();
   const auto [from, to] = range(a[4]);
   const auto [low, high] = range(a[5]);
   const std::vector<std::string> names(a.begin() + 6, a.end());

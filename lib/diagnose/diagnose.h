@@ -51,7 +51,10 @@ struct Finding {
   double p_value = 1;
   double criterion_gain = 0;
   double memory = 1;  // samples per independent one in what it leaves
-  double share = 0;   // of the misfit beyond noise
+  // Of the criterion by independent sample, over the best other effect tried beside it, or over the
+  // model without either.
+  double lead = 0;
+  double share = 0;  // of the misfit beyond noise
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   std::vector<FittedValue> values;

@@ -1,5 +1,7 @@
 #include "diagnose/round_winner.h"
 
+#include <algorithm>
+
 #include "effects/catalogue.h"
 
 namespace hapsim {
@@ -81,6 +83,21 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
       rivals.push_back(k);
   }
   return rivals;
+}
+
+void set_leads(Round& round) {
+  const auto related = [&](std::size_t a, std::size_t b) {
+    return contains(*round.candidates[a].effect, round.findings[b].effect) ||
+           contains(*round.candidates[b].effect, round.findings[a].effect);
+  };
+  for (std::size_t k = 0; k < round.findings.size(); ++k) {
+    double other = 0;
+    for (std::size_t j = 0; j < round.findings.size(); ++j)
+      if (j != k && !related(j, k) && !round.candidates[j].effect->card().per_press)
+        other = std::max(other, round.findings[j].criterion_gain);
+    Finding& f = round.findings[k];
+    f.lead = (f.criterion_gain - other) / std::max(1.0, f.memory);
+  }
 }
 
 }  // namespace hapsim

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "diagnose/beside_rivals.h"
 #include "diagnose/held_out.h"
 #include "diagnose/left_over.h"
 #include "diagnose/rivals_together.h"
@@ -12,6 +13,9 @@
 
 namespace hapsim {
 namespace {
+
+// What is done where a round ends in rivals: it is the end, or the search goes on beside each.
+enum class Rivals { kEnd, kGoOn };
 
 // What was found first may have stood for what was found after it.
 void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
@@ -89,17 +93,22 @@ void list_the_rest(const Round& last, const Gates& gates, Diagnosis& d) {
   }
 }
 
-// Whether the round ended in rivals that the data cannot tell apart; they then stand in `d`.
-bool ends_in_rivals(Round& round, std::size_t best, const TrialGround& g, const Gates& gates,
-                    bool can_hold_out, Diagnosis& d) {
+// Effects that do as well as the round's best, after it; none where it stands alone.
+std::vector<std::size_t> best_and_rivals(const Round& round, std::size_t best, const TrialGround& g,
+                                         const Gates& gates, bool can_hold_out) {
   std::vector<std::size_t> rivals = rivals_of(best, round, gates, can_hold_out, g.allowance.noise);
-  if (std::any_of(rivals.begin(), rivals.end(), [&](std::size_t k) {
-        return both_act(round.candidates[best], round.candidates[k], g);
-      }))
-    return false;  // the next rounds find the other
-  if (rivals.empty()) return false;
+  const bool next_round_finds_the_other = std::any_of(
+      rivals.begin(), rivals.end(),
+      [&](std::size_t k) { return both_act(round.candidates[best], round.candidates[k], g); });
+  if (rivals.empty() || next_round_finds_the_other) return {};
   rivals.insert(rivals.begin(), best);
-  d.left = left_over(round.candidates[best].fitted, g);
+  return rivals;
+}
+
+// The data cannot tell them apart.
+void list_rivals(const Round& round, const std::vector<std::size_t>& rivals, const TrialGround& g,
+                 Diagnosis& d) {
+  d.left = left_over(round.candidates[rivals.front()].fitted, g);
   for (const std::size_t k : rivals) {
     d.rivals.push_back(round.candidates[k].fitted.model);
     Finding finding = round.findings[k];
@@ -108,30 +117,67 @@ bool ends_in_rivals(Round& round, std::size_t best, const TrialGround& g, const 
       if (other != k) finding.confused_with.push_back(round.findings[other].effect);
     d.findings.push_back(finding);
   }
-  for (Finding& f : round.findings)
-    if (std::any_of(rivals.begin(), rivals.end(),
-                    [&](std::size_t k) { return round.findings[k].effect == f.effect; }))
-      f.effect.clear();
-  return true;
+}
+
+void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround& g,
+                 const Folds& folds, const DiagnoseOptions& options, Diagnosis& d);
+
+// Goes on beside each of the rivals where they leave more than noise. True where one of them is
+// then left: the search is over, and `base` and `d` are its.
+bool told_apart(const Round& round, std::vector<std::size_t> rivals, Baseline& base,
+                const TrialGround& g, const Folds& folds, const DiagnoseOptions& options,
+                Diagnosis& d) {
+  constexpr std::size_t kMostBranches = 3;
+  if (rivals.size() > kMostBranches ||
+      left_over(round.candidates[rivals.front()].fitted, g).noise_alone()) {
+    list_rivals(round, rivals, g, d);
+    return false;
+  }
+  const auto go_on = [&](Branch& branch) {
+    search_from(Kind::kNamed, Rivals::kEnd, branch.base, g, folds, options, branch.d);
+  };
+  BesideRivals found = beside_rivals(round, rivals, base, d, g, folds, options, go_on);
+  if (found.rivals.empty()) {
+    base = std::move(found.branches[found.best].base);
+    d = std::move(found.branches[found.best].d);
+    return true;
+  }
+  take_what_is_shared(found, g, folds, base, d);
+  for (Finding& f : found.ends.findings) {
+    f.rmse_now = base.fitted.error;
+    f.held_out_now = held_out_for(require_effect(f.effect), base).error;
+  }
+  found.rivals.insert(found.rivals.begin(), found.best);
+  list_rivals(found.ends, found.rivals, g, d);
+  return false;
 }
 
 // Adds the best effect while one passes the gates; where no effect that has a name does, and not
 // noise alone is left, the best curve of no law. `kind`: what is tried first.
-void search_from(Kind kind, Baseline& base, const TrialGround& g, const Folds& folds,
-                 const DiagnoseOptions& options, Diagnosis& d) {
+void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround& g,
+                 const Folds& folds, const DiagnoseOptions& options, Diagnosis& d) {
   const bool can_hold_out = !folds.held_out.empty();
   Random random(options.seed);
   std::array<Round, 2> last;  // by Kind
   for (int added = 0; added < options.gates.most_effects;) {
     Round& round = last[static_cast<std::size_t>(kind)];
     round = try_all(kind, base, g, folds, options, random);
+    set_leads(round);
     const std::size_t best = best_of(round, options.gates, can_hold_out);
     if (best == round.findings.size()) {
       if (kind == Kind::kLearned || left_over(base.fitted, g).noise_alone()) break;
       kind = Kind::kLearned;
       continue;
     }
-    if (ends_in_rivals(round, best, g, options.gates, can_hold_out, d)) break;
+    const std::vector<std::size_t> rivals =
+        best_and_rivals(round, best, g, options.gates, can_hold_out);
+    if (!rivals.empty()) {
+      if (rivals_may == Rivals::kEnd)
+        list_rivals(round, rivals, g, d);
+      else if (told_apart(round, rivals, base, g, folds, options, d))
+        return;
+      break;
+    }
     Finding finding = round.findings[best];
     finding.verdict = Verdict::kMissing;
     for (std::size_t k = 0; k < round.findings.size(); ++k)
@@ -181,7 +227,7 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
             const DiagnoseOptions& options, Diagnosis& d) {
   Baseline other_base = base;
   Diagnosis other = d;
-  search_from(Kind::kNamed, base, g, folds, options, d);
+  search_from(Kind::kNamed, Rivals::kGoOn, base, g, folds, options, d);
   const bool explained =
       d.rivals.empty() ? left_over(base.fitted, g).noise_alone() : d.left.noise_alone();
   bool any = false, offsets = false;
@@ -191,7 +237,7 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
     offsets = offsets || require_effect(f.effect).card().per_press;
   }
   if ((explained && !offsets) || !any || folds.held_out.empty()) return;
-  search_from(Kind::kLearned, other_base, g, folds, options, other);
+  search_from(Kind::kLearned, Rivals::kGoOn, other_base, g, folds, options, other);
   const bool learned =
       std::any_of(other.findings.begin(), other.findings.end(), [](const Finding& f) {
         return f.verdict == Verdict::kMissing && require_effect(f.effect).card().learned;
