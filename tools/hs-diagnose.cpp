@@ -6,6 +6,7 @@
 #include "diagnose/diagnosis_summary.h"
 #include "diagnose/diagnosis_table.h"
 #include "diagnose/draft_experiment.h"
+#include "diagnose/probability.h"
 #include "experiment/preparation_flags.h"
 #include "fit/fit_words.h"
 #include "plan/press_plan.h"
@@ -133,6 +134,7 @@ ToolSpec specification() {
              "(the metadata heldout_by says which) [N]; after only for effects that pass the other "
              "tests"},
         {"p_value", "chance of a false alarm, all effects tried counted"},
+        {"probability", probability_in_words()},
         {"confused_with", "effects that do as well, separated by spaces; `shape`: a wrong body"},
         {"where", "where and when it acts"},
         {"evidence", "share of the misfit, fitted size, smallest size that would show"},

@@ -21,6 +21,7 @@
 #include "diagnose/candidate.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/held_out.h"
+#include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "formats/tetmesh_io.h"
@@ -224,17 +225,21 @@ struct Options {
   bool leave_out = false;  // the truth's effect is taken from the catalogue
 };
 
-// What is said of each effect, and whether it is hidden: of which the probabilities are calibrated.
-void append_statements(const std::string& path, const Truth& truth, double level, int seed,
+// What is said of each effect, and whether it is hidden, or what is hidden includes it: by which
+// the probabilities are calibrated (probabilities.py).
+void append_statements(const std::string& path, const Truth& truth, const Trial& trial,
                        const Diagnosis& d) {
   std::ofstream out(path, std::ios::app);
+  const auto true_of = [&](const std::string& said) {
+    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const std::string& hidden) {
+      return hidden == said || contains(require_effect(hidden), said);
+    });
+  };
   for (const Finding& f : d.findings)
-    out << fmt::format(
-        "{},{:.3g},{},{},{},{:d},{:.5g},{:.4g},{:.5g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:d}\n",
-        truth.name, level, seed, f.effect, verdict_name(f.verdict),
-        std::count(truth.effects.begin(), truth.effects.end(), f.effect) > 0, f.criterion_gain,
-        f.memory, f.lead, f.p_value, f.share, f.rmse_now.pooled, f.rmse_after.pooled,
-        f.held_out_after.pooled, d.left.noise_alone());
+    out << fmt::format("{},{:.3g},{},{},{},{:d},{:.4g},{:.4g},{:.5g},{:.3g},{:d}\n", truth.name,
+                       trial.level, trial.seed, f.effect, verdict_name(f.verdict),
+                       true_of(f.effect), f.probability, f.share_among, f.criterion_gain, f.memory,
+                       d.left.noise_alone());
 }
 
 Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const Levels& levels,
@@ -276,7 +281,7 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
   const Diagnosis d = diagnose(model, w, w.allowance(), how);
   trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   trial.verdict = verdict_name(d.verdict);
-  append_statements(options.statements, truth, trial.level, seed, d);
+  append_statements(options.statements, truth, trial, d);
   for (const Finding& finding : d.findings) {
     if (options.verbose)
       fmt::print(stderr,

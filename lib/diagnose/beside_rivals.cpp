@@ -60,7 +60,6 @@ BesideRivals beside_rivals(const Round& round, const std::vector<std::size_t>& r
     if (end.fitted.model.has(f.effect)) describe_fit(end, m, g.dataset, f);
     found.ends.findings.push_back(f);
   }
-  set_leads(found.ends);
   const bool can_hold_out = !folds.held_out.empty();
   found.best = best_of(found.ends, options.gates, can_hold_out);
   if (found.best == rivals.size()) found.best = 0;

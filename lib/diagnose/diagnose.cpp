@@ -8,6 +8,7 @@
 #include "diagnose/few_presses.h"
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
+#include "diagnose/probability.h"
 #include "diagnose/search.h"
 #include "diagnose/shared_by_places.h"
 #include "diagnose/wording.h"
@@ -141,10 +142,8 @@ bool differs_by_place(const Model& model, const TrialGround& g) {
   return left_over(fitted, g).kind == kBody;
 }
 
-}  // namespace
-
-Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& allowance,
-                   const DiagnoseOptions& options) {
+Diagnosis in_doubt_of_shape(const Model& model, const Experiment& e, const Allowance& allowance,
+                            const DiagnoseOptions& options) {
   Diagnosis d = with_allowance(model, {e, allowance}, options);
   // Points off the surface that no move explains, of the kind that forces follow, are a wrong
   // shape: what differs by place may be its work.
@@ -172,6 +171,15 @@ Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& all
       "the data cannot tell {} from a wrong shape of the body: scan it again, or touch it where it "
       "is pressed.",
       doubted);
+  return d;
+}
+
+}  // namespace
+
+Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& allowance,
+                   const DiagnoseOptions& options) {
+  Diagnosis d = in_doubt_of_shape(model, e, allowance, options);
+  set_probabilities(d);
   return d;
 }
 

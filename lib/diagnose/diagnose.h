@@ -50,11 +50,10 @@ struct Finding {
   ForceError held_out_now{0}, held_out_after{0};  // on what was not
   double p_value = 1;
   double criterion_gain = 0;
-  double memory = 1;  // samples per independent one in what it leaves
-  // Of the criterion by independent sample, over the best other effect tried beside it, or over the
-  // model without either.
-  double lead = 0;
-  double share = 0;  // of the misfit beyond noise
+  double memory = 1;       // samples per independent one in what it leaves
+  double share = 0;        // of the misfit beyond noise
+  double share_among = 1;  // of those that passed beside it (diagnose/probability.h)
+  double probability = std::numeric_limits<double>::quiet_NaN();  // that it acts; NaN: not tested
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   std::vector<FittedValue> values;

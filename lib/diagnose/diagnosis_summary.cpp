@@ -53,8 +53,12 @@ std::string label_of(Verdict verdict) {
   }
 }
 
-std::string chance_words(double p) {
-  return p < 1e-3 ? "false alarm p < 0.001" : fmt::format("false alarm p = {:.2g}", p);
+std::string chance_words(const Finding& f) {
+  const std::string alarm =
+      f.p_value < 1e-3 ? "false alarm p < 0.001" : fmt::format("false alarm p = {:.2g}", f.p_value);
+  return std::isfinite(f.probability)
+             ? fmt::format("{:.0f} % likely, {}", 100 * f.probability, alarm)
+             : alarm;
 }
 
 std::string change(const ForceError& before, const ForceError& after) {
@@ -67,7 +71,7 @@ std::string unseen_of(const Diagnosis& d, const Finding& f) {
 }
 
 SummaryItem item_of(const Diagnosis& d, const Finding& f, bool brief) {
-  SummaryItem item{label_of(f.verdict), f.effect, chance_words(f.p_value), {}};
+  SummaryItem item{label_of(f.verdict), f.effect, chance_words(f), {}};
   std::string errors = "error " + change(f.rmse_now, f.rmse_after);
   if (std::isfinite(f.held_out_after.pooled))
     errors +=

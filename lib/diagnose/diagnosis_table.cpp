@@ -96,22 +96,23 @@ void write_diagnosis(std::ostream& out, const Diagnosis& d, const DiagnosedFiles
   metadata.set("shape_error", format_number(d.shape.before));
   metadata.set("seed", seed);
   if (!d.held_out_by.empty()) metadata.set("heldout_by", d.held_out_by);
-  CsvWriter csv(
-      out, metadata,
-      {"rank", "effect", "verdict", "rmse_now", "rmse_after", "heldout_now", "heldout_after",
-       "p_value", "confused_with", "where", "evidence", "next_measurement", "command"});
+  CsvWriter csv(out, metadata,
+                {"rank", "effect", "verdict", "rmse_now", "rmse_after", "heldout_now",
+                 "heldout_after", "p_value", "probability", "confused_with", "where", "evidence",
+                 "next_measurement", "command"});
   const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : ""; };
   csv.row({"0", "model", verdict_name(d.verdict), number(d.rmse.told()), number(d.rmse_end.told()),
-           number(d.held_out.told()), number(d.held_out_end.told()), "", "", "", d.explanation, "",
-           ""});
+           number(d.held_out.told()), number(d.held_out_end.told()), "", "", "", "", d.explanation,
+           "", ""});
   int rank = 0;
   for (const Finding& f : d.findings) {
     const bool tried = f.verdict != Verdict::kNotTestable;
     const auto value = [&](double v) { return tried ? number(v) : std::string(); };
     csv.row({std::to_string(++rank), f.effect, verdict_name(f.verdict), value(f.rmse_now.told()),
              value(f.rmse_after.told()), value(f.held_out_now.told()),
-             value(f.held_out_after.told()), value(f.p_value), joined(f.confused_with), f.where,
-             evidence_words(f), f.next_measurement, may_be_there(f) ? add_command(files, f) : ""});
+             value(f.held_out_after.told()), value(f.p_value), value(f.probability),
+             joined(f.confused_with), f.where, evidence_words(f), f.next_measurement,
+             may_be_there(f) ? add_command(files, f) : ""});
   }
 }
 
@@ -139,6 +140,7 @@ nlohmann::json finding_json(const Finding& f, const DiagnosedFiles& files) {
                    {"heldout_now", number(f.held_out_now.told())},
                    {"heldout_after", number(f.held_out_after.told())},
                    {"p_value", number(f.p_value)},
+                   {"probability", number(f.probability)},
                    {"criterion_gain", number(f.criterion_gain)},
                    {"share", number(f.share)},
                    {"confused_with", f.confused_with},

@@ -1,7 +1,5 @@
 #include "diagnose/round_winner.h"
 
-#include <algorithm>
-
 #include "effects/catalogue.h"
 
 namespace hapsim {
@@ -71,9 +69,7 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
     if (gives_way(k, round, gates, can_hold_out)) continue;
     // Best of what is unseen: best_of() has compared them.
     if (card.is_field || round.candidates[best].effect->card().is_field) continue;
-    if (contains(*round.candidates[best].effect, f.effect) ||
-        contains(*round.candidates[k].effect, winner.effect))
-      continue;
+    if (related(*round.candidates[best].effect, *round.candidates[k].effect)) continue;
     // Falls saturate where the model erred much: what is left must be alike too.
     const bool as_good =
         f.rmse_after.pooled <= kAlike * winner.rmse_after.pooled &&
@@ -83,21 +79,6 @@ std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const G
       rivals.push_back(k);
   }
   return rivals;
-}
-
-void set_leads(Round& round) {
-  const auto related = [&](std::size_t a, std::size_t b) {
-    return contains(*round.candidates[a].effect, round.findings[b].effect) ||
-           contains(*round.candidates[b].effect, round.findings[a].effect);
-  };
-  for (std::size_t k = 0; k < round.findings.size(); ++k) {
-    double other = 0;
-    for (std::size_t j = 0; j < round.findings.size(); ++j)
-      if (j != k && !related(j, k) && !round.candidates[j].effect->card().per_press)
-        other = std::max(other, round.findings[j].criterion_gain);
-    Finding& f = round.findings[k];
-    f.lead = (f.criterion_gain - other) / std::max(1.0, f.memory);
-  }
 }
 
 }  // namespace hapsim

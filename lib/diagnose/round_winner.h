@@ -22,7 +22,4 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out);
 std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const Gates& gates,
                                    bool can_hold_out, double noise);
 
-// Finding::lead of every finding.
-void set_leads(Round& round);
-
 }  // namespace hapsim

@@ -6,6 +6,7 @@
 #include "diagnose/beside_rivals.h"
 #include "diagnose/held_out.h"
 #include "diagnose/left_over.h"
+#include "diagnose/probability.h"
 #include "diagnose/rivals_together.h"
 #include "diagnose/round_winner.h"
 #include "diagnose/superfluous.h"
@@ -162,7 +163,6 @@ void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround
   for (int added = 0; added < options.gates.most_effects;) {
     Round& round = last[static_cast<std::size_t>(kind)];
     round = try_all(kind, base, g, folds, options, random);
-    set_leads(round);
     const std::size_t best = best_of(round, options.gates, can_hold_out);
     if (best == round.findings.size()) {
       if (kind == Kind::kLearned || left_over(base.fitted, g).noise_alone()) break;
@@ -180,9 +180,15 @@ void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround
     }
     Finding finding = round.findings[best];
     finding.verdict = Verdict::kMissing;
-    for (std::size_t k = 0; k < round.findings.size(); ++k)
-      if (k != best && passes(round.findings[k], options.gates, can_hold_out))
-        finding.confused_with.push_back(round.findings[k].effect);
+    std::vector<const Finding*> beside;
+    for (std::size_t k = 0; k < round.findings.size(); ++k) {
+      if (k == best || !passes(round.findings[k], options.gates, can_hold_out)) continue;
+      finding.confused_with.push_back(round.findings[k].effect);
+      const Effect& other = *round.candidates[k].effect;
+      if (!other.card().per_press && !related(*round.candidates[best].effect, other))
+        beside.push_back(&round.findings[k]);
+    }
+    finding.share_among = share_among(finding, beside);
     d.findings.push_back(finding);
     base = make_baseline(round.candidates[best].fitted.model, g, folds);
     round.findings[best].effect.clear();

@@ -131,6 +131,10 @@ bool contains(const Effect& effect, const std::string& other) {
   return std::find(list.begin(), list.end(), other) != list.end();
 }
 
+bool related(const Effect& a, const Effect& b) {
+  return contains(a, b.card().name) || contains(b, a.card().name);
+}
+
 double held_out_fall(const Finding& f) {
   return f.held_out_now.pooled > 0 ? 1 - f.held_out_after.pooled / f.held_out_now.pooled : 0;
 }

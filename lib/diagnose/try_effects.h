@@ -27,6 +27,8 @@ std::vector<const Effect*> untried(const Model& model, Kind kind, const std::str
 double held_out_fall(const Finding& finding);
 // Whether `effect` includes the effect `other` as a special case.
 bool contains(const Effect& effect, const std::string& other);
+// Whether one of the two includes the other.
+bool related(const Effect& a, const Effect& b);
 
 // An effect that needs no fit: no position asks for another stiffness.
 Finding ruled_out(const Effect& effect, const Baseline& base);
