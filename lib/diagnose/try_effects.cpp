@@ -17,6 +17,7 @@
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "fit/testable.h"
+#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -51,7 +52,7 @@ double left_by_laws(const Fit& fitted, const TrialGround& g) {
     const double share = require_effect(name).card().form_error;
     if (share <= 0) continue;
     Model without = fitted.model;
-    std::erase_if(without.parameters, [&](const Parameter& p) { return p.effect == name; });
+    remove_effect(without, name);
     most = std::max(most, share * force_change(fitted, as_it_is(without, g.experiment), g));
   }
   return most;
