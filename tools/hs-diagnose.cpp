@@ -41,7 +41,9 @@ ToolSpec specification() {
       "Force noise and a gain error by position for mesh and scanned shape (--floor) are taken "
       "into account, so a model is not blamed for them.",
       "Two effects that do equally well are rivals, unless both together leave nothing but noise "
-      "and mesh where each alone leaves plainly more: then both are there.",
+      "and mesh where each alone leaves plainly more: then both are there. Where rivals (up to "
+      "three) leave more than noise, the search goes on beside each of them: what else is missing "
+      "may tell them apart, and what is found beside all of them is missing whichever it is.",
       "Contact points that lie off the body's surface by more than a hundredth of its least extent "
       "are told. Where the forces do not follow the move of the body that would explain them "
       "(shift), the shape is in doubt: the gain error allows for it, and an effect that a wrong "

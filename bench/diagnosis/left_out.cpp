@@ -88,6 +88,11 @@ const char* judged(const Trial& t) {
 
 }  // namespace
 
+bool is_of_kind(const std::string& hidden, const std::string& learned) {
+  const auto of = kinds().find(hidden);
+  return of != kinds().end() && std::count(of->second.begin(), of->second.end(), learned) > 0;
+}
+
 bool can_be_left_out(const Truth& truth) {
   return truth.effects.size() == 1 && truth.base.empty() && truth.presses == 0;
 }

@@ -1,6 +1,7 @@
 // Trials whose hidden effect was taken from the catalogue: an open world.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "summary.h"
@@ -10,6 +11,9 @@ namespace hapsim::bench {
 
 // One hidden effect on the plain body, all presses.
 bool can_be_left_out(const Truth& truth);
+
+// Whether a curve of no law is of the kind of what is hidden.
+bool is_of_kind(const std::string& hidden, const std::string& learned);
 
 // To standard output: what was said of each, and how often
 //   kind    no cause is named, and its kind is said or its curve learned

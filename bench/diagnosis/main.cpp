@@ -232,7 +232,7 @@ void append_statements(const std::string& path, const Truth& truth, const Trial&
   std::ofstream out(path, std::ios::app);
   const auto true_of = [&](const std::string& said) {
     return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const std::string& hidden) {
-      return hidden == said || contains(require_effect(hidden), said);
+      return hidden == said || contains(require_effect(hidden), said) || is_of_kind(hidden, said);
     });
   };
   for (const Finding& f : d.findings)
