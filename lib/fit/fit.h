@@ -97,11 +97,11 @@ Signal model_forces(const Fit& fitted, const Experiment& experiment, const Selec
                     bool derivatives);
 
 // Fits on the chosen episodes by least squares of the forces. Standard errors come from the noise
-// (or the misfit, where that is larger) and from the gain error `floor` of each position. The
-// bodies are solved again as FitOptions says; `known`: what a fit that solves nothing stands on.
-// Constraints are asked for where the fit without them breaks one (minimise_under()), from its end;
-// standard errors are then along what the active ones leave free. Contradictory ones: not
-// converged.
+// (or the misfit, where that is larger), from the gain error `floor` of each position and from one
+// of that size of all. The bodies are solved again as FitOptions says; `known`: what a fit that
+// solves nothing stands on. Constraints are asked for where the fit without them breaks one
+// (minimise_under()), from its end; standard errors are then along what the active ones leave free.
+// Contradictory ones: not converged.
 Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
         const FitOptions& options, const Linearisation& known = {});
 

@@ -55,6 +55,25 @@ TEST_F(Fitted, StandardErrorsCoverTheTruthOverManySeeds) {
   EXPECT_LE(share, 1.0);
 }
 
+TEST_F(Fitted, WhatAllPositionsErrByAlikeIsInTheModulus) {
+  const Model truth = test::elastic(1.5e4, 0.4);
+  test::measure(w(), truth, 0.01, 3);
+  const auto errors = [&](double floor) {
+    FitOptions with = options();
+    with.floor = floor;
+    const Model found = fit(truth, w(), all_episodes(w().dataset), with).model;
+    return std::pair(found.parameters[0].std_error / found.parameters[0].value,
+                     found.parameters[1].std_error);
+  };
+  const auto [modulus, nu] = errors(0.02);
+  EXPECT_GT(modulus, 0.02);
+  EXPECT_LT(modulus, 0.03);
+  // A gain of all forces is the modulus alone: of nu the positions' own errors count as before.
+  const auto [half_modulus, half_nu] = errors(0.01);
+  EXPECT_NEAR(nu / half_nu, 2, 0.3);
+  EXPECT_GT(half_modulus, 0.01);
+}
+
 TEST_F(Fitted, AnEffectAndItsAbsenceShowInHeldOutPositions) {
   const Model truth = test::with(test::elastic(1.5e4, 0.4), "viscoelastic", {8e3, 0.5});
   test::measure(w(), truth, 0.01, 3);
