@@ -12,6 +12,7 @@
 #include "hs-identify/recordings.h"
 #include "hs-identify/search.h"
 #include "hs-identify/until.h"
+#include "marked_points.h"
 #include "thinned.h"
 
 namespace hapsim {
@@ -90,6 +91,24 @@ inline ToolSpec identify_specification() {
       "to add an offset (a lag, a rotation), since nobody knows what it does to the torques. A "
       "tare takes each press's mean out of its torques too. Held-out errors are of fits to the "
       "forces alone. Torques in N mm, or about another point, are refused.",
+      "Marked points of the surface that a camera sees while the tool presses count too "
+      "(--markers): "
+      "a table of their displacements by time, each with its own noise. Under a bonded flat tool a "
+      "point moves by a constant matrix of place and point times the tool's displacement; Young's "
+      "modulus drops out of it, and so does how it relaxes, and it tells Poisson's ratio and what "
+      "regions are to each other, which forces alone tell badly. Times are matched to the "
+      "recording's, between "
+      "whose rows the tool's displacement is interpolated; the clocks are taken for one, and no "
+      "offset between them is sought. The matrix is worth what its two meshes differ by and "
+      "--floor "
+      "of its size. Points do not count with a ball, a tool that turns (thx,thy,thz) or covers the "
+      "body, where the tool's own motion is changed (touch, slack, a yielding arm), with friction "
+      "and other "
+      "laws of the contact, finite strain, layers, inclusions and supports, and where regions "
+      "relax "
+      "each in its own way: a line says so. Tables in mm without the unit in the header, and "
+      "points "
+      "off the surface, are refused. Held-out errors are of fits to the forces alone.",
       "--constrain keeps relations between the parameters: = or <=, >= between sums, products, "
       "quotients and powers (+ - * / ^ and parentheses). Parameters are named as the model file "
       "has them: elastic.E, elastic.E[2] of region 2, viscoelastic.tau1, inclusion.z; the effect "
@@ -237,6 +256,8 @@ inline ToolSpec identify_specification() {
        .group = "Fit",
        .default_text = "none",
        .choices = {"none", "huber", "tukey"}},
+      markers_option("Displacements of marked points of the surface, seen while the tool presses: "
+                     "point,t,x,y,z,ux,uy,uz[,press]."),
       {.flag = flag::ignore_torques,
        .help = "Leaves measured torques of the tool (tqx,tqy,tqz) out.",
        .group = "Input"},
@@ -250,6 +271,7 @@ inline ToolSpec identify_specification() {
     spec.options.insert(spec.options.end(), more.begin(), more.end());
   spec.options.push_back(answer_option("Output"));
   spec.tables = {
+      {"Marked points (--markers)", marker_columns()},
       {"Model (output)",
        {{"effect", "name in the catalogue, see hs-effects(7)"},
         {"region", "region that the parameter belongs to, from 0"},
