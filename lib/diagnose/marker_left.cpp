@@ -2,17 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "diagnose/gates.h"
 #include "diagnose/held_out.h"
+#include "diagnose/left_over.h"
 #include "fit/marker_words.h"
 
 namespace hapsim {
-namespace {
-
-constexpr double kMostForceBeside = 1.1;  // of the forces' own error (torque_left.cpp)
-
-}  // namespace
-
 MarkerLeft marker_left(const Fit& fitted, const TrialGround& g, const Markers* markers) {
   MarkerLeft left;
   if (markers == nullptr) return left;
@@ -27,8 +21,9 @@ MarkerLeft marker_left(const Fit& fitted, const TrialGround& g, const Markers* m
   }
   left.force_error = both.error.pooled / fitted.error.pooled;
   const bool points = !marker_explained(e);
-  const bool force =
-      left.force_error > kMostForceBeside && both.error.pooled > kLikeNoise * g.allowance.noise;
+  // Beside points the places' errors are free to leave more of the forces, within what mesh and
+  // shape are allowed: their plain error says nothing.
+  const bool force = left_over(fitted, g).noise_alone() && !left_over(both, g).noise_alone();
   left.off = points || force;
   if (!left.off) return left;
   if (points)

@@ -5,11 +5,27 @@
 #include <cmath>
 #include <map>
 
+#include "fit/press_offsets.h"
+
 namespace hapsim {
 namespace {
 
 constexpr double kMoved = 1e-9;  // of the largest sum of squares: a direction that was moved
 constexpr double kOnceInThousand = 3.09;  // standard errors
+
+// Of the forces that a model leaves, over what noise and the errors of the places let it leave.
+double force_misfit(const Model& model, const Experiment& w, const Selection& selection,
+                    double floor) {
+  const Eigen::VectorXd f = solved_forces(model, w, selection, false).f;
+  Eigen::MatrixXd residual = measured_forces(w.dataset, selection) - f;
+  if (offset_effect(model) != nullptr) take_out_press_means(w.dataset, selection, residual);
+  if (floor > 0)
+    Weights(w.dataset, selection, f, w.noise.value, floor).whiten(residual);
+  else
+    residual /= w.noise.value;
+  const double axes = w.dataset.axes() / 3.0;  // the others are zero
+  return std::sqrt(residual.squaredNorm() / (axes * static_cast<double>(residual.size())));
+}
 
 }  // namespace
 
@@ -32,10 +48,8 @@ MarkerRows::MarkerRows(const Model& start, const Experiment& experiment, const S
   if (sums.empty()) return;
   const MaterialSpec material = material_of(start);
   gains_ = MarkerGains(experiment.places, material, markers_->points, exact_regions_);
-  // Where the forces leave so many times their noise, the model is thought to leave as many times
-  // that of the points.
-  const double noise =
-      markers_->noise.value * std::max(1.0, options.noise / experiment.noise.value);
+  noise_ = markers_->noise.value *
+           std::max(1.0, force_misfit(start, experiment, selection, options.floor));
   std::vector<MarkerGain> here;
   std::size_t position = 0;
   for (const auto& [where, s] : sums) {
@@ -45,8 +59,7 @@ MarkerRows::MarkerRows(const Model& start, const Experiment& experiment, const S
     block.position = position;
     block.point = where.second;
     block.sums = s;
-    const double floor = dataset.floor_at(position, options.floor) * now.G.norm() / std::sqrt(3.0);
-    const double doubt = std::hypot(now.doubt, floor);
+    const double floor = dataset.floor_at(position, options.floor);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(s.uu);
     for (int k = 2; k >= 0; --k) {
       const double l = eigen.eigenvalues()[k];
@@ -55,7 +68,7 @@ MarkerRows::MarkerRows(const Model& start, const Experiment& experiment, const S
       const int d = block.directions++;
       block.direction.col(d) = std::sqrt(l) * v;
       block.gain.col(d) = s.uy.transpose() * v / std::sqrt(l);
-      block.one_over_sigma[d] = 1 / std::hypot(noise, std::sqrt(l) * doubt);
+      block.doubt[d] = std::sqrt(l) * std::hypot(now.doubt, floor * (now.G * v).norm());
     }
     size_ += 3 * block.directions;
     blocks_.push_back(block);
@@ -67,7 +80,8 @@ void MarkerRows::solve(const MaterialSpec& material) {
     gains_ = MarkerGains(experiment_->places, material, markers_->points, exact_regions_);
 }
 
-Eigen::VectorXd MarkerRows::residuals(const MaterialSpec& material, Eigen::MatrixXd* by) const {
+Eigen::VectorXd MarkerRows::residuals(const MaterialSpec& material, double noise,
+                                      Eigen::MatrixXd* by) const {
   Eigen::VectorXd r(size_);
   if (by != nullptr) by->setZero();
   std::vector<MarkerGain> here;
@@ -78,7 +92,7 @@ Eigen::VectorXd MarkerRows::residuals(const MaterialSpec& material, Eigen::Matri
       here = gains_.at(position = block.position, material);
     const MarkerGain& now = here[block.point];
     for (int d = 0; d < block.directions; ++d, row += 3) {
-      const double weight = block.one_over_sigma[d];
+      const double weight = 1 / std::hypot(noise, block.doubt[d]);
       r.segment<3>(row) = weight * (now.G * block.direction.col(d) - block.gain.col(d));
       if (by == nullptr) continue;
       for (const auto& [column, slope] : now.by_column)
@@ -92,7 +106,7 @@ void MarkerRows::append(const Model& model, Eigen::VectorXd& r, Eigen::MatrixXd*
   if (empty()) return;
   const Eigen::Index before = r.size();
   Eigen::MatrixXd by(J != nullptr ? size_ : 0, J != nullptr ? J->cols() : 0);
-  const Eigen::VectorXd own = residuals(material_of(model), J != nullptr ? &by : nullptr);
+  const Eigen::VectorXd own = residuals(material_of(model), noise_, J != nullptr ? &by : nullptr);
   r.conservativeResize(before + size_);
   r.tail(size_) = own;
   if (J == nullptr) return;
@@ -106,7 +120,8 @@ MarkerError MarkerRows::error(const Model& model) const {
   if (empty()) return error;
   const MaterialSpec material = material_of(model);
   const auto count = static_cast<double>(size_);
-  error.whitened = std::sqrt(residuals(material, nullptr).squaredNorm() / count);
+  error.whitened =
+      std::sqrt(residuals(material, markers_->noise.value, nullptr).squaredNorm() / count);
   error.most_whitened = std::sqrt(1 + kOnceInThousand * std::sqrt(2 / count));
   error.components = static_cast<std::size_t>(size_);
   error.noise = markers_->noise.value;

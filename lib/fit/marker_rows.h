@@ -15,7 +15,9 @@ namespace hapsim {
 // the principal directions v of the tool's displacements: with l the sum of (u v)^2, the rows
 // sqrt(l) (G v - y_v), y_v the least-squares gain of that direction. Each component has the
 // variance noise^2 + l doubt^2: a gain is worth what the meshes and the floor of the stiffness
-// (relative, of its size) let it be.
+// (relative, of its size) let it be. Where the start leaves so many times of the forces what noise
+// and floor let it, the noise of points counts as many times larger: a model that is wrong in shape
+// weighs both by its misfit.
 class MarkerRows {
  public:
   MarkerRows() = default;
@@ -36,17 +38,18 @@ class MarkerRows {
   struct Block {  // a point at a place
     std::size_t position = 0, point = 0;
     MarkerSums sums;
-    Eigen::Matrix3d direction;       // columns v sqrt(l), of those that were moved the first
-    Eigen::Matrix3d gain;            // columns y_v sqrt(l)
-    Eigen::Vector3d one_over_sigma;  // by direction
+    Eigen::Matrix3d direction;  // columns v sqrt(l), of those that were moved the first
+    Eigen::Matrix3d gain;       // columns y_v sqrt(l)
+    Eigen::Vector3d doubt;      // standard deviation of a component, by direction [m]
     int directions = 0;
   };
-  // Of every block: model less measured, over sigma.
-  Eigen::VectorXd residuals(const MaterialSpec& material, Eigen::MatrixXd* by) const;
+  // Of every block: model less measured, over the noise and the doubt of the gain.
+  Eigen::VectorXd residuals(const MaterialSpec& material, double noise, Eigen::MatrixXd* by) const;
 
   const Experiment* experiment_ = nullptr;
   const Markers* markers_ = nullptr;
   bool exact_regions_ = true;
+  double noise_ = 0;  // with which they count [m]
   MarkerGains gains_;
   std::vector<Block> blocks_;  // in the order of positions
   Eigen::Index size_ = 0;
