@@ -152,7 +152,7 @@ def main():
                 tell(bench, "%s, %s" % (where, how), PLACES[where], slant, one, steps)
         for slant, how in ((0, "straight down"), (1, "slanted")):
             tell(bench, "border between two regions, %s" % how, PLACES["beside the border"], slant, two,
-                 {**steps, "ratio": 0.01, "border": 2e-4})
+                 {**steps, "ratio": 0.01, "border": 1e-3})
         thin = {**one, "height": 0.012}
         for slant, how in ((0, "straight down"), (1, "slanted")):
             tell(bench, "a layer of 12 mm on its support, %s" % how, PLACES["middle"], slant, thin,

@@ -98,6 +98,8 @@ refuses '1 of 13 marked points lies farther than' 3 "${identify[@]}" data.csv --
 refuses "marked points do not count: with 'friction'" 0 "$bin/hs-identify" data.csv --body block.ply --model slips.csv --folds 0 --markers seen.csv -o x.csv
 refuses "with 'friction' they are no constant" 3 "$bin/hs-simulate" motion.csv --body block.ply --model slips.csv --markers points.csv --markers-out m.csv -o x.csv
 awk '/^[0-9]/ { print; print; print } { print }' data.csv >dense.csv
+awk 'BEGIN { FS = OFS = "," } /^#/ { print; next } !head { head = 1; print $0, "thx,thy,thz"; next } { print $0, 0.01, 0, 0 }' data.csv >turned.csv
+refuses 'the tool turns (thx,thy,thz): its forces are taken for those of one that does not' 0 "${identify[@]}" turned.csv -o x.csv
 refuses 'take all rows (--most-rows 0)' 3 "${identify[@]}" dense.csv --markers seen.csv --most-rows 500 -o x.csv
 refuses '--markers and --markers-out go together' 2 "$bin/hs-simulate" motion.csv --body block.ply --model truth.csv --markers points.csv -o x.csv
 refuses '--markers and --simulated-markers go together' 2 "$bin/hs-compare" data.csv --simulated simulated.csv --markers seen.csv -o x.csv
