@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "common_options.h"
+#include "marked_points.h"
 #include "recording/thinning.h"
 #include "recording/torque_columns.h"
 
@@ -53,6 +55,10 @@ inline std::vector<Recording> load_thinned(const Arguments& arguments, const std
           recordings.back().name +
               ": rows are means of several, whose torques are not used (--most-rows 0 uses them)");
     }
+    if (thinning.thinned() && arguments.given(flag::markers))
+      fail_input(recordings.back().name,
+                 "rows would become means of several, between which marked points are not matched",
+                 "take all rows (--most-rows 0)");
     any = any || thinning.thinned();
     thinnings.push_back(thinning);
   }

@@ -92,6 +92,15 @@ std::string comparison_json(const Comparison& c, const std::string& measured_nam
     json["torque_rms"] = number(c.torque.error.size);
     json["torque_noise"] = number(c.torque.error.noise);
   }
+  if (c.markers) {
+    json["marker_rmse"] = number(c.markers->rms);
+    json["marker_rms"] = number(c.markers->size);
+    json["marker_noise"] = number(c.markers->noise);
+    Json points = Json::array();
+    for (const MarkerComparison::OfPoint& p : c.markers->points)
+      points.push_back({{"point", p.name}, {"rows", p.rows}, {"rmse", p.rms}});
+    json["marker_points"] = points;
+  }
   // A file name need not be UTF-8; what is not becomes a replacement character.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/marker_comparison.h"
 #include "compare/structure.h"
 #include "compare/torque_comparison.h"
 
@@ -17,6 +18,7 @@ struct Comparison {
   std::vector<Breakdown> breakdowns;  // the first is by position
   std::vector<Observation> observations;
   TorqueComparison torque;
+  std::optional<MarkerComparison> markers;  // where points were given, by whoever has their tables
 
   const Breakdown& by_position() const { return breakdowns.front(); }
   std::vector<int> worst_positions() const;  // bins of by_position(), largest rmse first
@@ -31,7 +33,8 @@ Recording residuals_of(const Comparison& comparison, const Recording& measured,
 
 // The comparison as JSON text (two spaces of indent, a newline at the end): rows, presses, rmse,
 // rmse_axes, force_rms, force_peak, noise, noise_source, observations, breakdowns; where torques
-// were compared torque_rmse, torque_rms and torque_noise [N m]. NaN becomes null.
+// were compared torque_rmse, torque_rms and torque_noise [N m]; of marked points marker_rmse,
+// marker_rms, marker_noise [m] and marker_points. NaN becomes null.
 std::string comparison_json(const Comparison& comparison, const std::string& measured_name,
                             const std::string& simulated_name);
 

@@ -166,6 +166,15 @@ void add_numbers(const Comparison& c, const Metadata& simulated, Report& report)
          fmt::format("{:.2g} × its noise of {:.3g} N m ({}), of torques of {:.3g} N m",
                      e.rms / e.noise, e.noise, e.noise_origin, e.size)});
   }
+  if (c.markers) {
+    const MarkerComparison& m = *c.markers;
+    report.numbers.push_back(
+        {"marked points, error (rmse)", fmt::format("{:.3g} mm", 1e3 * m.rms),
+         fmt::format("{:.2g} × their noise of {:.3g} mm ({}), of {:.3g} mm; {} is off most, by "
+                     "{:.3g} mm",
+                     m.rms / m.noise, 1e3 * m.noise, m.noise_origin, 1e3 * m.size,
+                     m.points.front().name, 1e3 * m.points.front().rms)});
+  }
   for (auto version = report.versions.rbegin(); version != report.versions.rend(); ++version)
     if (std::isfinite(version->held_out)) {
       report.numbers.push_back({"error on unseen positions", newtons(version->held_out),

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double kAlike = 1.15;  // two typical errors that far apart count as one
 
+bool points_explained(const Comparison& c) {
+  return !c.markers || markers_explained(*c.markers);
+}
+
 }  // namespace
 
 std::string newtons(double force) {
@@ -27,12 +31,13 @@ std::string times_noise(const Comparison& c) {
 }
 
 bool within_doubt(const Comparison& c) {
-  return c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh) && torques_explained(c.torque);
+  return c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh) && torques_explained(c.torque) &&
+         points_explained(c);
 }
 
 bool only_noise_left(const Comparison& c) {
   return c.observations.empty() && c.size.rmse <= kAlike * c.noise.value &&
-         torques_explained(c.torque);
+         torques_explained(c.torque) && points_explained(c);
 }
 
 std::string verdict_line(const Comparison& c) {
@@ -48,6 +53,11 @@ std::string verdict_line(const Comparison& c) {
         "The model has the forces (typical error {}), but misses the torques by {:.3g} N m, {:.2g} "
         "times their noise.",
         newtons(c.size.rmse), c.torque.error.rms, c.torque.error.rms / c.torque.error.noise);
+  if (!points_explained(c) && c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh))
+    return fmt::format(
+        "The model has the forces (typical error {}), but misses the marked points by {:.3g} mm, "
+        "{:.2g} times their noise.",
+        newtons(c.size.rmse), 1e3 * c.markers->rms, c.markers->rms / c.markers->noise);
   std::string text =
       fmt::format("The model misses the measurement by typically {}, {} of the force",
                   newtons(c.size.rmse), percent_of(c.size.rmse, c.size.force_rms));
@@ -62,13 +72,16 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
   s.mark = noise || (even && doubt) ? Summary::Mark::kGood
            : even || doubt          ? Summary::Mark::kOpen
                                     : Summary::Mark::kBad;
-  s.verdict = measured.name + (noise   ? ": nothing is left but sensor noise"
-                               : doubt ? ": as good as sensor and meshes let it be"
-                               : !torques_explained(c.torque) &&
-                                       c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh)
-                                   ? ": the model has the forces and misses the torques"
-                               : even ? ": more is left than sensor noise"
-                                      : ": the model misses the measurement");
+  s.verdict =
+      measured.name +
+      (noise   ? ": nothing is left but sensor noise"
+       : doubt ? ": as good as sensor and meshes let it be"
+       : !torques_explained(c.torque) && c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh)
+           ? ": the model has the forces and misses the torques"
+       : !points_explained(c) && c.size.rmse <= kAlike * std::hypot(c.noise.value, c.mesh)
+           ? ": the model has the forces and misses the marked points"
+       : even ? ": more is left than sensor noise"
+              : ": the model misses the measurement");
   if (doubt && !even) s.verdict += ", but for a trace";
   s.size = fmt::format("error {} = {} x noise", newtons(c.size.rmse), times_noise(c));
   s.items.push_back(
@@ -87,6 +100,7 @@ Summary comparison_summary(const Comparison& c, const Recording& measured,
           fmt::format("{}: {}", v.name, newtons(error_size(measured.f, v.recording.f).rmse)));
   if (std::vector<std::string> facts = torque_facts(c.torque); !facts.empty())
     s.items.push_back({"TORQUE", "", "", std::move(facts)});
+  if (c.markers) s.items.push_back({"MARKERS", "", "", marker_facts(*c.markers)});
   SummaryItem depends{"DEPENDS", "", "", {}};
   for (const Observation& o : c.observations) depends.facts.push_back(o.sentence);
   if (depends.facts.empty())

@@ -213,6 +213,29 @@ std::vector<TorqueSolution> ContactLibrary::torques(const std::vector<Vec3>& pos
   return results;
 }
 
+std::vector<MarkerSolution> ContactLibrary::markers(const std::vector<Vec3>& positions,
+                                                    const std::vector<Vec3>& points,
+                                                    const Material& material,
+                                                    const std::string& description) const {
+  ContentHash common = key_of(material, "markers " + description);
+  for (const Vec3& point : points) common.add(point.data(), sizeof(double) * 3);
+  std::vector<MarkerSolution> results(positions.size());
+  in_parallel(positions.size(), options_.threads, [&](std::size_t p) {
+    ContentHash hash = common;
+    hash.add(positions[p].data(), sizeof(double) * 3);
+    if (const auto found = cache_.load(hash.hex()))
+      if (auto known = unpacked_markers(*found)) {
+        results[p] = std::move(*known);
+        return;
+      }
+    const std::shared_ptr<ContactBodies> bodies = take_bodies(positions[p]);
+    results[p] = bodies->markers(material, points);
+    put_bodies(positions[p], bodies);
+    cache_.store(hash.hex(), packed(results[p]));
+  });
+  return results;
+}
+
 std::vector<std::shared_ptr<const FeatureEstimate>> ContactLibrary::estimates(
     const std::vector<Vec3>& positions) const {
   std::vector<std::shared_ptr<const FeatureEstimate>> estimates(positions.size());

@@ -12,6 +12,7 @@
 #include "contact/contact_cache.h"
 #include "contact/contact_stiffness.h"
 #include "contact/feature_estimate.h"
+#include "contact/marker_solution.h"
 #include "contact/tool_torque_solution.h"
 
 namespace hapsim {
@@ -81,6 +82,12 @@ class ContactLibrary {
   // What the tool's torque is at each position, of a material without features; `description` as
   // solve(). Positions that prepare() calls unfit are not asked for.
   std::vector<TorqueSolution> torques(const std::vector<Vec3>& positions, const Material& material,
+                                      const std::string& description) const;
+
+  // How points of the surface move at each position, of a material without features;
+  // `description` as solve().
+  std::vector<MarkerSolution> markers(const std::vector<Vec3>& positions,
+                                      const std::vector<Vec3>& points, const Material& material,
                                       const std::string& description) const;
 
   // The stiffness alone, on one mesh of each place;

@@ -6,6 +6,7 @@
 
 #include "contact/feature_estimate.h"
 #include "contact/featured_body.h"
+#include "contact/marker_solution.h"
 #include "contact/tool_torque_solution.h"
 #include "solid/elastic_body.h"
 
@@ -194,6 +195,12 @@ TorqueSolution ContactBodies::torque(const Material& material) {
   const TorqueSolution coarse = solve_torque(level(1).contact, material);
   solution.coarse_K = coarse.K;
   solution.coarse_T = coarse.T;
+  return solution;
+}
+
+MarkerSolution ContactBodies::markers(const Material& material, const std::vector<Vec3>& points) {
+  MarkerSolution solution = solve_markers(level(0).contact, material, points);
+  solution.coarse_G = solve_markers(level(1).contact, material, points).G;
   return solution;
 }
 

@@ -85,6 +85,7 @@ std::shared_ptr<const SurfaceTree> free_surface(const ContactBase& base);
 class FeatureEstimate;
 class FeaturedBody;
 struct TorqueSolution;
+struct MarkerSolution;
 
 // The meshes of a position, made when first needed, to be solved for several materials.
 class ContactBodies {
@@ -109,6 +110,9 @@ class ContactBodies {
   // What the tool's torque is, of a material without features, on both meshes
   // (contact/tool_torque_solution.h).
   TorqueSolution torque(const Material& material);
+  // How points of the surface move, of a material without features, on both meshes
+  // (contact/marker_solution.h).
+  MarkerSolution markers(const Material& material, const std::vector<Vec3>& points);
   // What features do to the homogeneous body of this Poisson's ratio, from the coarser mesh, which
   // it shares.
   std::shared_ptr<const FeatureEstimate> estimate(double poisson_ratio);

@@ -95,20 +95,28 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   if (!few_presses) d.held_out_end = base.held_out.error;
   if (few_presses || !ambiguous) d.left = left_over(base.fitted, g);
   d.torque = torque_left(base.fitted, g);
+  d.marker = marker_left(base.fitted, g, options.markers);
   const bool missing =
       std::any_of(d.findings.begin(), d.findings.end(),
                   [](const Finding& finding) { return finding.verdict == Verdict::kMissing; });
-  d.verdict = ambiguous                                        ? ModelVerdict::kAmbiguous
-              : missing                                        ? ModelVerdict::kIncomplete
-              : !d.left.noise_alone() || !d.torque.explained() ? ModelVerdict::kUnexplained
-                                                               : ModelVerdict::kComplete;
-  const bool torques_alone = d.verdict == ModelVerdict::kUnexplained && d.left.noise_alone();
-  d.explanation = torques_alone ? d.torque.words : describe_verdict(d);
+  d.verdict = ambiguous ? ModelVerdict::kAmbiguous
+              : missing ? ModelVerdict::kIncomplete
+              : !d.left.noise_alone() || !d.torque.explained() || !d.marker.explained()
+                  ? ModelVerdict::kUnexplained
+                  : ModelVerdict::kComplete;
+  // What else than forces is not explained, if it is that alone.
+  const bool forces_told = d.verdict == ModelVerdict::kUnexplained && d.left.noise_alone();
+  const bool torques_alone = forces_told && !d.torque.explained();
+  const bool points_alone = forces_told && !torques_alone;
+  d.explanation = torques_alone  ? d.torque.words
+                  : points_alone ? d.marker.words
+                                 : describe_verdict(d);
   if (!torques_alone && !d.torque.words.empty()) d.explanation += " " + d.torque.words;
+  if (!points_alone && !d.marker.words.empty()) d.explanation += " " + d.marker.words;
   if (!few_presses) return d;
   const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);
-  if (d.verdict == ModelVerdict::kUnexplained && !torques_alone)
+  if (d.verdict == ModelVerdict::kUnexplained && !forces_told)
     d.explanation = fmt::format(
         "the model fails by {:.2g} x noise, but {} cannot name the cause with a false-alarm rate; "
         "the possible effects stand below, the best first. Record {} presses or more.",

@@ -9,6 +9,7 @@
 
 #include "diagnose/gates.h"
 #include "diagnose/left_over.h"
+#include "diagnose/marker_left.h"
 #include "diagnose/torque_left.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
@@ -25,7 +26,8 @@ struct DiagnoseOptions {
   int folds = 6;
   int flips = 999;
   std::uint64_t seed = 1;
-  std::string unknown;  // an effect that is taken for one of no catalogue: for trials
+  const Markers* markers = nullptr;  // of the experiment; null: none
+  std::string unknown;               // an effect that is taken for one of no catalogue: for trials
   // What is being done, and which of how many effects that is (from 1; 0: none of a count). It may
   // throw, which ends the diagnosis.
   std::function<void(const std::string&, std::size_t, std::size_t)> progress;
@@ -82,6 +84,7 @@ struct Diagnosis {
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
   LeftOver left;      // with all missing effects, of an ambiguous verdict with the best rival
   TorqueLeft torque;  // of the same model, where torques were measured
+  MarkerLeft marker;  // of the same model, where points were seen
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
   // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the

@@ -38,6 +38,8 @@ std::string verdict_words(const Diagnosis& d) {
       return verdict_name(d.verdict) +
              (d.left.noise_alone() && !d.torque.explained()
                   ? ": the forces are accounted for, the tool's torques are not"
+              : d.left.noise_alone() && !d.marker.explained()
+                  ? ": the forces are accounted for, the marked points are not"
                   : ": no known effect takes the error away");
   }
 }

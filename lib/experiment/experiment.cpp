@@ -12,6 +12,7 @@
 #include "experiment/dataset_parts.h"
 #include "experiment/series_doubt.h"
 #include "model/body_parameters.h"
+#include "recording/torque_columns.h"
 
 namespace hapsim {
 namespace {
@@ -198,6 +199,10 @@ std::vector<std::string> left_out_words(const Experiment& experiment, bool borro
                     100 * kMostPlateStrain,
                     borrowed ? "their forces are beyond what was verified"
                              : "left out, for no law was verified so far"));
+  if (tool_turns(experiment.dataset.recording))
+    words.emplace_back(
+        "the tool turns (thx,thy,thz): its forces are taken for those of one that does not, and "
+        "torques and marked points do not count; hs-simulate --live turns a flat tool");
   return words;
 }
 

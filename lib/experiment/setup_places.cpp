@@ -83,6 +83,11 @@ std::size_t held_bytes(const TorquePlaces& torques) {
          hapsim::held_bytes(torques.solutions);
 }
 
+std::size_t held_bytes(const MarkerPlaces& markers) {
+  return held_bytes(markers.material) + hapsim::held_bytes(markers.nu) +
+         hapsim::held_bytes(markers.solutions);
+}
+
 SetupPlaces::SetupPlaces(std::shared_ptr<const ContactLibrary> library,
                          std::shared_ptr<const PreparedPlaces> prepared, double nu_low,
                          double nu_high)
@@ -209,6 +214,30 @@ std::shared_ptr<const TorquePlaces> SetupPlaces::torques(const MaterialSpec& mat
     for (const double nu : made->nu)
       made->solutions.push_back(
           library_->torques(positions(), {nu, {1.0}, nullptr, {}}, "homogeneous"));
+    return made;
+  });
+}
+
+std::shared_ptr<const MarkerPlaces> SetupPlaces::markers(const MaterialSpec& material, bool regions,
+                                                         const std::vector<Vec3>& points) const {
+  const bool apart = regions && has_regions(material);
+  ContentHash where;
+  for (const Vec3& point : points) where.add(point.data(), 3 * sizeof(double));
+  const std::string about = "markers " + where.hex();
+  return kept<MarkerPlaces>(apart ? about + content(material) : about, [&] {
+    auto made = std::make_shared<MarkerPlaces>();
+    made->material = material;
+    if (apart) {
+      const Material m = of_elements(material);
+      made->material.modulus = m.modulus;
+      made->nu = {material.nu};
+      made->solutions = {library_->markers(positions(), points, m, layout(material).hex())};
+      return made;
+    }
+    made->nu = poisson_nodes(nu_low_, nu_high_);
+    for (const double nu : made->nu)
+      made->solutions.push_back(
+          library_->markers(positions(), points, {nu, {1.0}, nullptr, {}}, "homogeneous"));
     return made;
   });
 }

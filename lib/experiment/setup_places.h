@@ -31,6 +31,14 @@ struct TorquePlaces {
 };
 std::size_t held_bytes(const TorquePlaces& torques);
 
+// How points of the surface move, as TorquePlaces.
+struct MarkerPlaces {
+  MaterialSpec material;
+  std::vector<double> nu;
+  std::vector<std::vector<MarkerSolution>> solutions;  // [nu][place]
+};
+std::size_t held_bytes(const MarkerPlaces& markers);
+
 // Where a body is pressed, and the homogeneous body there.
 struct PreparedPlaces {
   std::vector<Vec3> positions;
@@ -61,6 +69,9 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
   // The tool's torques for a material without features, in its regions where it has any and
   // `regions` says so, else as if all were one.
   std::shared_ptr<const TorquePlaces> torques(const MaterialSpec& material, bool regions) const;
+  // How points of the surface move, of a material as torques() has it.
+  std::shared_ptr<const MarkerPlaces> markers(const MaterialSpec& material, bool regions,
+                                              const std::vector<Vec3>& points) const;
   // Shares of the homogeneous body's strain energy in the material's regions.
   std::shared_ptr<const RegionShares> shares(const MaterialSpec& material) const;
   // What features do at each place, to first order.

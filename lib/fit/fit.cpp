@@ -15,6 +15,7 @@
 #include "fit/extend.h"
 #include "fit/fit_uncertainty.h"
 #include "fit/learned_field.h"
+#include "fit/marker_rows.h"
 #include "fit/maxwell_terms.h"
 #include "fit/move_limits.h"
 #include "fit/press_offsets.h"
@@ -83,12 +84,13 @@ class Fitting {
     result_.starts_done = options.starts;
     if (has_offsets_) set_offsets(result_.model, dataset_, {}, {}, 0);
     if (options.torques) torques_ = TorqueRows(start, experiment, selection, options, has_offsets_);
+    marked_ = MarkerRows(start, experiment, selection, options);
     const MaterialSpec asked = material_of(start);
     result_.about = experiment.places.estimate(asked, known);
-    // What forces and torques tell of one thing is weighed by what each is worth. By forces of a
-    // model: relative errors of measured ones would draw the fit to small forces, which their
+    // What forces, torques and points tell of one thing is weighed by what each is worth. By forces
+    // of a model: relative errors of measured ones would draw the fit to small forces, which their
     // noise makes look better.
-    if (!torques_.empty() && options.floor > 0)
+    if ((!torques_.empty() || !marked_.empty()) && options.floor > 0)
       force_weights_.emplace(dataset_, selection,
                              model_forces(start, experiment, result_.about, selection, false).f,
                              options.noise, options.floor);
@@ -159,7 +161,7 @@ class Fitting {
         r.setConstant(rows(), std::numeric_limits<double>::quiet_NaN());
         return;
       }
-      // Beside torques, forces count over the error of each position too (whiten()).
+      // Beside torques and points, forces count over the error of each position too (whiten()).
       const double unit = force_weights_ ? 1 : options_.noise;
       r = (signal.f - measured_) / unit;
       if (J != nullptr) *J = signal.df / unit;
@@ -170,11 +172,12 @@ class Fitting {
       if (force_weights_) force_weights_->whiten(r);
       if (force_weights_ && J != nullptr) force_weights_->whiten(*J);
       torques_.append(model, result_.about, signal, r, J);
+      marked_.append(model, r, J);
     };
   }
 
-  // Of the residuals, forces and torques.
-  Eigen::Index rows() const { return measured_.size() + torques_.size(); }
+  // Of the residuals, forces, torques and points.
+  Eigen::Index rows() const { return measured_.size() + torques_.size() + marked_.size(); }
 
   // Tells the watch; false when the fit is to end.
   bool go_on(double sum) {
@@ -285,6 +288,7 @@ class Fitting {
     const MaterialSpec material = material_of(result_.model);
     result_.about = experiment_.places.solve(material);
     torques_.solve(material);
+    marked_.solve(material);
     const ResidualFunction residuals = residuals_of(result_.model);
     const std::vector<Unknown> open = unknowns(result_.model);
     if (material.modulus.size() == 1) {
@@ -359,6 +363,8 @@ class Fitting {
     Eigen::MatrixXd J = signal.df / options_.noise;
     torques_.append(result_.model, result_.about, signal, whitened, &J);
     result_.torque = torques_.error(result_.model, result_.about);
+    marked_.append(result_.model, whitened, &J);
+    result_.marker = marked_.error(result_.model);
     if (constraints_.empty())
       tell_what_is_not_seen(result_, J, std::sqrt(variance));
     else
@@ -405,6 +411,7 @@ class Fitting {
   const Eigen::VectorXd measured_;
   const bool has_offsets_, learns_field_;
   TorqueRows torques_;
+  MarkerRows marked_;
   std::optional<Weights> force_weights_;
   bool is_linearised_ = false;
   FitProgress progress_;
@@ -475,11 +482,13 @@ Fit fit_from(const Model& start, const Experiment& experiment, const Selection& 
 
 Fit fit(const Model& start, const Experiment& experiment, const Selection& selection,
         const FitOptions& options, const Linearisation& known) {
-  if (!options.torques || !has_torques(experiment.dataset.recording))
+  const bool torques = options.torques && has_torques(experiment.dataset.recording);
+  if (!torques && options.markers == nullptr)
     return fit_from(start, experiment, selection, options, known);
   // The forces alone come first: they say how large each position's errors are in newtons.
   FitOptions forces = options;
   forces.torques = forces.profile = false;
+  forces.markers = nullptr;
   Fit alone = fit_from(start, experiment, selection, forces, known);
   if (!alone.converged) return alone;
   FitOptions beside = options;

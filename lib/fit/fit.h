@@ -9,6 +9,7 @@
 
 #include "estimate/expression.h"
 #include "estimate/robust.h"
+#include "experiment/markers.h"
 #include "experiment/torques.h"
 #include "experiment/weights.h"
 
@@ -45,6 +46,9 @@ struct FitOptions {
   // Measured torques of the tool count beside the forces, each with its own noise, where the model
   // says what they are (fit/torque_rows.h).
   bool torques = false;
+  // Displacements of marked points count beside the forces, where the model says what they are
+  // (fit/marker_rows.h). Null: none. Matched with the experiment that is fitted.
+  const Markers* markers = nullptr;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
   // Asked again and again; false ends the fit with what there is. May be empty.
   std::function<bool(const FitProgress&)> watch;
@@ -87,6 +91,7 @@ struct Fit {
   double unconstrained = std::numeric_limits<double>::quiet_NaN();  // told error without them [N]
   int discounted = 0;  // force components that the robust loss halves or drops
   TorqueError torque;  // on what was fitted; no rows where torques did not count
+  MarkerError marker;  // the same of marked points
 };
 
 // A model as it is, its bodies solved.

@@ -12,7 +12,7 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   model.metadata = start;
   unmark(model);
   for (const char* key : {"heldout", "until", "heldout_later", "constraints", "binding",
-                          "torque_rmse", "torque_noise"})
+                          "torque_rmse", "torque_noise", "marker_rmse", "marker_noise"})
     model.metadata.remove(key);
   std::string all, binding;
   for (const KeptConstraint& c : fitted.constraints) {
@@ -26,6 +26,10 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   if (fitted.torque.rows > 0) {
     model.metadata.set("torque_rmse", format_number(fitted.torque.rms));
     model.metadata.set("torque_noise", format_number(fitted.torque.noise));
+  }
+  if (fitted.marker.rows > 0) {
+    model.metadata.set("marker_rmse", format_number(fitted.marker.rms));
+    model.metadata.set("marker_noise", format_number(fitted.marker.noise));
   }
   model.metadata.set("depth", format_number(w.depth.depth));
   record_range(w.dataset, model.metadata);

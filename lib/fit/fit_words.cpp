@@ -12,6 +12,7 @@
 #include "estimate/identifiability.h"
 #include "experiment/plausible.h"
 #include "fit/constraints.h"
+#include "fit/marker_words.h"
 #include "model/body_parameters.h"
 #include "model/model_edit.h"
 
@@ -147,13 +148,17 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
     add("all presses are at one place: how the body differs from place to place is not seen");
   add(strange_modulus(result.model));
   add(result.torque.unused);
+  add(result.marker.unused);
   for (const std::string& sentence : result.blind) add(sentence);
   for (const std::string& sentence : untold_times(result.model, w.dataset)) add(sentence);
   for (const std::string& interval : result.intervals) add(interval);
   if (result.discounted > 0)
     add(fmt::format("{} of {} {} components discounted as far off", result.discounted,
-                    result.residuals + 3 * static_cast<long>(result.torque.rows),
-                    result.torque.rows > 0 ? "force and torque" : "force"));
+                    result.residuals + 3 * static_cast<long>(result.torque.rows) +
+                        static_cast<long>(result.marker.components),
+                    result.marker.rows > 0   ? "force and other"
+                    : result.torque.rows > 0 ? "force and torque"
+                                             : "force"));
   if (!enough_data(result.residuals,
                    static_cast<Eigen::Index>(result.model.free_parameters().size())))
     add("fewer than ten force components a free parameter: noise may decide their values");
@@ -169,12 +174,14 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
   const double error = result.error.told(), noise = w.noise.value;
   const bool unseen = !by.empty() && !std::isnan(held_out);
   const bool torques_too = result.torque.rows == 0 || result.torque.whitened <= kNoiseAlone;
-  const bool only_noise = error <= kNoiseAlone * noise && torques_too,
+  const bool points_too = marker_explained(result.marker);
+  const bool only_noise = error <= kNoiseAlone * noise && torques_too && points_too,
              known = result.at_bound.empty();
   s.mark = only_noise && known ? Summary::Mark::kGood : Summary::Mark::kOpen;
   s.verdict = fmt::format("{}: {} fits{}", w.dataset.recording.name, effects_label(result.model),
                           !only_noise && error <= kNoiseAlone * noise
-                              ? " the forces to the noise, and not the torques"
+                              ? fmt::format(" the forces to the noise, and not the {}",
+                                            torques_too ? "marked points" : "torques")
                           : !only_noise ? "; more than noise is left"
                           : known       ? " to the noise"
                                         : " to the noise, but at a bound");
@@ -195,6 +202,8 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
                       "{}), {:.3g} of what noise and levers let it be; torque rms {:.3g} N m",
                       counted(torque.rows, "row", "rows"), torque.rms, torque.rms / torque.noise,
                       torque.noise, torque.noise_origin, torque.whitened, torque.size)}});
+  const MarkerError& marker = result.marker;
+  if (marker.rows > 0) s.items.push_back({"MARKERS", "", "", marker_facts(marker)});
   s.values = {{"error", error, "N"},
               {"heldout", unseen ? held_out : std::nan(""), "N"},
               {"force_noise", noise, "N"},
@@ -202,6 +211,10 @@ Summary fit_summary(const Experiment& w, const Fit& result, double held_out, con
   if (torque.rows > 0) {
     s.values.push_back({"torque_error", torque.rms, "N m"});
     s.values.push_back({"torque_noise", torque.noise, "N m"});
+  }
+  if (marker.rows > 0) {
+    s.values.push_back({"marker_error", marker.rms, "m"});
+    s.values.push_back({"marker_noise", marker.noise, "m"});
   }
   s.items.push_back(values_item(result.model, s.values));
   if (std::vector<std::string> words = constraint_words(result); !words.empty()) {

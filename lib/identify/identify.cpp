@@ -10,6 +10,7 @@
 #include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_words.h"
+#include "fit/marker_rows.h"
 #include "fit/torque_rows.h"
 #include "io/number.h"
 #include "model/model_edit.h"
@@ -56,6 +57,7 @@ FitOptions each_fit(const IdentifyRequest& request, const Experiment& w) {
   options.skip = 0;
   options.after_start = nullptr;
   options.profile = false;
+  options.markers = nullptr;
   return options;
 }
 
@@ -90,8 +92,10 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
         improve_step_by_step(request, body, std::move(options), fit_options, w, result.force_rms);
     result.fitted = std::move(improvement.steps.back().fitted);
     unseen = improvement.steps.back().held_out;
-    // The search compares effects by their forces; what it has found is fitted to torques as well.
-    if (has_torques(w.dataset.recording) && !improvement.stopped) {
+    // The search compares effects by their forces; what it has found is fitted to torques and
+    // points as well.
+    if ((has_torques(w.dataset.recording) || final_options.markers != nullptr) &&
+        !improvement.stopped) {
       final_options.starts = 1;
       final_options.skip = 0;
       Fit both = fit(result.fitted.model, w, all, final_options, result.fitted.about);
@@ -115,6 +119,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
     if (request.refine && result.fitted.converged) {
       result.fitted = request.refine(result.fitted);
       result.fitted.torque = torque_error(result.fitted, w, all, final_options);
+      result.fitted.marker = marker_error(result.fitted, w, all, final_options);
     }
   }
   if (result.fitted.stopped) return result;

@@ -18,6 +18,7 @@ struct IdentifyRequest {
   FitRequest fit;
   int regions = kAutomaticRegions;  // ExtendOptions::regions
   // Noise and floor are the experiment's; skip, after_start and profile are of the last fit alone.
+  // So are marked points: options.markers is of the last fit alone.
   FitOptions options;
   int folds = 6;  // parts that are held out in turn; below 2: no error on unseen data
 

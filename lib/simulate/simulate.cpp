@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "experiment/contact_radius.h"
+#include "experiment/press_clock.h"
 #include "experiment/torques.h"
 #include "io/number.h"
 #include "model/model_edit.h"
@@ -76,11 +77,64 @@ void simulate_torques(const Model& model, const Experiment& w, const Selection& 
                      fmt::format("{:.2g}", std::sqrt(3 * doubt / static_cast<double>(at))));
 }
 
+// Rows of the table that are in no press are left out.
+MarkerTable simulate_markers(const Model& model, const Experiment& w, const MarkerTable& asked,
+                             const std::function<void(const std::string&)>& told) {
+  const Recording& r = w.dataset.recording;
+  MarkerTable all = asked;
+  if (asked.rows() == 0) {
+    if (r.t.empty())
+      fail_input(r.name, "there are no times at which points could be seen",
+                 "give the motion a column t");
+    for (std::size_t row = 0; row < r.rows(); ++row)
+      for (std::size_t m = 0; m < asked.points.size(); ++m) {
+        all.point.push_back(static_cast<int>(m));
+        all.press.push_back(r.press[row]);
+        all.t.push_back(r.t[row]);
+      }
+  }
+  const PressClock clock(all, w.dataset);
+  const MaterialSpec material = material_of(model);
+  const MarkerGains gains(w.places, material, asked.rest, true);
+  std::vector<std::vector<MarkerGain>> at_place;
+  for (std::size_t p = 0; p < w.places.size(); ++p) at_place.push_back(gains.at(p, material));
+  MarkerTable out;
+  out.name = asked.name;
+  out.points = asked.points;
+  out.rest = asked.rest;
+  out.metadata = asked.metadata;
+  out.metadata.remove("marker_noise");
+  double doubt = 0;  // squares
+  for (std::size_t row = 0; row < all.point.size(); ++row) {
+    const PressTime at = clock.of_row(row);
+    if (at.episode < 0) continue;
+    const auto p =
+        static_cast<std::size_t>(w.dataset.episodes[static_cast<std::size_t>(at.episode)].position);
+    const MarkerGain& gain = at_place[p][static_cast<std::size_t>(all.point[row])];
+    const Vec3 u = clock.displacement(at);
+    out.point.push_back(all.point[row]);
+    if (!all.press.empty()) out.press.push_back(all.press[row]);
+    out.t.push_back(all.t[row]);
+    out.u.push_back(gain.G * u);
+    doubt += gain.doubt * gain.doubt * u.squaredNorm();
+  }
+  if (out.rows() < all.point.size())
+    told(fmt::format("{} of {} rows of marked points are at no time of a press and left out",
+                     all.point.size() - out.rows(), all.point.size()));
+  if (out.rows() == 0)
+    fail_input(asked.name, "no row is at a time of a press in " + r.name,
+               "give times by the motion's clock, or points without times");
+  out.metadata.set("marker_uncertainty",
+                   fmt::format("{:.2g}", std::sqrt(doubt / static_cast<double>(out.rows()))));
+  out.metadata.set("simulated", effects_label(model));
+  return out;
+}
+
 }  // namespace
 
 Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
                    ExperimentOptions options, const std::function<void(const std::string&)>& say,
-                   Control control, bool torques) {
+                   Control control, bool torques, const MarkerTable* points) {
   const auto told = [&](const std::string& words) {
     if (say && !words.empty()) say(words);
   };
@@ -101,6 +155,14 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
   if (torques && !refusal.empty())
     fail_input(model.name.empty() ? "the model" : model.name, "no torques of it: " + refusal,
                "leave out --torques");
+  if (points != nullptr) {
+    const std::string why =
+        control == Control::kForce ? "displacements are found" : marker_refusal(model, w.dataset);
+    if (!why.empty())
+      fail_input(model.name.empty() ? "the model" : model.name,
+                 "no displacements of marked points of it: " + why, "leave out --markers");
+    require_on_surface(*points, w);
+  }
   Simulated simulated;
   simulated.mesh_uncertainty = w.places.mesh_uncertainty();
   simulated.positions = w.dataset.positions.size();
@@ -119,6 +181,7 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
     simulate_torques(model, w, all, out);
   else
     told(without_torques(out, refusal));
+  if (points != nullptr) simulated.markers = simulate_markers(model, w, *points, told);
   simulated.recording = std::move(out);
   mark_simulated(simulated.recording.metadata, effects_label(model));
   return simulated;

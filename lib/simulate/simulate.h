@@ -7,6 +7,7 @@
 
 #include "experiment/experiment.h"
 #include "experiment/forces.h"
+#include "experiment/markers.h"
 #include "model/model.h"
 
 namespace hapsim {
@@ -15,6 +16,7 @@ struct Simulated {
   Recording recording;          // the motion with the model's forces, marked (mark_simulated())
   double mesh_uncertainty = 0;  // share of the force, the median over the positions
   std::size_t positions = 0;
+  MarkerTable markers;  // where points were asked for
 };
 
 // The motion's forces are given and its displacements are found (traction.h), instead of the other
@@ -24,11 +26,15 @@ enum class Control { kDisplacement, kForce };
 // `motion` as it was read, with its tool's radius. `say` is told what was left out, is beyond what
 // the model is valid for, or how regions relax; may be empty. Torques of the tool (tqx,tqy,tqz) are
 // written where the motion has them or `torques` asks for them; metadata torque_uncertainty is what
-// the meshes leave open of a component, root mean square [N m]. Errors of make_experiment();
-// Error(kBadInput) where torques are asked for that the model does not say (torque_refusal()).
+// the meshes leave open of a component, root mean square [N m]. The displacements of `points` at
+// the table's times, or at all of the motion's where it has none, with marker_uncertainty [m]
+// likewise. Errors of make_experiment();
+// Error(kBadInput) where torques are asked for that the model does not say (torque_refusal()), or
+// points (marker_refusal()).
 Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
                    ExperimentOptions options, const std::function<void(const std::string&)>& say,
-                   Control control = Control::kDisplacement, bool torques = false);
+                   Control control = Control::kDisplacement, bool torques = false,
+                   const MarkerTable* points = nullptr);
 
 // The dataset's recording with the stacked forces `f` of these episodes, zero elsewhere;
 // `mesh_uncertainty` as its metadata, none where it is 0.

@@ -36,6 +36,9 @@ class ElasticBody {
   // body's stiffness condensed to its handles.
   Response solve(const Eigen::MatrixXd& prescribed) const;
 
+  // Displacements (3 nodes x m) [m] by forces on the free nodes [N], the handles held.
+  Eigen::MatrixXd relax(const Eigen::MatrixXd& load) const { return system_.solve(load); }
+
   int handles() const { return handles_; }
   int unknowns() const { return system_.unknowns(); }
   const SolverChoice& solver() const { return choice_; }

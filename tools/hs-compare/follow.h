@@ -14,6 +14,7 @@
 #include "formats/tetmesh_io.h"
 #include "hs-compare/flags.h"
 #include "io/csv.h"
+#include "marked_points.h"
 #include "mesh/tetmesh.h"
 #include "model/model_edit.h"
 #include "prepared_options.h"
@@ -87,8 +88,8 @@ struct WatchedTool {
 inline int run_follow(const Arguments& arguments) {
   for (const AnyFlag& flag : AnyFlags{flag::body, flag::model})
     if (!arguments.given(flag)) fail_usage("--follow needs " + flag, "give it");
-  for (const AnyFlag& flag :
-       AnyFlags{flag::simulated, flag::html, flag::json, flag::ply, flag::fail_above})
+  for (const AnyFlag& flag : AnyFlags{flag::simulated, flag::html, flag::json, flag::ply,
+                                      flag::fail_above, flag::markers, flag::simulated_markers})
     if (arguments.given(flag))
       fail_usage(flag + " is of whole recordings", "leave it out, or --follow");
   Input model_input(arguments[flag::model]);

@@ -16,6 +16,7 @@
 #include "hs-compare/flags.h"
 #include "hs-compare/follow.h"
 #include "hs-compare/specification.h"
+#include "marked_points.h"
 #include "recording/tools_together.h"
 #include "report/figures.h"
 #include "safety/flag_meanings.h"
@@ -88,6 +89,9 @@ int run(const Arguments& arguments) {
       fail_usage(option.flag + " is of a stream", "add --follow, or leave it out");
   if (!arguments.given(flag::simulated))
     fail_usage("--simulated is required", "give forces from hs-simulate, or --follow");
+  if (arguments.given(flag::markers) != arguments.given(flag::simulated_markers))
+    fail_usage("--markers and --simulated-markers go together",
+               "simulate the points: hs-simulate ... --markers seen.csv --markers-out points.csv");
   ErrorLimit limit;
   if (arguments.given(flag::fail_above))
     limit = parse_error_limit(arguments[flag::fail_above], flag::fail_above.name);
@@ -99,7 +103,11 @@ int run(const Arguments& arguments) {
   const Recording measured = read_measured(arguments, input);
   const std::vector<SimulatedVersion> versions = read_versions(arguments, measured);
   const Recording& simulated = versions.back().recording;
-  const Comparison c = compare(measured, simulated);
+  Comparison c = compare(measured, simulated);
+  if (const std::optional<MarkerTable> seen = asked_markers(arguments)) {
+    Input of_model(arguments[flag::simulated_markers]);
+    c.markers = compare_markers(*seen, read_markers(of_model, true));
+  }
 
   ErrorMap map;
   if (arguments.given(flag::body)) {

@@ -6,6 +6,7 @@
 #include "formats/format_table.h"
 #include "hs-compare/flags.h"
 #include "hs-compare/follow.h"
+#include "marked_points.h"
 
 namespace hapsim {
 
@@ -64,6 +65,10 @@ inline ToolSpec compare_specification() {
       "'# torque_at: X Y Z', see hs-identify(1)) they are compared too, with their own noise; a "
       "model that has the forces and misses the torques is said to, and whether the tool seems to "
       "touch at another point.",
+      "With --markers and --simulated-markers displacements of marked points are compared too, "
+      "with "
+      "their own noise, and of each point: a model that has the forces and misses the points is "
+      "said to.",
       "Rows of a stream have a column contact, 0 where the tool is off the body; without it every "
       "row is in contact, and a displacement out of the body pulls. SIGINT or SIGTERM ends the "
       "stream; what was answered until then, or before a bad row, is written."};
@@ -75,6 +80,12 @@ inline ToolSpec compare_specification() {
        .group = "Input",
        .repeatable = true},
       calibration_option("Input"),
+      markers_option("Measured displacements of marked points of the surface "
+                     "(point,t,x,y,z,ux,uy,uz; hs-identify(1))."),
+      {.flag = flag::simulated_markers,
+       .value = "FILE",
+       .help = "The same points by the model, from hs-simulate --markers-out.",
+       .group = "Input"},
       {.flag = flag::html,
        .value = "FILE",
        .help = "Writes the report: one file that needs no network.",

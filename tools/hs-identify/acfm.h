@@ -14,6 +14,7 @@
 #include "hs-identify/plan.h"
 #include "hs-identify/recordings.h"
 #include "io/stream.h"
+#include "marked_points.h"
 #include "mesh/signed_distance.h"
 #include "recording/force_noise.h"
 
@@ -21,11 +22,11 @@ namespace hapsim {
 
 inline int run_acfm(const Arguments& arguments) {
   for (const AnyFlag& flag :
-       AnyFlags{flag::effects,  flag::model,   flag::add,       flag::remove,      flag::diagnosis,
-                flag::fix,      flag::free,    flag::regions,   flag::locations,   flag::image,
-                flag::lumps,    flag::profile, flag::robust,    flag::history,     flag::terms,
-                flag::boundary, flag::library, flag::material,  flag::object,      flag::starts,
-                flag::resume,   flag::until,   flag::constrain, flag::region_names})
+       AnyFlags{flag::effects,  flag::model,   flag::add,       flag::remove,       flag::diagnosis,
+                flag::fix,      flag::free,    flag::regions,   flag::locations,    flag::image,
+                flag::lumps,    flag::profile, flag::robust,    flag::history,      flag::terms,
+                flag::boundary, flag::library, flag::material,  flag::object,       flag::starts,
+                flag::resume,   flag::until,   flag::constrain, flag::region_names, flag::markers})
     if (arguments.given(flag))
       fail_usage(flag + " is of models with effects, and --acfm has none", "leave one of them out");
   ExperimentOptions prepared = preparation_options(arguments);

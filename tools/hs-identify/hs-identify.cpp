@@ -28,6 +28,7 @@
 #include "hs-identify/until.h"
 #include "identify/identify.h"
 #include "linalg/blas.h"
+#include "marked_points.h"
 #include "model/model_edit.h"
 #include "model/model_history.h"
 
@@ -106,6 +107,9 @@ int run(const Arguments& arguments) {
   GivenRecordings given = load_recordings(arguments, plan.start, options);
   require_fit_for(arguments, plan, given.dataset);
   say_together(arguments, "hs-identify", given.dataset.recording);
+  const std::optional<MarkerTable> marker_table = asked_markers(arguments);
+  if (marker_table && arguments.given(flag::data))
+    fail_usage("--markers is of one recording", "fit each recording by itself, or without points");
   RestOfPress rest(arguments, given);
   const TetMesh& body = given.bodies.front();
   const std::unique_ptr<LibraryUse> library =
@@ -115,7 +119,9 @@ int run(const Arguments& arguments) {
   const Experiment w = make_experiment(given.bodies, std::move(given.dataset), options);
   progress.reset();
   for (const std::string& words : left_out_words(w)) say(arguments, "hs-identify", words);
+  const std::optional<Markers> markers = matched(arguments, "hs-identify", marker_table, w);
   FitOptions& fit_options = request.options;
+  fit_options.markers = markers ? &*markers : nullptr;
   fit_options.starts = search.starts;
   fit_options.seed = search.seed;
   fit_options.skip = search.done;

@@ -202,6 +202,9 @@ inline ToolSpec import_specification() {
       "counted. Torques and the orientation are carried through as tx,ty,tz and qw,qx,qy,qz, which "
       "--calibration reads. Torques about the sensor's origin count in hs-identify, hs-compare and "
       "hs-diagnose once the recording says where that lies from the tip, '# torque_at: X Y Z' [m].",
+      "What a camera saw of marked points of the surface is a table of its own beside the "
+      "recording, "
+      "in its frame and by its clock (hs-identify(1), --markers).",
       "Where the table holds the centre of the tool's ball at first contact and the contact point, "
       "their "
       "distance is the ball's radius: tool: sphere and tool_radius are written, and another "

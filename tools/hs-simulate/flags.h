@@ -13,8 +13,9 @@ inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
     uncertainty{"--uncertainty"};
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
 inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
-inline constexpr FileFlag contacts{"--contacts"};
+inline constexpr FileFlag contacts{"--contacts"}, markers_out{"--markers-out"};
 inline constexpr NumberFlag rate{"--rate"}, torque_noise{"--add-torque-noise"};
+inline constexpr LengthFlag marker_noise{"--add-marker-noise"};
 }  // namespace flag
 
 }  // namespace hapsim

@@ -16,6 +16,7 @@
 #include "hs-simulate/live.h"
 #include "hs-simulate/specification.h"
 #include "io/csv.h"
+#include "marked_points.h"
 #include "model/model_edit.h"
 #include "simulate/field_rows.h"
 #include "simulate/full_simulation.h"
@@ -211,6 +212,16 @@ int run(const Arguments& arguments) {
         fail_usage(flag + " is of forces at prepared places, which " + mode + " does without",
                    "leave one of them out; the live mode has torques of a tool that turns, with "
                    "columns thx,thy,thz");
+  for (const AnyFlag& flag : AnyFlags{flag::markers, flag::markers_out, flag::marker_noise}) {
+    if (arguments.given(flag) &&
+        !(arguments.given(flag::markers) && arguments.given(flag::markers_out)))
+      fail_usage("--markers and --markers-out go together", "give both, or none");
+    for (const AnyFlag& mode :
+         AnyFlags{flag::live, flag::own_mesh, flag::full, flag::force_control})
+      if (arguments.given(flag) && arguments.given(mode))
+        fail_usage(flag + " is of meshes of the contacts, which " + mode + " does without",
+                   "leave one of them out");
+  }
   Input file(arguments[flag::model]);
   const std::string bytes = file.read_all();
   Input model_input = Input::from_bytes(bytes, file.name());
@@ -233,6 +244,9 @@ int run(const Arguments& arguments) {
   hand_limits(arguments);
   if (acfm && (arguments.given(flag::torques) || arguments.given(flag::torque_noise)))
     fail_usage("torques are of finite elements, and this model has none", "leave out --torques");
+  if (acfm && arguments.given(flag::markers))
+    fail_usage("marked points are of finite elements, and this model has none",
+               "leave out --markers");
   if (acfm) return run_acfm(arguments, *acfm);
   if (arguments[flag::full]) return run_full_mode(arguments, model);
   if (arguments[flag::own_mesh]) return run_own_mesh(arguments, model);
@@ -242,13 +256,14 @@ int run(const Arguments& arguments) {
   const Control control = arguments[flag::force_control] ? Control::kForce : Control::kDisplacement;
   Recording motion = load_recording(arguments, arguments.input(), control == Control::kForce);
   const bool measured = control == Control::kDisplacement && !motion.f.empty();
+  const std::optional<MarkerTable> points = asked_markers(arguments, false);
   Simulated simulated = simulate(
       body, model, std::move(motion), options,
       [&](const std::string& words) {
         progress.reset();
         say(arguments, "hs-simulate", words);
       },
-      control, arguments[flag::torques]);
+      control, arguments[flag::torques], points ? &*points : nullptr);
   progress.reset();
   Recording& out = simulated.recording;
   Summary summary = simulated_summary(arguments, out.rows(), effects_label(model), measured);
@@ -260,6 +275,15 @@ int run(const Arguments& arguments) {
                     out.rows(), simulated.positions, 100 * simulated.mesh_uncertainty)}}};
   summary.values.push_back({"positions", static_cast<double>(simulated.positions), "1"});
   summary.values.push_back({"mesh_uncertainty", simulated.mesh_uncertainty, "1"});
+  if (points) {
+    if (arguments.given(flag::marker_noise))
+      add_marker_noise(simulated.markers, arguments[flag::marker_noise],
+                       static_cast<std::uint64_t>(arguments[flag::seed]));
+    Output markers(arguments[flag::markers_out]);
+    write_markers(markers.stream(), simulated.markers);
+    markers.commit();
+    summary.values.push_back({"marker_rows", static_cast<double>(simulated.markers.rows()), "1"});
+  }
   write_simulated(arguments, effects_label(model), out);
   tell_answer(arguments, summary);
   return 0;

@@ -4,6 +4,7 @@
 #include "answer.h"
 #include "common_options.h"
 #include "hs-simulate/flags.h"
+#include "marked_points.h"
 #include "prepared_options.h"
 
 namespace hapsim {
@@ -30,6 +31,14 @@ inline ToolSpec simulate_specification() {
       "model does not say what they are, torques of the motion are left out, with a line that "
       "says why. The live mode's are those of a half-space beside them: the same far from edges "
       "and regions.",
+      "Displacements of marked points of the surface (--markers, --markers-out) are those of the "
+      "contacts' meshes, interpolated in their surface elements, at the times of the table, or at "
+      "all of the motion where it has points alone (point,x,y,z). They are of a flat tool that "
+      "does not turn "
+      "and moves as given, on a body that is linear, relaxes by one law and has no layers or "
+      "inclusions; another model is refused. The table's metadata marker_uncertainty is what the "
+      "two meshes "
+      "leave open of a component, root mean square over the rows [m].",
       "With --live every motion line is answered by its force line at once, from a body prepared "
       "beforehand: its stiffness is sampled on contact meshes as those of the batch mode, where "
       "edges, curvature, thin parts, the support and regions ask for it, and interpolated by a "
@@ -155,6 +164,21 @@ inline ToolSpec simulate_specification() {
                           .value = "N",
                           .help = "Adds Gaussian noise of this standard deviation [N m] to every "
                                   "torque component and declares it as torque_noise.",
+                          .group = "Output",
+                          .minimum = 0});
+  spec.options.push_back(
+      markers_option("Marked points of the surface (point,x,y,z, or a table as hs-identify(1) "
+                     "takes it, whose times are then kept).",
+                     "Output"));
+  spec.options.push_back({.flag = flag::markers_out,
+                          .value = "FILE",
+                          .help = "Writes their displacements by the model.",
+                          .group = "Output",
+                          .writes = kTableExtensions});
+  spec.options.push_back({.flag = flag::marker_noise,
+                          .value = "M",
+                          .help = "Adds Gaussian noise of this standard deviation [m] to every "
+                                  "component of these and declares it as marker_noise.",
                           .group = "Output",
                           .minimum = 0});
   spec.options.push_back({.flag = flag::seed,
