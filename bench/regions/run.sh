@@ -21,10 +21,12 @@ mkdir -p "$out/found"
 if [[ ${HAPSIM_SOLVE:-yes} == yes ]]; then /usr/bin/python3 "$here/solve.py" "$out" "${names[@]%-[0-9]}" >&2; fi
 /usr/bin/python3 "$here/record.py" "$out" "${names[@]}"
 [[ -e $out/cuboid.ply ]] || "$bin/hs-tetmesh" -q "$out/cuboid.stl" -o "$out/cuboid.ply"
-# identify FROM FLAGS... TO: OUT/found/TO, which is there whole or not at all.
+# identify FLAGS... TO: OUT/found/TO, there when it has ended well (interrupted, hs-identify leaves the best so far).
 identify() {
   local to=$out/found/${!#}
-  [[ -e $to ]] || nice "$bin/hs-identify" -q "${@:1:$#-1}" --body "$out/cuboid.ply" --folds 0 --threads 1 -o "$to"
+  [[ -e $to ]] && return
+  nice "$bin/hs-identify" -q "${@:1:$#-1}" --body "$out/cuboid.ply" --folds 0 --threads 1 -o "$to.part.csv" &&
+    mv "$to.part.csv" "$to"
 }
 for name in "${names[@]}"; do
   nu=0.4
