@@ -19,16 +19,17 @@ Mesh.MshFileVersion = 2.2;
 """
 
 
-def geometry(body, place, radius, rim, growth, fine, skin):
+def geometry(body, place, radius, rim, growth, fine, skin, more=""):
     """Gmsh's script [mm]; edge length `rim` at the tool's rim, growing by `growth` per length;
     `fine`: (middle, radius, edge length) of a ball to be resolved as well; `skin`: thickness of one whose
-    inner face is imprinted, 0 for none."""
+    inner face is imprinted, 0 for none; `more`: an edge length [mm] as a formula of x, y, z that is kept as well."""
     p, n = place
     a, b = p - 2 * radius * n, 4 * radius * n
     away = "((x-(%.9g))*(%.9g)+(y-(%.9g))*(%.9g)+(z-(%.9g))*(%.9g))" % (p[0], n[0], p[1], n[1], p[2], n[2])
     square = "((x-(%.9g))^2+(y-(%.9g))^2+(z-(%.9g))^2)" % tuple(p)
     aside = "sqrt(abs(%s-%s^2))" % (square, away)
     size = "%g+%g*sqrt((%s-%g)^2+%s^2)" % (rim, growth, aside, radius, away)
+    extra = 'Field[4] = MathEval;\nField[4].F = "%s+0.25*sqrt(%s)";\n' % (more, square) if more else ""
     parts = "BooleanFragments{ Volume{1}; Delete; }{ Volume{part()}; Delete; }"
     if skin:
         parts = bodies.shape(body, skin, 50) + parts.replace("part()", "part(), 50")
@@ -46,10 +47,10 @@ Field[2].ZCenter = %g;
 Field[2].Radius = %g;
 Field[2].VIn = %g;
 Field[2].VOut = 14;
-Field[3] = Min;
-Field[3].FieldsList = {1, 2};
+%sField[3] = Min;
+Field[3].FieldsList = {1, 2%s};
 Background Field = 3;
-""" % (bodies.shape(body), *a, *b, radius, parts, size, *fine[0], *fine[1:]) + SETTINGS
+""" % (bodies.shape(body), *a, *b, radius, parts, size, *fine[0], *fine[1:], extra, ", 4" if more else "") + SETTINGS
 
 
 def read_msh(name):
@@ -99,9 +100,10 @@ def rim_nodes(triangles):
 class Mesh:
     """nodes (n, 3) [mm], tets (m, 10), volumes (m), patch and bottom: indices of nodes."""
 
-    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5, skin=0.0, quarter_points=False):
+    def __init__(self, body, place, radius, folder, fine, rim=0.42, growth=0.5, skin=0.0, more="",
+                 quarter_points=False):
         script, result = folder / "mesh.geo", folder / "mesh.msh"
-        script.write_text(geometry(body, place, radius, rim, growth, fine, skin))
+        script.write_text(geometry(body, place, radius, rim, growth, fine, skin, more))
         done = subprocess.run(["gmsh", script, "-3", "-o", result, "-v", "2", "-nt", "1"], capture_output=True, text=True)
         if done.returncode != 0 or not result.exists():
             raise RuntimeError("gmsh failed on %s: %s" % (script, done.stdout + done.stderr))

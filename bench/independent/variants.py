@@ -16,6 +16,15 @@ INCLUSION = {
 SKIN = {"cuboid": (2.5, 5.0), "ball": (2.0, 8.0), "organ": (3.0, 0.3)}  # thickness [mm], ratio
 FIBRES = {"cuboid": (2.6, (1, 0, 0)), "ball": (2.6, (0.6, 0.0, 0.8)), "organ": (0.45, (0, 1, 0))}
 STIFFER = {"cuboid": 2.0, "ball": 1.7, "organ": 2.5}
+# Two regions by a curve in plan view: what is positive (n) of x, y [mm] in the stiffer one, the ratio of the
+# moduli, Poisson's ratio, and the same for Gmsh's fields.
+TWO_PARTS = {
+    "straight": (lambda x, y: y - 100, 2.0, 0.30, "(y-100)"),
+    "s-across": (lambda x, y: y - 105 - 20 * np.sin(2 * np.pi * x / 120), 2.0, 0.40,
+                 "(y-105-20*sin(2*3.14159265*x/120))"),
+    "s-along": (lambda x, y: x - 60 - 18 * np.sin(2 * np.pi * y / 160 + 0.6), 2.5, 0.40,
+                "(x-60-18*sin(2*3.14159265*y/160+0.6))"),
+}
 
 
 def stiffer_part(body, x):
@@ -37,7 +46,8 @@ def axes(direction):
 
 def build(name, body, mesh):
     """(materials, fixed nodes, orientation) for calculix.stiffness."""
-    every, nu = np.arange(len(mesh.tets)), POISSON[body]
+    every = np.arange(len(mesh.tets))
+    nu = TWO_PARTS[name][2] if name in TWO_PARTS else POISSON[body]
 
     def two_parts(inside, ratio):
         return [(calculix.isotropic("A", MODULUS, nu), every[~inside]),
@@ -47,6 +57,9 @@ def build(name, body, mesh):
         return [(calculix.isotropic("A", MODULUS, nu), every)], mesh.bottom, ""
     if name == "regions":
         return two_parts(stiffer_part(body, mesh.centroids), STIFFER[body]), mesh.bottom, ""
+    if name in TWO_PARTS:
+        level, ratio, _, _ = TWO_PARTS[name]
+        return two_parts(level(*mesh.centroids[:, :2].T) > 0, ratio), mesh.bottom, ""
     if name == "layer":
         # The mesh has the skin's inner face: whole volumes are on one side of it.
         thickness, ratio = SKIN[body]

@@ -18,9 +18,9 @@ class Regions : public Effect {
             "after thesis 3.5 (regions on one mesh) and 5.2 (regions from location samples); "
             "nearest-neighbour classification: Cover and Hart, 1967",
         .assumptions =
-            "regions reach through the whole depth; of two regions the boundary is straight, bent "
-            "or round where the moduli of the positions along it agree with that, else it lies "
-            "half-way between positions of different regions",
+            "regions reach through the whole depth; of two regions the boundary is straight, bent, "
+            "round or another smooth curve where the moduli of the positions along it agree with "
+            "that, else it lies half-way between positions of different regions",
         .parameters =
             {{"x", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},
              {"y", "m", "key point of the region, plan view", 0, 0, -10, 10, 0.01, false},

@@ -11,28 +11,7 @@
 namespace hapsim {
 namespace {
 
-constexpr int kKeyPoints = 8, kOldBoundaryPoints = 20000;  // of a boundary
-
-// One E a region, given by its logarithm over the fitted one.
-Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
-  Model model = fitted;
-  const Parameter modulus = *modulus_of(fitted);
-  std::erase_if(model.parameters, [](const Parameter& p) { return is_modulus(p) && p.region > 0; });
-  for (std::size_t r = 0; r < log_gain.size(); ++r) {
-    const int region = static_cast<int>(r);
-    const double value = modulus.value * std::exp(log_gain[r]);
-    if (Parameter* row = modulus_of(model, region)) {
-      row->value = value;
-      continue;
-    }
-    Parameter added = modulus;
-    added.region = region;
-    added.value = value;
-    const auto last = std::find_if(model.parameters.rbegin(), model.parameters.rend(), is_modulus);
-    model.parameters.insert(last.base(), added);
-  }
-  return model;
-}
+constexpr int kOldBoundaryPoints = 20000;  // of a boundary
 
 Model with_labels(const Model& fitted, const std::vector<LocationSample>& samples,
                   const std::vector<int>& label) {
@@ -61,12 +40,32 @@ std::optional<Model> with_boundary(const Model& fitted, const RegionBoundary& bo
       low + Eigen::Vector2d(grid.columns * grid.step_x, grid.rows * grid.step_y);
   const auto lines = class_boundaries(boundary.side, low, high, kOldBoundaryPoints);
   if (lines.empty()) return std::nullopt;
-  place_key_points(model, boundary.side, lines, kKeyPoints);
+  place_key_points(model, boundary.side, lines, boundary.keys);
   if (material_of(model).key_point.size() < 2) return std::nullopt;
   return model;
 }
 
 }  // namespace
+
+Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
+  Model model = fitted;
+  const Parameter modulus = *modulus_of(fitted);
+  std::erase_if(model.parameters, [](const Parameter& p) { return is_modulus(p) && p.region > 0; });
+  for (std::size_t r = 0; r < log_gain.size(); ++r) {
+    const int region = static_cast<int>(r);
+    const double value = modulus.value * std::exp(log_gain[r]);
+    if (Parameter* row = modulus_of(model, region)) {
+      row->value = value;
+      continue;
+    }
+    Parameter added = modulus;
+    added.region = region;
+    added.value = value;
+    const auto last = std::find_if(model.parameters.rbegin(), model.parameters.rend(), is_modulus);
+    model.parameters.insert(last.base(), added);
+  }
+  return model;
+}
 
 Model with_regions(const Fit& base, const Experiment& experiment, const Selection& selection,
                    const ExtendOptions& options) {
@@ -80,7 +79,8 @@ Model with_regions(const Fit& base, const Experiment& experiment, const Selectio
       share.push_back(experiment.places.contact(static_cast<std::size_t>(s.position)).plan_share);
     const PlanGrid grid = experiment.places.setup(0)->grid();
     const auto boundary = find_boundary(samples, share, grid);
-    if (boundary && boundary->criterion < labels.criterion)
+    const bool more = *std::max_element(labels.label.begin(), labels.label.end()) > 1;
+    if (boundary && boundary->criterion < labels.criterion + (more ? kStrongEvidence : 0))
       if (auto model = with_boundary(base.model, *boundary, grid)) return *model;
   }
   Model model = with_labels(base.model, samples, labels.label);

@@ -7,8 +7,11 @@ namespace hapsim {
 
 // Rows of E by region and of key points. With kAutomaticRegions either regions of nearest
 // positions, as many as their moduli ask for, or two with a boundary (find_boundary()), by the
-// information criterion.
+// information criterion; more than two must be better by kStrongEvidence.
 Model with_regions(const Fit& fitted, const Experiment& experiment, const Selection& selection,
                    const ExtendOptions& options);
+
+// One E a region, given by its logarithm over the fitted one.
+Model with_moduli(const Model& fitted, const std::vector<double>& log_gain);
 
 }  // namespace hapsim

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "cluster/clustering.h"
 #include "effects/catalogue.h"
@@ -68,6 +70,25 @@ std::vector<LocationSample> merged_places(const std::vector<LocationSample>& sam
   return merged;
 }
 
+double labels_criterion(const std::vector<LocationSample>& samples, const std::vector<int>& label) {
+  const std::size_t n = samples.size();
+  std::map<int, std::pair<double, double>> sums;  // by label: of weights, of weighted values
+  const auto weight = [&](std::size_t i) {
+    return std::pow(samples[i].gain / samples[i].error, 2);
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    sums[label[i]].first += weight(i);
+    sums[label[i]].second += weight(i) * std::log(samples[i].gain);
+  }
+  double criterion = 2 * static_cast<double>(sums.size()) *
+                     std::log(static_cast<double>(std::max<std::size_t>(1, n)));
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& [w, sum] = sums[label[i]];
+    criterion += weight(i) * std::pow(std::log(samples[i].gain) - sum / w, 2);
+  }
+  return criterion;
+}
+
 RegionLabels region_labels(const std::vector<LocationSample>& samples, int count, int most) {
   const int n = static_cast<int>(samples.size());
   RegionLabels best;
@@ -84,16 +105,7 @@ RegionLabels region_labels(const std::vector<LocationSample>& samples, int count
   const int largest = count == kAutomaticRegions ? std::max(2, std::min(most, n / 2)) : fewest;
   for (int k = fewest; k <= largest; ++k) {
     const std::vector<int> label = ward_clusters(value, error, k);
-    std::vector<double> weight(k, 0), mean(k, 0);
-    for (int i = 0; i < n; ++i) {
-      weight[label[i]] += 1 / (error[i] * error[i]);
-      mean[label[i]] += value[i] / (error[i] * error[i]);
-    }
-    double criterion = 2 * k * std::log(n);
-    for (int i = 0; i < n; ++i) {
-      const double d = (value[i] - mean[label[i]] / weight[label[i]]) / error[i];
-      criterion += d * d;
-    }
+    const double criterion = labels_criterion(samples, label);
     if (k == fewest || criterion < best.criterion) best = {label, criterion};
   }
   return best;

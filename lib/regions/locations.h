@@ -32,6 +32,8 @@ struct RegionLabels {
   double criterion = 0;
 };
 RegionLabels region_labels(const std::vector<LocationSample>& samples, int count, int most);
+// The criterion of such labels that are given.
+double labels_criterion(const std::vector<LocationSample>& samples, const std::vector<int>& label);
 constexpr int kAutomaticRegions = 0;
 constexpr int kEverySite = -1;
 

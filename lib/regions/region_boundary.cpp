@@ -5,6 +5,8 @@
 #include <functional>
 #include <limits>
 
+#include "regions/curve_search.h"
+
 namespace hapsim {
 namespace {
 
@@ -15,10 +17,8 @@ constexpr int kAngles = 24, kOffsets = 16;  // of the straight lines tried
 constexpr int kMoves = 200;                 // of the search from the best of them
 // Each side must hold so much of the strain energy at some position, or its modulus is anything.
 constexpr double kMostlyThere = 0.6;
-// Difference of the criterion from which a boundary that is not straight is believed: strong
-// evidence (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995).
-constexpr double kStrong = 6;
-constexpr float kTrace = 1e-5f;  // of the strain energy, in a cell that does not count
+constexpr int kCurvePoints = 24;  // that draw a curve of any shape
+constexpr float kTrace = 1e-5f;   // of the strain energy, in a cell that does not count
 // What the geometric mean of two moduli may err, of the difference from the arithmetic one.
 constexpr double kMixing = 0.2;
 
@@ -184,8 +184,14 @@ std::optional<RegionBoundary> find_boundary(const std::vector<LocationSample>& s
   for (const Search::Found& found : all) {
     if (found.shape.size() == 0 || !std::isfinite(found.squares)) continue;
     RegionBoundary boundary = search.result(found);
-    if (!best || boundary.criterion < best->criterion - kStrong) best = std::move(boundary);
+    if (!best || boundary.criterion < best->criterion - kStrongEvidence) best = std::move(boundary);
   }
+  const auto curve = find_curve(samples, share, grid, best ? best->side : PlaneClassifier());
+  if (curve && (!best || curve->criterion < best->criterion - kStrongEvidence))
+    best = RegionBoundary{[curve = *curve](const PlanPoint& p) { return curve.region(p); },
+                          {curve->log_gain[0], curve->log_gain[1]},
+                          kCurvePoints,
+                          curve->criterion};
   return best;
 }
 

@@ -15,7 +15,9 @@ inline Option boundary_flag() {
           .help =
               "Refines the boundaries between the regions in turn with their moduli: N key "
               "points along each move across it, as the forces along and across the surface "
-              "ask.",
+              "ask. Between two regions (or more that explain the positions no better than "
+              "two) it is any smooth curve, drawn by 24 points or more; how much it may "
+              "bend is chosen by what the positions tell.",
           .group = "Fit",
           .minimum = 2,
           .maximum = 100};

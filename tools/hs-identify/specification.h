@@ -208,7 +208,8 @@ inline ToolSpec identify_specification() {
       {.flag = flag::regions,
        .value = "N",
        .help = "Number of regions when regions is added: a number, auto (what the positions' own "
-               "moduli ask for) or sites (each position its own stiffness).",
+               "moduli ask for; two with a straight, round or other smooth boundary unless more "
+               "are told clearly) or sites (each position its own stiffness).",
        .group = "Model",
        .default_text = "auto"},
       until_flag(),
