@@ -14,7 +14,7 @@ namespace {
 constexpr double kTemper = 15;
 constexpr double kMissingAlone = 0.96, kMissingAndMore = 0.85;  // by whether noise alone is left
 constexpr double kSetHolds = 0.95;
-constexpr double kPossible = 0.05, kAbsent = 0.002;
+constexpr double kPossible = 0.08, kAbsent = 0.002;
 
 // By the shape of the body, which is no effect.
 bool is_doubted(const Finding& f) {
