@@ -40,7 +40,8 @@ std::vector<Unknown> unknowns(const Model& model) {
 
 void set_standard_errors(Fit& result, const LeastSquaresResult& solution, const Signal& signal,
                          const Experiment& experiment, const Selection& selection,
-                         const FitOptions& options, double variance) {
+                         const FitOptions& options, double variance,
+                         const Eigen::VectorXd& shared) {
   // The robust covariance has the misfit in it.
   Eigen::MatrixXd covariance =
       options.robust == RobustLoss::kNone ? variance * solution.covariance : solution.covariance;
@@ -56,15 +57,8 @@ void set_standard_errors(Fit& result, const LeastSquaresResult& solution, const 
                                       (options.noise * options.noise);
       covariance += through * through.transpose();
     }
-    // Mesh, surface and tool err alike at all positions too, and that no number of them averages
-    // away: on bodies of another solver all of E was 0.2 to 1.8 % off. One position has it in its
-    // own.
-    if (blocks.size() > 1) {
-      const Eigen::VectorXd alike = solution.covariance * (signal.df.transpose() * signal.f) *
-                                    options.floor / (options.noise * options.noise);
-      covariance += alike * alike.transpose();
-    }
   }
+  covariance += shared * shared.transpose();
   const std::vector<int> free = result.model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c) {
     Parameter& p = result.model.parameters[free[c]];

@@ -12,10 +12,11 @@ namespace hapsim {
 std::vector<Unknown> unknowns(const Model& model);
 
 // From the noise (or the misfit: `variance` over the noise's), the gain error of each position and
-// the doubt of a ball's law; names what is at its bound and what the data cannot tell.
+// the doubt of a ball's law; `shared`: what the parameters follow of what all positions err by.
+// Names what is at its bound and what the data cannot tell.
 void set_standard_errors(Fit& result, const LeastSquaresResult& solution, const Signal& signal,
                          const Experiment& experiment, const Selection& selection,
-                         const FitOptions& options, double variance);
+                         const FitOptions& options, double variance, const Eigen::VectorXd& shared);
 
 // Combinations of parameters that the data do not see; J: derivatives over the noise.
 void tell_what_is_not_seen(Fit& result, const Eigen::MatrixXd& J, double noise);

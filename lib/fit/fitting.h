@@ -1,0 +1,86 @@
+// One fit under way.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "estimate/least_squares.h"
+#include "estimate/under_constraints.h"
+#include "fit/fit.h"
+#include "fit/marker_rows.h"
+#include "fit/torque_rows.h"
+
+namespace hapsim {
+
+// The model as far as it has come, and the bodies about its material.
+class Fitting {
+ public:
+  Fitting(const Model& start, const Experiment& experiment, const Selection& selection,
+          const FitOptions& options, const Linearisation& known,
+          const std::vector<SmoothConstraint>& constraints = {});
+
+  void search();
+  // What is told of where the search has ended.
+  Fit end();
+
+  // Where it has ended, before that.
+  const Model& model() const { return result_.model; }
+  const Linearisation& about() const { return result_.about; }
+  bool stopped() const { return result_.stopped; }
+  bool converged() const { return solution_.converged && !result_.stopped; }
+  double told_error() const;
+
+ private:
+  void minimise_all();
+  // The field that the places ask for beside all else, and all else beside that field, in turn.
+  void minimise_with_field();
+  // Residuals over the noise, and their derivatives, of the model with these values.
+  ResidualFunction residuals_of(Model model) const;
+  // Of the residuals, forces, torques and points.
+  Eigen::Index rows() const { return measured_.size() + torques_.size() + marked_.size(); }
+  // Tells the watch; false when the fit is to end.
+  bool go_on(double sum);
+  void keep_search(const LeastSquaresResult& best, int starts_done) const;
+  std::vector<Unknown> open_within(double reach) const;
+  void take(LeastSquaresResult solution);
+  // From many starts, once: later rounds improve on the valley found.
+  void search_valleys();
+  // Within the bounds, and the constraints where there are any.
+  LeastSquaresResult solve(const std::vector<Unknown>& open, const ResidualFunction& residuals,
+                           const LeastSquaresOptions& search = {});
+  // All unknowns; those that the body is linear in by no more than `reach` (within_reach()).
+  void minimise_within(double reach);
+  // The sum of squares with the bodies solved for the model's material. What needs no solution is
+  // fitted anew: a modulus too large or too small for a new body must not hide that the body has
+  // become better.
+  double solved_sum();
+  // The finite elements are solved again about each fit; a fit that their solution does not confirm
+  // is taken back and tried again closer by (a trust region).
+  void minimise_in_rounds();
+  // What the parameters follow of a gain of `floor` that all positions share: mesh, surface and
+  // tool err alike everywhere too, and that no number of positions averages away (on bodies of
+  // another solver all of E was 0.2 to 1.8 % off). One position has it in its own.
+  Eigen::VectorXd by_gain_of_all(const Signal& signal) const;
+  // What the active ones cost, and what they leave to be known.
+  void tell_constraints(const Eigen::MatrixXd& J, double variance);
+
+  const Experiment& experiment_;
+  const Dataset& dataset_;
+  const Selection& selection_;
+  const FitOptions& options_;
+  const std::vector<SmoothConstraint> constraints_;
+  const Eigen::VectorXd measured_;
+  const bool has_offsets_, learns_field_;
+  TorqueRows torques_;
+  MarkerRows marked_;
+  std::optional<Weights> force_weights_;
+  bool is_linearised_ = false;
+  FitProgress progress_;
+  LeastSquaresOptions search_;
+  bool from_many_;
+  LeastSquaresResult solution_;
+  UnderConstraints under_;  // of the last search, where there are constraints
+  Fit result_;
+};
+
+}  // namespace hapsim
