@@ -46,7 +46,7 @@ void measure_noise(const MarkerTable& table, MarkerComparison& c) {
       as_forces.f.push_back(table.u[row]);
     }
   }
-  c.noise = std::max(measure_force_noise(as_forces).sigma, 1e-4 * c.size);
+  c.noise = std::max({measure_force_noise(as_forces).sigma, 1e-4 * c.size, 1e-9});
   c.noise_origin = "measured from the data";
 }
 

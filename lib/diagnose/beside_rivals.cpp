@@ -94,10 +94,11 @@ void take_what_is_shared(const BesideRivals& found, const TrialGround& g, const 
     if (model.has(name)) remove_effect(model, name);
   if (!shared.empty()) base = make_baseline(model, g, folds);
   const auto add = [&](const std::string& name, Verdict verdict) {
-    for (const Branch& branch : found.branches)
-      for (Finding f : branch.d.findings) {
+    for (std::size_t b = 0; b < found.branches.size(); ++b)
+      for (Finding f : found.branches[b].d.findings) {
         if (f.effect != name || f.verdict != Verdict::kMissing) continue;
         f.verdict = verdict;
+        if (verdict == Verdict::kPossible) f.beside = found.ends.findings[b].effect;
         d.findings.push_back(f);
         return;
       }

@@ -179,6 +179,8 @@ Diagnosis in_doubt_of_shape(const Model& model, const Experiment& e, const Allow
       "the data cannot tell {} from a wrong shape of the body: scan it again, or touch it where it "
       "is pressed.",
       doubted);
+  for (const std::string& other : {d.torque.words, d.marker.words})
+    if (!other.empty()) d.explanation += " " + other;
   return d;
 }
 
@@ -187,7 +189,8 @@ Diagnosis in_doubt_of_shape(const Model& model, const Experiment& e, const Allow
 Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& allowance,
                    const DiagnoseOptions& options) {
   Diagnosis d = in_doubt_of_shape(model, e, allowance, options);
-  set_probabilities(d);
+  // The trials by which they are told have many presses.
+  if (e.dataset.episodes.size() >= kLeastPresses) set_probabilities(d);
   return d;
 }
 

@@ -56,6 +56,7 @@ struct Finding {
   double share = 0;        // of the misfit beyond noise
   double share_among = 1;  // of those that passed beside it (diagnose/probability.h)
   double probability = std::numeric_limits<double>::quiet_NaN();  // that it acts; NaN: not tested
+  std::string beside;  // a rival beside which alone it was found missing
   std::vector<std::string> confused_with;
   std::string where, evidence, next_measurement;
   std::vector<FittedValue> values;

@@ -33,23 +33,29 @@ double share_among(const Finding& first, const std::vector<const Finding*>& othe
 }
 
 void set_probabilities(Diagnosis& d) {
+  const double missing = d.left.noise_alone() ? kMissingAlone : kMissingAndMore;
   std::vector<const Finding*> rivals;
   for (const Finding& f : d.findings)
-    if (f.verdict == Verdict::kIndistinguishable) rivals.push_back(&f);
+    if (f.verdict == Verdict::kIndistinguishable && !is_doubted(f)) rivals.push_back(&f);
+  const auto among_rivals = [&](const Finding& f) {
+    std::vector<const Finding*> others = rivals;
+    std::erase(others, &f);
+    return kSetHolds * share_among(f, others);
+  };
   for (Finding& f : d.findings) {
     switch (f.verdict) {
       case Verdict::kMissing:
-        f.probability = f.share_among * (d.left.noise_alone() ? kMissingAlone : kMissingAndMore);
+        f.probability = f.share_among * missing;
         break;
-      case Verdict::kIndistinguishable: {
-        std::vector<const Finding*> others = rivals;
-        std::erase(others, &f);
-        f.probability = kSetHolds * share_among(f, others) * (is_doubted(f) ? 0.5 : 1);
+      case Verdict::kIndistinguishable:
+        f.probability = is_doubted(f) ? kSetHolds / 2 : among_rivals(f);
+        break;
+      case Verdict::kPossible: {
+        const auto rival = std::find_if(rivals.begin(), rivals.end(),
+                                        [&](const Finding* r) { return r->effect == f.beside; });
+        f.probability = rival == rivals.end() ? kPossible : missing * among_rivals(**rival);
         break;
       }
-      case Verdict::kPossible:
-        f.probability = kPossible;
-        break;
       case Verdict::kAbsent:
         f.probability = kAbsent;
         break;

@@ -16,9 +16,9 @@ double share_among(const Finding& first, const std::vector<const Finding*>& othe
 
 // Sets Finding::probability: that the effect acts (of a curve of no law, that the cause is of its
 // kind), NaN where it was not tested. One of a set that cannot be told apart has its share of what
-// such sets hold; the others have what verdicts like theirs were worth in the trials of
-// bench/diagnosis, in which each was drawn as often as any other: a user who knows better knows
-// better.
+// such sets hold; what was found beside one of them alone has that one's as well; the others have
+// what verdicts like theirs were worth in the trials of bench/diagnosis, in which each was drawn as
+// often as any other: a user who knows better knows better.
 void set_probabilities(Diagnosis& d);
 
 // For --help and the man page.

@@ -78,9 +78,11 @@ Noise noise_of(const MarkerTable& table, const Markers& markers, const Dataset& 
     add_off_line(sums, squares, free);
     all += sums.yy;
   }
+  if (!(free > 0))
+    fail_input(table.name, "too few rows of each point at a place to tell the points' noise from",
+               "declare it: # marker_noise: 20e-6 (standard deviation of a component [m])");
   const double least = 1e-4 * std::sqrt(all / (3 * static_cast<double>(markers.rows)));
-  return {std::max({free > 0 ? std::sqrt(squares / free) : 0, least, 1e-9}), true,
-          "measured from the data"};
+  return {std::max({std::sqrt(squares / free), least, 1e-9}), true, "measured from the data"};
 }
 
 }  // namespace
@@ -138,7 +140,7 @@ Markers match_markers(const MarkerTable& table, const Experiment& w) {
   markers.points = table.rest;
   markers.sums.assign(dataset.episodes.size(), std::vector<MarkerSums>(table.points.size()));
   const PressClock clock(table, dataset);
-  std::size_t outside = 0, air = 0, under = 0;
+  std::size_t outside = 0, air = 0, under = 0, still = 0;
   double farthest = 0, tool = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const PressTime at = clock.of_row(row);
@@ -159,6 +161,10 @@ Markers match_markers(const MarkerTable& table, const Experiment& w) {
       continue;
     }
     const Vec3 u = clock.displacement(at);
+    if (u.isZero(0)) {
+      ++still;
+      continue;
+    }
     const Vec3& y = table.u[row];
     MarkerSums& sums = markers.sums[e][m];
     ++sums.rows;
@@ -170,10 +176,14 @@ Markers match_markers(const MarkerTable& table, const Experiment& w) {
     ++markers.rows;
   }
   if (markers.rows == 0)
-    fail_input(table.name,
-               fmt::format("none of {} is at a time of a press in {}",
-                           counted(table.rows(), "row", "rows"), r.name),
-               "give times by the recording's clock, in s or with the unit in the header (t_ms)");
+    fail_input(
+        table.name,
+        fmt::format("none of {} counts: {} at no time of a press in {}, {} with the tool in the "
+                    "air, {} of points under it, {} before it has moved",
+                    counted(table.rows(), "row", "rows"), outside, r.name, air, under, still),
+        outside > 0
+            ? "give times by the recording's clock, in s or with the unit in the header (t_ms)"
+            : "give points beside the tool while it presses");
   if (farthest > kMostOverTool * tool + 10 * table.noise().value_or(0))
     fail_input(
         table.name,
@@ -184,7 +194,7 @@ Markers match_markers(const MarkerTable& table, const Experiment& w) {
         "ux_mm,uy_mm,uz_mm");
   markers.noise = noise_of(table, markers, dataset);
   markers.words.push_back(
-      fmt::format("{} of {} of {} count", markers.rows, counted(table.rows(), "row", "rows"),
+      fmt::format("{} of {} of {} matched", markers.rows, counted(table.rows(), "row", "rows"),
                   counted(table.points.size(), "marked point", "marked points")));
   const auto not_counted = [&](std::size_t count, const char* why) {
     if (count > 0)
@@ -194,6 +204,7 @@ Markers match_markers(const MarkerTable& table, const Experiment& w) {
   not_counted(outside, "at no time of a press that counts");
   not_counted(air, "the tool is in the air");
   not_counted(under, "the point is under the tool");
+  not_counted(still, "the tool has not moved");
   return markers;
 }
 

@@ -38,10 +38,12 @@ struct BoundaryFit {
 // weights of the components: across the surface, where the boundary shows, the force is small and
 // so is what it may err. Each shift is drawn to 0 by the error of a boundary that is only known to
 // lie between presses, half their spacing, and stays within one spacing, thesis (5.43).
-// Two regions, or more where the positions' own moduli are explained as well by two, have any smooth
-// curve between them instead (find_curve()), drawn by 24 key points at least: its level and the two
-// moduli are what is fitted, and how much its modes vary is chosen anew after each round.
-// One setup only. Error(kBadInput): no boundary between the regions of the model lies on the body.
+// Two regions, or more where the positions' own moduli are explained as well by two, have any
+// smooth curve between them instead (find_curve()), drawn by 24 key points at least, where their
+// moduli are free and no constraints bind them: its level and the two moduli are what is fitted,
+// and how much its modes vary is chosen anew after each round. The softer of two regions stays the
+// one it was; of more, the names are gone. One setup only. Error(kBadInput): no boundary between
+// the regions of the model lies on the body.
 BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, const TetMesh& mesh,
                               const BoundaryOptions& options);
 

@@ -55,6 +55,7 @@ void MovingCurve::known(const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::Mat
     slope += near * steep;
     by += near / steep * (g.transpose() * basis);
   }
+  // The weights are taken for constant in J: it pins a scale that nothing else depends on.
   r[modes] = (slope / weight - 1) / kPinned;
   J.row(modes) = by / (weight * kPinned);
 }

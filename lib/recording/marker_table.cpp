@@ -29,9 +29,9 @@ struct UnitColumn {
 };
 
 UnitColumn find_with_unit(const CsvTable& table, const std::string& name, Quantity quantity) {
+  if (const int exact = table.find(name); exact >= 0) return {exact, 1};
   for (std::size_t c = 0; c < table.header.size(); ++c) {
     const std::string& head = table.header[c];
-    if (head == name) return {static_cast<int>(c), 1};
     if (head.compare(0, name.size(), name) != 0) continue;
     std::string unit = head.substr(name.size());
     if (unit.find_first_of("_ [(") != 0) continue;
@@ -147,6 +147,10 @@ void write_markers(std::ostream& out, const MarkerTable& table) {
 
 void add_marker_noise(MarkerTable& table, double noise, std::uint64_t seed) {
   constexpr std::uint64_t kOther = 0x6d61726b;  // than the forces' numbers
+  if (noise == 0) return;
+  if (noise < kLeastNoise || noise > kMostNoise)
+    fail_usage(fmt::format("{:g} m is no noise of a point's displacement", noise),
+               fmt::format("give one from {:g} to {:g} m", kLeastNoise, kMostNoise));
   Random random(seed ^ kOther);
   for (Vec3& u : table.u)
     for (int k = 0; k < 3; ++k) u[k] += noise * random.normal();

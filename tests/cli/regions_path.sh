@@ -47,6 +47,15 @@ awk -v plain="$(error m0.csv)" -v refined="$(error m1.csv)" 'BEGIN { exit !(refi
   complain "the error falls: $(error m0.csv), $(error m1.csv)"
 awk -F, '/^elastic,.,E/ { d = $4 / ($2 ? 25000 : 10000) - 1; if (d > 0.04 || d < -0.04) exit 1 }' m1.csv ||
   complain 'the moduli of both regions'
+# Whichever region is the stiffer stays that one; a modulus that is held stays what it is.
+awk 'BEGIN { FS = OFS = "," } /^elastic,.,E|^regions/ { $2 = 1 - $2 } { print }' start.csv >turned.csv
+expect 0 'boundaries moved by' data.csv --body regions.ply --rim-edge 0.3 --noise 0.002 \
+  --model turned.csv --refine-boundary 5 --folds 0 -o m2.csv
+awk -F, '/^elastic,.,E/ { d = $4 / ($2 ? 10000 : 25000) - 1; if (d > 0.04 || d < -0.04) exit 1 }' m2.csv ||
+  complain "the regions' order: $(grep '^elastic,.,E' m2.csv)"
+awk 'BEGIN { FS = OFS = "," } /^elastic,1,E/ { $4 = 23000; $NF = "fixed" } { print }' start.csv >held.csv
+expect 0 '' data.csv --body regions.ply --rim-edge 0.3 --noise 0.002 --model held.csv --refine-boundary 5 --folds 0 -o m3.csv
+grep -q '^elastic,1,E,23000,.*fixed' m3.csv || complain "a modulus that is held: $(grep '^elastic,1,E' m3.csv)"
 # Labelled or not, the body is the same: the model has the boundary.
 for body in body regions; do
   hs-simulate -q data.csv --body $body.ply --model m1.csv --rim-edge 0.3 -o $body-forces.csv ||

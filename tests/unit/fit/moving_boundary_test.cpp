@@ -60,7 +60,8 @@ TEST(MovingCurve, ItsDerivativesAreDifferences) {
   }
 }
 
-TEST(MovingCurve, WhatIsKnownHasItsDerivatives) {
+// The last row, of the mean slope, leaves out how its weights change with the curve.
+TEST(MovingCurve, WhatIsKnownOfTheModesHasItsDerivatives) {
   const Wave wave;
   const MovingCurve moving(wave.curve, wave.places, 0.05);
   Eigen::VectorXd r, more_r, less_r;
