@@ -101,7 +101,8 @@ awk '/^[0-9]/ { print; print; print } { print }' data.csv >dense.csv
 awk 'BEGIN { FS = OFS = "," } /^#/ { print; next } !head { head = 1; print $0, "thx,thy,thz"; next } { print $0, 0.01, 0, 0 }' data.csv >turned.csv
 refuses 'the tool turns (thx,thy,thz): its forces are taken for those of one that does not' 0 "${identify[@]}" turned.csv -o x.csv
 refuses 'take all rows (--most-rows 0)' 3 "${identify[@]}" dense.csv --markers seen.csv --most-rows 500 -o x.csv
-grep -v '^# marker_noise' seen.csv | awk -F, '/^#|^point,/ || !had[$1]++' >one.csv
+awk -F, '/^# marker_noise/ { next } /^#|^point,/ { print; next } $8 < least[$1] { least[$1] = $8; row[$1] = $0 }
+  END { for (p in row) print row[p] }' seen.csv >one.csv
 refuses 'declare it: # marker_noise' 3 "${identify[@]}" data.csv --markers one.csv -o x.csv
 refuses 'is no noise of a point' 2 "$bin/hs-simulate" -q motion.csv --body block.ply --model truth.csv --markers points.csv --markers-out m.csv --add-marker-noise 20m -o x.csv
 refuses '--markers and --markers-out go together' 2 "$bin/hs-simulate" motion.csv --body block.ply --model truth.csv --markers points.csv -o x.csv
