@@ -16,7 +16,9 @@ std::vector<std::string> found_beside(const Branch& branch, const std::string& r
   for (const Finding& f : branch.d.findings) {
     const bool known = std::any_of(before.findings.begin(), before.findings.end(),
                                    [&](const Finding& k) { return k.effect == f.effect; });
-    if (f.verdict == Verdict::kMissing && f.effect != rival && !known) names.push_back(f.effect);
+    const bool again = std::find(names.begin(), names.end(), f.effect) != names.end();
+    if (f.verdict == Verdict::kMissing && f.effect != rival && !known && !again)
+      names.push_back(f.effect);
   }
   return names;
 }
@@ -93,15 +95,18 @@ void take_what_is_shared(const BesideRivals& found, const TrialGround& g, const 
   for (const std::string& name : some)
     if (model.has(name)) remove_effect(model, name);
   if (!shared.empty()) base = make_baseline(model, g, folds);
+  // With all of its terms, from the first branch that has it.
   const auto add = [&](const std::string& name, Verdict verdict) {
-    for (std::size_t b = 0; b < found.branches.size(); ++b)
+    for (std::size_t b = 0; b < found.branches.size(); ++b) {
+      const std::size_t listed = d.findings.size();
       for (Finding f : found.branches[b].d.findings) {
         if (f.effect != name || f.verdict != Verdict::kMissing) continue;
         f.verdict = verdict;
         if (verdict == Verdict::kPossible) f.beside = found.ends.findings[b].effect;
         d.findings.push_back(f);
-        return;
       }
+      if (d.findings.size() > listed) return;
+    }
   };
   for (const std::string& name : shared) add(name, Verdict::kMissing);
   for (const std::string& name : some) add(name, Verdict::kPossible);

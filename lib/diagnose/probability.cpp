@@ -69,11 +69,14 @@ std::string probability_in_words() {
   return fmt::format(
       "that it acts (of a curve of no law: that the cause is of its kind), as verdicts like it "
       "were "
-      "borne out in simulated trials of every effect: what is missing and leaves noise alone {:g} "
-      "%, {:g} where it leaves more, less where others passed beside it; a set that cannot be told "
-      "apart holds it in {:g} % of these, shared by the likelihoods; possible {:g} %, absent {:g} "
-      "%",
-      100 * kMissingAlone, 100 * kMissingAndMore, 100 * kSetHolds, 100 * kPossible, 100 * kAbsent);
+      "borne out in simulated trials: what is missing and leaves noise alone {:g} %, {:g} where it "
+      "leaves more, less where others passed beside it; a set that cannot be told apart holds it "
+      "in "
+      "{:g} % of these, shared by the likelihoods; possible {:g} %, absent {:g} %. Empty of fewer "
+      "than "
+      "{} presses",
+      100 * kMissingAlone, 100 * kMissingAndMore, 100 * kSetHolds, 100 * kPossible, 100 * kAbsent,
+      kLeastPresses);
 }
 
 }  // namespace hapsim
