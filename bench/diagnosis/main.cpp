@@ -16,6 +16,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
 #include "diagnose/candidate.h"
@@ -84,10 +85,10 @@ class Pairs {
   Pairs(const std::string& diagnosed, const std::string& truth, const std::string& path)
       : diagnosed_(body(diagnosed)), truth_(body(truth)), path_(path) {}
   const Pair& of(const Truth& truth) {
-    const std::pair<bool, int> kind{truth.open, truth.presses};
+    const std::tuple<bool, int, double> kind{truth.open, truth.presses, truth.noisier};
     if (const auto known = pairs_.find(kind); known != pairs_.end()) return known->second;
     ExperimentOptions options;
-    options.noise = kNoise;
+    options.noise = kNoise * truth.noisier;
     options.cache = default_cache_directory();
     ExperimentOptions finer = options;
     finer.rim_edge = kTrueRim;
@@ -101,25 +102,26 @@ class Pairs {
  private:
   TetMesh diagnosed_, truth_;
   std::string path_;
-  std::map<std::pair<bool, int>, Pair> pairs_;
+  std::map<std::tuple<bool, int, double>, Pair> pairs_;
 };
 
 // What the sensor adds.
-void add_noise(NoiseKind kind, const Episode& e, Random& random, Eigen::Ref<Eigen::VectorXd> f) {
+void add_noise(const Truth& truth, const Episode& e, Random& random,
+               Eigen::Ref<Eigen::VectorXd> f) {
   constexpr double kMemory = 0.9, kOutliers = 0.01, kFarOff = 15;
   Vec3 last = Vec3::Zero();
   for (std::size_t i = 0; i < e.rows.size(); ++i) {
     Vec3 n(random.normal(), random.normal(), random.normal());
-    if (kind == NoiseKind::kCorrelated && i > 0)
+    if (truth.noise == NoiseKind::kCorrelated && i > 0)
       n = kMemory * last + std::sqrt(1 - kMemory * kMemory) * n;
     last = n;
-    if (kind == NoiseKind::kOutliers && random.uniform() < kOutliers) n *= kFarOff;
-    f.segment<3>(3 * static_cast<Eigen::Index>(i)) += kNoise * n;
+    if (truth.noise == NoiseKind::kOutliers && random.uniform() < kOutliers) n *= kFarOff;
+    f.segment<3>(3 * static_cast<Eigen::Index>(i)) += truth.noisier * kNoise * n;
   }
 }
 
 // Each position's forces with a symmetric relative error, and noise.
-void measure(NoiseKind noise, const Experiment& w, int seed, Eigen::VectorXd& f) {
+void measure(const Truth& truth, const Experiment& w, int seed, Eigen::VectorXd& f) {
   Random random(static_cast<std::uint64_t>(seed));
   std::vector<Eigen::Matrix3d> error;
   for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) {
@@ -134,7 +136,7 @@ void measure(NoiseKind noise, const Experiment& w, int seed, Eigen::VectorXd& f)
     const auto n = 3 * static_cast<Eigen::Index>(e.rows.size());
     for (Eigen::Index i = at; i < at + n; i += 3)
       f.segment<3>(i) = (error[e.position] * f.segment<3>(i)).eval();
-    add_noise(noise, e, random, f.segment(at, n));
+    add_noise(truth, e, random, f.segment(at, n));
     at += n;
   }
 }
@@ -162,11 +164,11 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Experiment& 
   const Model base = true_base(truth.base);
   if (!truth.parts.empty()) {
     drawn.model = base;
-    for (const std::string& name : truth.parts) {
-      const Truth& part = find_truth(all, name);
-      const double strength = part.sizes > 0
-                                  ? 1 + (seed - 1) % part.sizes
-                                  : strength_for(part, w, levels.of(part, w, seed) * kNoise, own);
+    for (std::size_t k = 0; k < truth.parts.size(); ++k) {
+      const Truth& part = find_truth(all, truth.parts[k]);
+      const double level = truth.levels.empty() ? levels.of(part, w, seed) : truth.levels[k];
+      const double strength =
+          part.sizes > 0 ? 1 + (seed - 1) % part.sizes : strength_for(part, w, level * kNoise, own);
       if (strength < 0) return {};
       drawn.model = part.model(drawn.model, strength);
     }
@@ -194,21 +196,40 @@ bool acts(const Model& truth, const Parameter& exact, const Experiment& w) {
   return (forces(changed) - forces(truth)).norm() > kNoise;
 }
 
-// How many of the sizes that were found hold the truth in their 95 % intervals. Not counted:
-// orientations, which have twins (an axis and its reverse), another number of terms than the truth
-// has, whose values are other ones, and what no interval is stated for (at a bound).
-void count_sizes(const Model& found, const Model& truth, const Experiment& w, Trial& trial) {
+// How many of the sizes that were found hold the truth in their 95 % intervals, and to `path` each
+// of them with its truth, the elastic ones besides (coverage.py). Not counted: orientations, which
+// have twins (an axis and its reverse), another number of terms than the truth has, whose values
+// are other ones, and what no interval is stated for (at a bound).
+void count_sizes(const Model& found, const Model& truth, const Experiment& w,
+                 const std::string& path, Trial& trial) {
+  std::ofstream out(path, std::ios::app);
+  const auto group = [](const Effect& effect) {
+    switch (effect.card().stage) {
+      case Stage::kMotion:
+      case Stage::kSensor:
+        return "set-up";
+      case Stage::kContact:
+        return "contact";
+      default:
+        return "material";
+    }
+  };
   const auto rows = [](const Model& model, const std::string& effect) {
     return std::count_if(model.parameters.begin(), model.parameters.end(),
                          [&](const Parameter& p) { return p.effect == effect; });
   };
   for (const Parameter& p : found.parameters) {
     if (rows(found, p.effect) != rows(truth, p.effect)) continue;
-    if (p.effect == "elastic" || p.state != ParameterState::kFree) continue;
+    if (p.state != ParameterState::kFree) continue;
     const Parameter* exact = truth.find(p.effect, p.region, p.name);
-    const bool solved = require_effect(p.effect).card().solved;
+    const Effect& effect = require_effect(p.effect);
+    const bool solved = effect.card().solved, elastic = p.effect == "elastic";
     if (exact == nullptr || (p.unit == "rad" && solved) || !std::isfinite(p.std_error)) continue;
-    if (!solved && !acts(truth, *exact, w)) continue;
+    if (!solved && !elastic && !acts(truth, *exact, w)) continue;
+    out << fmt::format("{},{},{},{},{},{:.8g},{:.8g},{:.4g}\n", trial.truth, trial.seed,
+                       elastic ? p.name : group(effect), p.effect, p.name, p.value, exact->value,
+                       p.std_error);
+    if (elastic) continue;
     ++trial.sized;
     trial.covered += std::abs(p.value - exact->value) <= 1.96 * p.std_error;
   }
@@ -220,7 +241,8 @@ std::string joined(const std::vector<std::string>& names) {
 
 struct Options {
   bool verbose = false;
-  std::string statements;  // file
+  std::string statements;  // files
+  std::string sizes;
   std::string keep;        // folder for the recordings; "": not kept
   bool leave_out = false;  // the truth's effect is taken from the catalogue
 };
@@ -259,7 +281,7 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
     trial.verdict = "too small";
     return trial;
   }
-  measure(truth.noise, pair.truth, seed, drawn.forces);
+  measure(truth, pair.truth, seed, drawn.forces);
   Experiment w = pair.diagnosed;
   const Selection everything = all_episodes(w.dataset);
   const std::vector<int> rows = stacked_rows(w.dataset, everything);
@@ -305,7 +327,8 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
                         .error.told() /
                     floor;
   if (trial.rivals.empty() && !d.rivals.empty())
-    count_sizes(d.rivals.front(), drawn.model, pair.truth, trial);
+    count_sizes(d.rivals.front(), truth.effects.empty() ? true_base(truth.base) : drawn.model,
+                pair.truth, options.sizes, trial);
   return trial;
 }
 
@@ -333,7 +356,11 @@ int run_all(std::vector<std::string> a) {
     a.erase(flag, flag + 2);
   }
   const std::string results = a[3];
-  options.statements = std::filesystem::path(results).replace_filename("statements.csv").string();
+  const auto beside = [&](const char* name) {
+    return std::filesystem::path(results).replace_filename(name).string();
+  };
+  options.statements = beside("statements.csv");
+  options.sizes = beside("sizes.csv");
   const auto [from, to] = range(a[4]);
   const auto [low, high] = range(a[5]);
   const std::vector<std::string> names(a.begin() + 6, a.end());

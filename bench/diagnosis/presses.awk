@@ -1,6 +1,7 @@
 # Presses on the upper side of a closed surface (OFF [m], triangles) in the data format:
-#   awk -v protocol=rich|robot|few -f presses.awk SURFACE
+#   awk -v protocol=rich|edge|robot|few -f presses.awk SURFACE
 # rich:  12 places; slow, fast with a hold, sideways at depth; the way in and out through the air
+# edge:  the same at places 5 to 8 mm from the edges of a rectangular face
 # robot: 12 places, 42 presses in a shuffled order, five depths, three speeds, a third of them aslant, each
 #        with a hold; recorded from the first contact to the end of the hold
 # few:   6 places, a slow and a fast press with a hold each; the way in and out through the air
@@ -16,14 +17,21 @@ END {
   for (k = 0; k < places; ++k) place(k)
   print "# tool_radius: 0.004"
   print "press,t,x,y,z,ux,uy,uz,contact"
-  if (protocol == "rich") rich(); else if (protocol == "few") few(); else robot()
+  if (protocol == "rich" || protocol == "edge") rich(); else if (protocol == "few") few(); else robot()
 }
 
-# The place's point and outward normal: evenly spread in plan view, as far as 0.7 of the half axes.
-function place(k,    u, r, px, py, f, i, a, b, c, det, s, t, z, n, size) {
+# The place's point and outward normal: evenly spread in plan view, as far as 0.7 of the half axes, or along
+# the edges.
+function place(k,    e, from, u, r, px, py, f, i, a, b, c, det, s, t, z, n, size) {
   u = 2.399963 * k + 0.4; r = 0.7 * sqrt((k + 0.5) / places)
   px = (most[1] + least[1]) / 2 + r * (most[1] - least[1]) / 2 * cos(u)
   py = (most[2] + least[2]) / 2 + r * (most[2] - least[2]) / 2 * sin(u)
+  if (protocol == "edge") {
+    e = 5e-3 + 1e-3 * (k % 4)
+    from = 0.1 + 0.8 * (k + 0.5) / places
+    px = k % 2 ? least[1] + from * (most[1] - least[1]) : int(k / 2) % 2 ? least[1] + e : most[1] - e
+    py = k % 2 == 0 ? least[2] + from * (most[2] - least[2]) : int(k / 2) % 2 ? least[2] + e : most[2] - e
+  }
   at[k, 3] = -1
   for (f = 0; f < faces; ++f) {
     a = corner[f, 1]; b = corner[f, 2]; c = corner[f, 3]

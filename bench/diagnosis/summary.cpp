@@ -74,27 +74,32 @@ void print_rate(const char* what, int n, int of, const char* asked) {
     fmt::print("{:<66} {:>4} of {:>4} = {:5.1f} %  ({})\n", what, n, of, 100.0 * n / of, asked);
 }
 
-// Effects found of two that are hidden: in the list of missing ones or in a declared set.
-void print_two(const std::vector<Trial>& trials) {
-  int all = 0, found = 0, declared = 0;
+// Effects found of several that are hidden: in the list of missing ones or in a declared set.
+void print_several(const std::vector<Trial>& trials, std::size_t hidden, const char* asked) {
+  int all = 0, found = 0, declared = 0, more = 0;
   std::map<std::string, std::vector<std::string>> lines;
   for (const Trial& t : trials) {
     const std::vector<std::string> truth = words(t.effects);
-    if (truth.size() < 2) continue;
+    if (truth.size() != hidden) continue;
     ++all;
     const std::vector<std::string> missing = words(t.missing), rivals = words(t.rivals);
-    const bool named_both = holds(missing, truth[0]) && holds(missing, truth[1]);
-    const auto known = [&](const std::string& e) { return holds(missing, e) || holds(rivals, e); };
-    found += named_both;
-    declared += known(truth[0]) && known(truth[1]);
-    lines[t.truth].push_back(named_both && missing.size() == 2 ? "both" : named(t));
+    const auto is_missing = [&](const std::string& e) { return holds(missing, e); };
+    const auto known = [&](const std::string& e) { return is_missing(e) || holds(rivals, e); };
+    const bool named_all = std::all_of(truth.begin(), truth.end(), is_missing);
+    const bool another = std::any_of(missing.begin(), missing.end(),
+                                     [&](const std::string& e) { return !holds(truth, e); });
+    found += named_all;
+    declared += std::all_of(truth.begin(), truth.end(), known);
+    more += another;
+    lines[t.truth].push_back(named_all && !another && rivals.empty() ? "all" : named(t));
   }
   if (all == 0) return;
-  fmt::print("\ntwo effects at once\n");
+  fmt::print("\n{} effects at once\n", hidden);
   for (const auto& [truth, outcomes] : lines)
-    fmt::print("{:<36} {}\n", truth, fmt::join(outcomes, "  "));
-  print_rate("both named", found, all, "80 % asked");
-  print_rate("both named or in a declared set", declared, all, "");
+    fmt::print("{:<46} {}\n", truth, fmt::join(outcomes, "  "));
+  print_rate("all named", found, all, asked);
+  print_rate("all named or in a declared set", declared, all, "");
+  print_rate("another one named besides", more, all, "at most 10 % asked");
 }
 
 }  // namespace
@@ -184,7 +189,8 @@ void print_summary(const std::vector<Trial>& trials) {
   }
   print_rate("sizes inside their 95 % intervals", covered, sized, "85 % asked");
   print_rate("false alarms where nothing is hidden", alarms, nothing, "at most 2 % asked");
-  print_two(trials);
+  print_several(trials, 2, "all asked");
+  print_several(trials, 3, "70 % asked");
   if (seconds.empty()) return;
   std::sort(seconds.begin(), seconds.end());
   fmt::print("\ntime of a diagnosis, of the processor: median {:.2f} s, longest {:.2f} s\n",

@@ -1,5 +1,7 @@
 #include "truths.h"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -272,12 +274,37 @@ std::vector<Truth> features() {
   return t;
 }
 
-// Two effects at once, of which each alone would be seen.
-Truth both(const std::string& a, const std::string& b) {
+// Several effects at once, of which each alone would be seen.
+Truth together(const std::vector<std::string>& parts) {
   Truth truth;
-  truth.name = a + "&" + b;
-  truth.parts = {a, b};
+  truth.name = fmt::format("{}", fmt::join(parts, "&"));
+  truth.parts = parts;
   return truth;
+}
+Truth both(const std::string& a, const std::string& b) {
+  return together({a, b});
+}
+
+// Three at once, 10, 5 and 3 times the noise.
+std::vector<Truth> triples() {
+  std::vector<Truth> t;
+  const std::vector<std::vector<std::string>> parts{
+      {"viscoelastic", "hyperelastic", "friction"},
+      {"viscoelastic", "sensor-drift", "tip"},
+      {"hyperelastic", "sensor-lag", "temperature"},
+      {"viscoelastic", "softening", "sensor-rotation"},
+      {"sensor-drift", "friction", "temperature"},
+      {"viscoelastic", "sensor-gain-x", "backlash"},
+      {"hyperelastic", "viscoelastic", "sensor-drift"},
+      {"viscoelastic", "sensor-bias", "tip"},
+      {"sensor-rotation", "softening", "sensor-lag"},
+      {"viscoelastic", "temperature", "adhesion"},
+  };
+  for (const std::vector<std::string>& three : parts) {
+    t.push_back(together(three));
+    t.back().levels = {10, 5, 3};
+  }
+  return t;
 }
 
 std::vector<Truth> pairs() {
@@ -292,7 +319,7 @@ std::vector<Truth> pairs() {
 // Nothing hidden, in ways that look like something.
 std::vector<Truth> nothings() {
   const Truth plain = own_form("nothing", "", 0, [](double) { return std::vector<double>(); });
-  std::vector<Truth> t(8, plain);
+  std::vector<Truth> t(9, plain);
   t[1].name = "nothing-correlated";
   t[1].noise = NoiseKind::kCorrelated;
   t[2].name = "nothing-outliers";
@@ -309,6 +336,8 @@ std::vector<Truth> nothings() {
   t[7].name = "nothing-one-press-correlated";
   t[7].presses = 1;
   t[7].noise = NoiseKind::kCorrelated;
+  t[8].name = "nothing-noisy";
+  t[8].noisier = 5;  // some 5 % of the largest force
   return t;
 }
 
@@ -401,7 +430,9 @@ std::vector<Truth> all_truths() {
       t.presses = presses;
       truths.push_back(t);
     }
-  for (Truth& t : pairs()) {
+  std::vector<Truth> several = pairs();
+  for (Truth& t : triples()) several.push_back(t);
+  for (Truth& t : several) {
     for (const std::string& part : t.parts)
       t.effects.push_back(find_truth(truths, part).effects.front());
     truths.push_back(t);

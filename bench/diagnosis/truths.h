@@ -21,8 +21,10 @@ struct Truth {
   bool open = false;              // the recording does not say when the tool is in the air
   int presses = 0;                // all but the first so many are left out; 0: none
   NoiseKind noise = NoiseKind::kWhite;
-  int sizes = 0;  // > 0: `strength` is 1 .. sizes, each a size of its own (finite elements)
-  std::vector<std::string> parts;  // two truths with models, each as strong as asked; else empty
+  double noisier = 1;  // the sensor's noise, over the usual
+  int sizes = 0;       // > 0: `strength` is 1 .. sizes, each a size of its own (finite elements)
+  std::vector<std::string> parts;  // two truths or more with models, each as strong as asked
+  std::vector<double> levels;      // of each part, over the noise; empty: drawn
   // The base with the effect, where it has the catalogue's own form; else empty.
   std::function<Model(const Model& base, double strength)> model;
   // Stacked forces at a strength from 0 (nothing) on; the same seed draws the same effect.

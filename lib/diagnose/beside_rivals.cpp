@@ -65,7 +65,7 @@ BesideRivals beside_rivals(const Round& round, const std::vector<std::size_t>& r
   const bool can_hold_out = !folds.held_out.empty();
   found.best = best_of(found.ends, options.gates, can_hold_out);
   if (found.best == rivals.size()) found.best = 0;
-  found.rivals = rivals_of(found.best, found.ends, options.gates, can_hold_out, g.allowance.noise);
+  found.rivals = rivals_of(found.best, found.ends, options.gates, can_hold_out, g.allowed_error());
   const auto superfluous = [&](std::size_t b) {
     return !found.ends.candidates[b].fitted.model.has(found.ends.findings[b].effect);
   };

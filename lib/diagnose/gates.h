@@ -34,10 +34,10 @@ inline constexpr double kLikeNoise = 1.1;
 // ten thousand: no search stands behind it.
 inline constexpr double kStrained = 1e-4;
 
-// Where the winner leaves white noise and nothing else (fewer than kLikeWhite samples to an
-// independent one), the likelihood can be believed: a rival that is so much less likely (of the
-// criterion, by independent sample) is none, however alike the errors: five times what is asked of
-// an effect, since nothing but the likelihood decides.
+// Where the winner leaves no more than noise, mesh and shape may, and that white (fewer than
+// kLikeWhite samples to an independent one), the likelihood can be believed: a rival that is so
+// much less likely (of the criterion, by independent sample) is none, however alike the errors:
+// five times what is asked of an effect, since nothing but the likelihood decides.
 inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
 // Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
@@ -70,7 +70,8 @@ inline std::vector<std::string> gates_in_words() {
           "and {:g} % of the error on unseen positions, its size may speak for it instead of the "
           "presses' signs. Effects that do equally well (at least {:g} % of the best one's fall on "
           "unseen positions, and errors within {:g} %) are called indistinguishable, unless the "
-          "winner leaves white noise and the rival is far less likely (by more than {:g} of the "
+          "winner leaves no more than noise, mesh and shape may, and that white, and the rival is "
+          "far less likely (by more than {:g} of the "
           "criterion). What changes the forces by less than an approximate law in the model may "
           "leave (hs-effects(7)) is possible at most. The search goes on, on top of what was "
           "found, "

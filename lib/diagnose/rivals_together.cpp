@@ -7,9 +7,6 @@ namespace hapsim {
 
 bool both_act(const Candidate& a, const Candidate& b, const TrialGround& g) {
   constexpr double kPlainlyMore = 1.25;  // error of either alone over that of both
-  const Eigen::VectorXd f = measured_forces(g.dataset, all_episodes(g.dataset));
-  const double least = std::hypot(
-      g.allowance.noise, g.allowance.floor * f.norm() / std::sqrt(static_cast<double>(f.size())));
   const double alone = std::min(a.fitted.error.pooled, b.fitted.error.pooled);
   if (alone < kPlainlyMore * g.allowance.noise) return false;
   std::string lack;
@@ -18,7 +15,7 @@ bool both_act(const Candidate& a, const Candidate& b, const TrialGround& g) {
   if (!both) return false;
   const EffectCard& card = b.effect->card();
   if (card.solved || card.is_map) refine(*both, g);
-  return both->fitted.error.pooled < kLikeNoise * least &&
+  return both->fitted.error.pooled < kLikeNoise * g.allowed_error() &&
          both->fitted.error.pooled * kPlainlyMore < alone;
 }
 

@@ -11,8 +11,8 @@ bool learned_beats(const Finding& learned, const Finding& named) {
   return learned.held_out_after.pooled < kPlainlyLess * named.held_out_after.pooled;
 }
 
-bool decided(const Finding& winner, const Finding& rival, double noise) {
-  return winner.rmse_after.pooled < kLikeNoise * noise && winner.memory < kLikeWhite &&
+bool decided(const Finding& winner, const Finding& rival, double allowed) {
+  return winner.rmse_after.pooled < kLikeNoise * allowed && winner.memory < kLikeWhite &&
          winner.criterion_gain - rival.criterion_gain > kNoRival * winner.memory;
 }
 
@@ -58,14 +58,14 @@ std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out) {
 }
 
 std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const Gates& gates,
-                                   bool can_hold_out, double noise) {
+                                   bool can_hold_out, double allowed) {
   std::vector<std::size_t> rivals;
   const Finding& winner = round.findings[best];
   for (std::size_t k = 0; k < round.findings.size(); ++k) {
     const Finding& f = round.findings[k];
     if (k == best || !passes(f, gates, can_hold_out)) continue;
     const EffectCard& card = round.candidates[k].effect->card();
-    if (card.per_press || decided(winner, f, noise)) continue;
+    if (card.per_press || decided(winner, f, allowed)) continue;
     if (gives_way(k, round, gates, can_hold_out)) continue;
     // Best of what is unseen: best_of() has compared them.
     if (card.is_field || round.candidates[best].effect->card().is_field) continue;

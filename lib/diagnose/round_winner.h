@@ -18,8 +18,9 @@ bool passes(const Finding& finding, const Gates& gates, bool can_hold_out);
 std::size_t best_of(const Round& round, const Gates& gates, bool can_hold_out);
 
 // Rivals that do as well as the best: another effect that passes the gates too and reaches nearly
-// the same fall, unless one of the two includes the other. `noise` [N].
+// the same fall, unless one of the two includes the other. `allowed`: error that noise, mesh and
+// shape leave [N].
 std::vector<std::size_t> rivals_of(std::size_t best, const Round& round, const Gates& gates,
-                                   bool can_hold_out, double noise);
+                                   bool can_hold_out, double allowed);
 
 }  // namespace hapsim

@@ -97,7 +97,7 @@ void list_the_rest(const Round& last, const Gates& gates, Diagnosis& d) {
 // Effects that do as well as the round's best, after it; none where it stands alone.
 std::vector<std::size_t> best_and_rivals(const Round& round, std::size_t best, const TrialGround& g,
                                          const Gates& gates, bool can_hold_out) {
-  std::vector<std::size_t> rivals = rivals_of(best, round, gates, can_hold_out, g.allowance.noise);
+  std::vector<std::size_t> rivals = rivals_of(best, round, gates, can_hold_out, g.allowed_error());
   const bool next_round_finds_the_other = std::any_of(
       rivals.begin(), rivals.end(),
       [&](std::size_t k) { return both_act(round.candidates[best], round.candidates[k], g); });

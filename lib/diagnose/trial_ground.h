@@ -1,7 +1,10 @@
 // What effects are tried on.
 #pragma once
 
+#include <cmath>
+
 #include "experiment/experiment.h"
+#include "experiment/forces.h"
 
 namespace hapsim {
 
@@ -14,6 +17,13 @@ struct TrialGround {
 
   TrialGround(const Experiment& e, const Allowance& allowed)
       : experiment(e), dataset(e.dataset), allowance(allowed) {}
+
+  // Root mean square that noise, mesh and shape may leave of the forces [N].
+  double allowed_error() const {
+    const Eigen::VectorXd f = measured_forces(dataset, all_episodes(dataset));
+    return std::hypot(allowance.noise,
+                      allowance.floor * f.norm() / std::sqrt(static_cast<double>(f.size())));
+  }
 };
 
 }  // namespace hapsim
