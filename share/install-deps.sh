@@ -28,7 +28,8 @@ test_packages=(
   slurm-wlm munge openssh-server openssh-client parallel
   strace procps bsdextrautils                     # faults at a chosen system call; pgrep; col
 )
-dev_packages=(clang-tidy clang libclang-rt-14-dev ccache debootstrap libbenchmark-dev python3-scipy)
+dev_packages=(clang-tidy clang libclang-rt-14-dev ccache debootstrap libbenchmark-dev python3-scipy
+  python3-petsc4py)                               # peers of the solver: GAMG and hypre
 # Daemons that come with them: the tests start their own, this machine need not serve anybody.
 daemons=(openssh-server:ssh munge:munge slurm-wlm:slurmctld slurm-wlm:slurmd)
 

@@ -6,6 +6,7 @@
 // can do): the error, over the noise, that what is hidden leaves of the model that is diagnosed. A
 // truth `nothing*` means all that begin so. --leave-out: each truth's effect is taken from the
 // catalogue (one hidden effect on the plain body, all presses): what is said of what no effect is?
+// --at-shown: as large as a diagnosis of the body without it says that it would show from.
 // Recorded in bench/results/diagnosis*.txt (bench/record.sh).
 #include <fmt/format.h>
 
@@ -28,6 +29,7 @@
 #include "formats/tetmesh_io.h"
 #include "left_out.h"
 #include "mesh/tetmesh.h"
+#include "shown.h"
 #include "summary.h"
 #include "truths.h"
 
@@ -157,9 +159,23 @@ struct Levels {
   }
 };
 
+std::uint64_t own_seed(int seed) {
+  return 1000 + static_cast<std::uint64_t>(seed);
+}
+
+Drawn draw_at(double strength, const Truth& truth, const Model& base, const Experiment& w,
+              int seed) {
+  if (strength < 0) return {};
+  Drawn drawn;
+  Random random(own_seed(seed));
+  drawn.forces = truth.forces(w, base, strength, random);
+  if (truth.model && strength > 0) drawn.model = truth.model(base, strength);
+  return drawn;
+}
+
 Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Experiment& w,
            const Levels& levels, int seed) {
-  const std::uint64_t own = 1000 + static_cast<std::uint64_t>(seed);
+  const std::uint64_t own = own_seed(seed);
   Drawn drawn;
   const Model base = true_base(truth.base);
   if (!truth.parts.empty()) {
@@ -178,11 +194,7 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Experiment& 
   double strength = truth.effects.empty() ? 0 : 1 + (seed - 1) % std::max(truth.sizes, 1);
   if (!truth.effects.empty() && truth.sizes == 0)
     strength = strength_for(truth, w, levels.of(truth, w, seed) * kNoise, own);
-  if (strength < 0) return {};
-  Random random(own);
-  drawn.forces = truth.forces(w, base, strength, random);
-  if (truth.model && strength > 0) drawn.model = truth.model(base, strength);
-  return drawn;
+  return draw_at(strength, truth, base, w, seed);
 }
 
 // Whether the forces would show a change of the truth's parameter: what has no effect has no size.
@@ -245,6 +257,7 @@ struct Options {
   std::string sizes;
   std::string keep;        // folder for the recordings; "": not kept
   bool leave_out = false;  // the truth's effect is taken from the catalogue
+  bool at_shown = false;   // sizes are those from which it would show
 };
 
 // What is said of each effect, and whether it is hidden, or what is hidden includes it: by which
@@ -264,6 +277,34 @@ void append_statements(const std::string& path, const Truth& truth, const Trial&
                        d.left.noise_alone());
 }
 
+Experiment with_forces(Experiment w, const Eigen::VectorXd& forces) {
+  const std::vector<int> rows = stacked_rows(w.dataset, all_episodes(w.dataset));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    w.dataset.recording.f[rows[i]] = forces.segment<3>(3 * static_cast<Eigen::Index>(i));
+  return w;
+}
+
+// What is diagnosed: the base, fitted.
+Model fitted_base(const Truth& truth, const Experiment& w) {
+  const Selection everything = all_episodes(w.dataset);
+  const FitOptions options{w.noise.value, w.floor, true};
+  std::vector<Model> starts{elastic_model(w, everything)};
+  for (const std::string& effect : truth.base)
+    starts = with_effect(fit_best(starts, w, everything, options), effect, w, everything, {});
+  return fit_best(starts, w, everything, options).model;
+}
+
+// As large as it would show from, by a diagnosis of the body without it and other noise.
+Drawn draw_at_shown(const Truth& truth, const Pair& pair, int seed) {
+  constexpr int kOtherNoise = 10000;
+  const Model base = true_base(truth.base);
+  Eigen::VectorXd forces = forces_of(pair.truth, base);
+  measure(truth, pair.truth, seed + kOtherNoise, forces);
+  const Experiment w = with_forces(pair.diagnosed, forces);
+  const Diagnosis d = diagnose(fitted_base(truth, w), w, w.allowance(), {});
+  return draw_at(strength_that_shows(truth, base, d), truth, base, pair.truth, seed);
+}
+
 Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const Levels& levels,
           int seed, const Options& options) {
   const Pair& pair = pairs.of(truth);
@@ -271,32 +312,25 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
   trial.truth = truth.name;
   trial.effects = joined(truth.effects);
   trial.seed = seed;
-  Drawn drawn = draw(truth, all, pair.truth, levels, seed);
+  Drawn drawn = options.at_shown ? draw_at_shown(truth, pair, seed)
+                                 : draw(truth, all, pair.truth, levels, seed);
   if (drawn.forces.size() == 0) {
     trial.verdict = "too small";
     return trial;
   }
   trial.level = misfit_of(drawn.forces, truth, pair.truth) / kNoise;
-  if (!truth.effects.empty() && trial.level < 0.9 * levels.low) {
+  if (!options.at_shown && !truth.effects.empty() && trial.level < 0.9 * levels.low) {
     trial.verdict = "too small";
     return trial;
   }
   measure(truth, pair.truth, seed, drawn.forces);
-  Experiment w = pair.diagnosed;
-  const Selection everything = all_episodes(w.dataset);
-  const std::vector<int> rows = stacked_rows(w.dataset, everything);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    w.dataset.recording.f[rows[i]] = drawn.forces.segment<3>(3 * static_cast<Eigen::Index>(i));
+  const Experiment w = with_forces(pair.diagnosed, drawn.forces);
   if (!options.keep.empty()) {
     Output output(fmt::format("{}/{}-{}.csv", options.keep, truth.name, seed));
     write_recording(output.stream(), w.dataset.recording);
     output.commit();
   }
-  const FitOptions fit_options{w.noise.value, w.floor, true};
-  std::vector<Model> starts{elastic_model(w, everything)};
-  for (const std::string& effect : truth.base)
-    starts = with_effect(fit_best(starts, w, everything, fit_options), effect, w, everything, {});
-  const Model model = fit_best(starts, w, everything, fit_options).model;
+  const Model model = fitted_base(truth, w);
   const std::clock_t begin = std::clock();  // of the processor: other programs do not count
   DiagnoseOptions how;
   if (options.leave_out) how.unknown = truth.effects.front();
@@ -350,6 +384,7 @@ int run_all(std::vector<std::string> a) {
   Options options;
   options.verbose = std::erase(a, "--verbose") > 0;
   options.leave_out = std::erase(a, "--leave-out") > 0;
+  options.at_shown = std::erase(a, "--at-shown") > 0;
   if (const auto flag = std::find(a.begin(), a.end(), "--keep");
       flag != a.end() && flag + 1 != a.end()) {
     options.keep = *(flag + 1);
@@ -377,7 +412,9 @@ int run_all(std::vector<std::string> a) {
       append_trial(results, trials.back());
     }
   std::erase_if(trials, [](const Trial& t) { return t.verdict == "too small"; });
-  options.leave_out ? print_left_out(trials) : print_summary(trials);
+  options.leave_out  ? print_left_out(trials)
+  : options.at_shown ? print_shown(trials)
+                     : print_summary(trials);
   return 0;
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # run.sh BUILD OUT [FROM:TO [LOW:HIGH [TRUTH...]]] [--object phantom|off|block|lump|body-N] [--protocol rich|edge|robot|few]
-# [--verbose] [--keep FOLDER] [--leave-out]: trials on the shipped phantom (or a cuboid, or a lobed dome, each made of a scan
+# [--verbose] [--keep FOLDER] [--leave-out | --at-shown]: trials on the shipped phantom (or a cuboid, or a lobed dome, each made of a scan
 # of its own; `off`: the phantom whose scan is 1 mm off, rms, in broad waves; body-N: a dome or a cuboid drawn by N),
 # pressed as presses.awk says, seeds FROM to TO, errors LOW to HIGH times the noise. The results in
 # OUT/trials.csv are gone on with when it is run again with the same object and protocol; delete OUT to begin

@@ -1,4 +1,4 @@
-# What a bench printed, as rows of ratios: awk -v row=solver|mesher|scan|fit -f table.awk OUTPUT
+# What a bench printed, as rows of ratios: awk -v row=solver|multigrid|mesher|scan|fit -f table.awk OUTPUT
 function line(what, peer, ours, theirs, memory, asked) {
   printf "%-46s %-28s %9.4g %9.4g %7.2f %7s %6s\n", what, peer, ours, theirs, theirs / ours, (memory > 0 ? sprintf("%.2f", memory) : ""), asked
 }
@@ -11,6 +11,13 @@ row == "solver" && $1 ~ /^[0-9]+$/ && NF >= 8 {
   if (/by-size/) { ours[key] = s; our_mb[key] = mb }
   if (/SPOOLES/) { direct[key] = s; direct_mb[key] = mb }
   if (/ITERATIVE/ && (!(key in iterative) || s < iterative[key])) { iterative[key] = s; iterative_mb[key] = mb }
+}
+
+# tetrahedra, ...; nu by ... s MB iterations force ratio
+row == "multigrid" && / tetrahedra, / { tets = $1 }
+row == "multigrid" && $2 == "hapsim" { ours[$1] = $3; held[$1] = $4 }
+row == "multigrid" && NF == 9 && $2 != "by" {
+  line(sprintf("three columns, %d tetrahedra, nu %s", tets, $1), "PETSc, " $2, ours[$1], $5, $6 / held[$1], 1)
 }
 
 # program: status N, s, processor s, MB

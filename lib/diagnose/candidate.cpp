@@ -295,8 +295,10 @@ Yardstick make_yardstick(const Baseline& base, const std::vector<Candidate>& can
               PlaceFreedom(base.fitted, g, signal.f, weights, each_place_free),
               measured_forces(g.dataset, all) - signal.f,
               signal.df,
+              {},
               offset_effect(base.fitted.model) != nullptr};
   if (y.offsets) take_out_press_means(g.dataset, all, y.jacobian);
+  y.unweighted = y.jacobian;
   y.weights.whiten(y.residual);
   y.weights.whiten(y.jacobian);
   y.freedom.take_out(y.residual);
@@ -310,6 +312,34 @@ double autocorrelation_time(const Eigen::VectorXd& residual, const TrialGround& 
     lengths.push_back(static_cast<Eigen::Index>(e.rows.size()));
   return autocorrelation_time(residual, lengths);
 }
+
+namespace {
+
+// What `column` changes the forces by beyond what the baseline's parameters follow [N^2].
+double change_beyond(Eigen::VectorXd column, const Yardstick& y, const TrialGround& g) {
+  if (y.offsets) take_out_press_means(g.dataset, all_episodes(g.dataset), column);
+  if (y.jacobian.cols() == 0) return column.squaredNorm();
+  Eigen::VectorXd whitened = column;
+  y.weights.whiten(whitened);
+  column -= y.unweighted * y.jacobian.colPivHouseholderQr().solve(whitened);
+  return column.squaredNorm();
+}
+
+// The change of the forces that an effect must bring [N^2] for the unseen error to fall and for its
+// share of the misfit beyond noise to be as large as the gates ask, beside what all else leaves.
+double least_change(const Candidate& candidate, const Baseline& base, const TrialGround& g,
+                    double count) {
+  const Gates gates;
+  const double unseen = 1 - gates.held_out_fall, noise = g.allowance.noise;
+  double left = candidate.held_out.error.pooled;
+  if (!std::isfinite(left)) left = held_out_for(*candidate.effect, base).error.pooled;
+  const double rms = candidate.fitted.error.pooled;
+  const double beyond = std::max(0.0, rms * rms - noise * noise);
+  return count * std::max(gates.share / (1 - gates.share) * beyond,
+                          std::isfinite(left) ? left * left * (1 / (unseen * unseen) - 1) : 0.0);
+}
+
+}  // namespace
 
 Measured measure(const Candidate& candidate, const Baseline& base, const Yardstick& y,
                  const TrialGround& g) {
@@ -344,13 +374,19 @@ Measured measure(const Candidate& candidate, const Baseline& base, const Yardsti
     m.p_value = test.p_value;
     m.criterion_gain = test.gain - penalty;
     m.explained = test.gain * y.noise * y.noise / count;
-    m.smallest_seen = y.noise * std::sqrt((penalty + 10) / count);
+    m.smallest_seen = std::sqrt(std::max(y.noise * y.noise * (penalty + Gates().criterion_gain),
+                                         least_change(candidate, base, g, count)) /
+                                count);
     return m;
   }
-  m.scores = press_scores(new_columns(*candidate.effect, candidate.fitted, base, g), y, g);
+  const Eigen::MatrixXd columns = new_columns(*candidate.effect, candidate.fitted, base, g);
+  m.scores = press_scores(columns, y, g);
   m.scores.penalty = penalty;
   const double information = m.scores.information(0, 0);
-  if (information > 0) m.smallest_seen = std::sqrt((penalty + 10) / information);
+  if (information > 0)
+    m.smallest_seen = std::sqrt(
+        std::max((penalty + Gates().criterion_gain) / information,
+                 least_change(candidate, base, g, count) / change_beyond(columns.col(0), y, g)));
   if (!y.freedom.any()) return m;
   m.hidden = m.scores.information.bottomRightCorner<1, 1>().value() < penalty;
   const Eigen::VectorXd score = m.scores.by_group.rowwise().sum();

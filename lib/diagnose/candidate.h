@@ -37,11 +37,12 @@ struct Candidate {
 // ranking.
 struct Yardstick {
   Weights weights;
-  double noise = 0;          // [N]
-  PlaceFreedom freedom;      // of the field that the baseline learns, or as asked
-  Eigen::VectorXd residual;  // of the baseline, whitened, without that freedom
-  Eigen::MatrixXd jacobian;  // the same of its parameters
-  bool offsets = false;      // the baseline solves for an offset of each press
+  double noise = 0;            // [N]
+  PlaceFreedom freedom;        // of the field that the baseline learns, or as asked
+  Eigen::VectorXd residual;    // of the baseline, whitened, without that freedom
+  Eigen::MatrixXd jacobian;    // the same of its parameters
+  Eigen::MatrixXd unweighted;  // and as the forces are [N]
+  bool offsets = false;        // the baseline solves for an offset of each press
 };
 
 // How much better the candidate is. Most effects are judged by the sum of squares and the number of
@@ -59,7 +60,7 @@ struct Measured {
   // candidate's own residuals are independent (integrated autocorrelation time): needs no signs of
   // presses, of which few may carry the effect, but believes the noise.
   double p_by_size = 1;
-  double smallest_seen = 0;  // size of the first parameter that would show
+  double smallest_seen = 0;  // of the first parameter: the size that half of the recordings show
 };
 
 Baseline make_baseline(const Model& model, const TrialGround& ground, const Folds& folds);
