@@ -7,6 +7,7 @@
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
 #include "effects/catalogue.h"
+#include "fit/held_out_band.h"
 #include "model/model_edit.h"
 
 namespace hapsim {
@@ -18,8 +19,11 @@ ImprovementStep fitted_step(const std::string& added, const std::vector<Model>& 
   ImprovementStep step;
   step.added = added;
   step.fitted = fit_best(starts, g.experiment, all_episodes(g.dataset), options.fit);
-  if (step.fitted.converged && !folds.held_out.empty())
-    step.held_out = held_out_of(step.fitted, g, folds, Map::kAnew).error;
+  if (step.fitted.converged && !folds.held_out.empty()) {
+    const HeldOut held_out = held_out_of(step.fitted, g, folds, Map::kAnew);
+    step.held_out = held_out.error;
+    step.band = held_out_band(held_out, folds, g.dataset, g.allowance);
+  }
   return step;
 }
 

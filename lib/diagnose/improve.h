@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnose/candidate.h"
+#include "experiment/unseen_band.h"
 
 namespace hapsim {
 
@@ -21,6 +22,7 @@ struct ImprovementStep {
   std::string added;  // "" for the first
   Fit fitted;
   ForceError held_out;  // NaN when there is nothing to hold out
+  UnseenBand band;
 };
 
 struct Improvement {

@@ -145,9 +145,9 @@ Starts build_starts(const FitRequest& request, const Experiment& w, const Select
   return starts;
 }
 
-ForceError held_out_error(const FitRequest& request, const Model& fitted,
-                          const Experiment& experiment, const Folds& folds,
-                          const FitOptions& fit_options, const ExtendOptions& extend) {
+HeldOut held_out_error(const FitRequest& request, const Model& fitted, const Experiment& experiment,
+                       const Folds& folds, const FitOptions& fit_options,
+                       const ExtendOptions& extend) {
   FitOptions quick = fit_options;
   quick.exact_regions = false;
   quick.starts = 1;
@@ -164,7 +164,7 @@ ForceError held_out_error(const FitRequest& request, const Model& fitted,
   const ModelBuilder builder = [&](const Selection& training) {
     return build_starts(refit, experiment, training, quick, extend, known);
   };
-  return held_out_error(builder, experiment, folds, quick).error;
+  return held_out_error(builder, experiment, folds, quick);
 }
 
 }  // namespace hapsim

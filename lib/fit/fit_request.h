@@ -66,8 +66,8 @@ Starts build_starts(const FitRequest& request, const Experiment& experiment,
 
 // The error on what each fold leaves out: fits anew from the fit on all data. A map over the body
 // comes from positions, so it is built anew from those that the fold may see.
-ForceError held_out_error(const FitRequest& request, const Model& fitted,
-                          const Experiment& experiment, const Folds& folds,
-                          const FitOptions& fit_options, const ExtendOptions& extend);
+HeldOut held_out_error(const FitRequest& request, const Model& fitted, const Experiment& experiment,
+                       const Folds& folds, const FitOptions& fit_options,
+                       const ExtendOptions& extend);
 
 }  // namespace hapsim

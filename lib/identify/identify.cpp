@@ -10,6 +10,7 @@
 #include "fit/constraints.h"
 #include "fit/fit_record.h"
 #include "fit/fit_words.h"
+#include "fit/held_out_band.h"
 #include "fit/marker_rows.h"
 #include "fit/torque_rows.h"
 #include "io/number.h"
@@ -92,6 +93,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
         improve_step_by_step(request, body, std::move(options), fit_options, w, result.force_rms);
     result.fitted = std::move(improvement.steps.back().fitted);
     unseen = improvement.steps.back().held_out;
+    result.band = improvement.steps.back().band;
     // The search compares effects by their forces; what it has found is fitted to torques and
     // points as well.
     if ((has_torques(w.dataset.recording) || final_options.markers != nullptr) &&
@@ -130,15 +132,20 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
       !(request.interrupted && request.interrupted())) {
     const Folds folds = make_folds(w.dataset, request.folds);
     result.unseen_by = folds.by;
-    unseen = held_out_error(request.fit, result.fitted.model, w, folds, fit_options, extend);
+    const HeldOut held_out =
+        held_out_error(request.fit, result.fitted.model, w, folds, fit_options, extend);
+    unseen = held_out.error;
+    result.band = held_out_band(held_out, folds, w.dataset, w.allowance());
   }
   if (request.end && request.end() && result.cut_short.empty()) {
     result.cut_short = "the error on unseen data was found";
     unseen = {};
+    result.band = {};
   }
   result.unseen = unseen.told();
   Model& model = result.fitted.model;
   record_fit(result.fitted, request.fit.start.metadata, w);
+  record_band(result.band, model.metadata);
   if (!std::isnan(result.unseen)) {
     model.metadata.set("heldout", format_number(result.unseen));
     model.metadata.set("heldout_by", result.unseen_by);
@@ -149,6 +156,11 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
 
 Summary identification_summary(const Identification& i, const Experiment& w) {
   Summary summary = fit_summary(w, i.fitted, i.unseen, i.unseen_by, i.force_rms);
+  if (i.band.known()) {
+    summary.items.front().facts.push_back(band_words(i.band));
+    summary.values.push_back({"unseen_band", i.band.share, "1"});
+    summary.values.push_back({"unseen_chance", i.band.chance, "1"});
+  }
   if (!i.ended.empty()) summary.notes.insert(summary.notes.begin(), i.ended);
   return summary;
 }

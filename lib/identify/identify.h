@@ -9,6 +9,7 @@
 
 #include "cli/summary.h"
 #include "diagnose/improve.h"
+#include "experiment/unseen_band.h"
 #include "fit/fit_request.h"
 #include "identify/given_recordings.h"
 
@@ -38,6 +39,7 @@ struct Identification {
   Fit fitted;  // Fit::stopped: the best so far, and nothing else is known
   double unseen = std::numeric_limits<double>::quiet_NaN();  // error on data left out [N]
   std::string unseen_by;  // what was left out: "positions"; "" where nothing could be
+  UnseenBand band;        // at other places
   double force_rms = 0;   // of the measured forces [N]
   std::string ended;      // why it was not improved further
   std::string cut_short;  // what an interruption ended: "the model was improved"
@@ -47,7 +49,7 @@ struct Identification {
 FitOptions each_fit(const IdentifyRequest& request, const Experiment& w);
 
 // `w` was prepared by `options`; `body` is its first. The fitted model has its metadata
-// (record_fit(), heldout, interrupted). Error(kUsage): a profile
+// (record_fit(), heldout, record_band(), interrupted). Error(kUsage): a profile
 // of a robust loss or under constraints, constraints that the model cannot keep or that name what
 // it has not (require_constraints()); Error(kBadInput): less was measured than is to be fitted;
 // Error(kNoConvergence): the fit does not converge.

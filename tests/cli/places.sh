@@ -29,6 +29,8 @@ awk -F, 'NR > 1 { for (k = 1; k <= 5; ++k) { d = .0002 * k
 common=(data.csv --body body.ply --rim-edge 0.35 --fix nu=0.45)
 expect 0 '1 of 37 places are left out' "${common[@]}" --folds 6 -o m0.csv
 expect 0 'on positions not seen by the fit' "${common[@]}" --effects elastic,learned-place --folds 6 --field field.csv -o m1.csv
+tr -s '\n ' '  ' <.err | grep -q 'at places not pressed, among these, within [0-9.]* % (rms of a place) with a chance of 95 %' ||
+  complain 'it says how far it may be off elsewhere'
 value() { sed -n "s/^# $2: //p" "$1"; }
 awk -v a="$(value m0.csv heldout)" -v b="$(value m1.csv heldout)" 'BEGIN { exit !(b < .3 * a) }' ||
   complain "places left out: $(value m0.csv heldout) N, then $(value m1.csv heldout) N"
@@ -37,6 +39,13 @@ awk -F, '!/^#/ && $4 == 1 { ++n } $4 == 0 && !($6 <= $5 && $5 <= $7) { bad = 1 }
   complain 'the table has every place, and bands'
 "$bin/hs-simulate" data.csv --body body.ply --rim-edge 0.35 --model m1.csv -o forces.csv 2>.err || complain 'it is simulated'
 grep -q '1 of 37 places are taken for their nearest neighbours' .err || complain 'what does not fit borrows'
+grep -q 'UNSEEN   1 of 37 places' .err || complain 'of the places one alone was not fitted to'
+awk -F, -v OFS=, '/^#/ || /^press/ { print; next } $1 == 1 { x = $2; y = $3; z = $4 } $1 == 2 { $2 = (x + $2) / 2; $3 = (y + $3) / 2
+  $4 = (z + $4) / 2; print }' data.csv >between.csv
+"$bin/hs-simulate" between.csv --body body.ply --rim-edge 0.35 --model m1.csv -o between-forces.csv 2>.err ||
+  complain 'it is simulated between places'
+tr -s '\n ' '  ' <.err | grep -q '1 of 1 place are not among those' || complain 'a place between others was not seen'
+[[ $(value between-forces.csv unseen_band) == "$(value m1.csv unseen_band)" ]] || complain 'the recording says so'
 "$bin/hs-compare" -q data.csv --simulated forces.csv -o residuals.csv || complain 'every row has its force'
 sed -i '/learned-place,0,h7,/d' m1.csv
 expect 3 'lacks rows of its place 7' data.csv --body body.ply --model m1.csv -o no.csv

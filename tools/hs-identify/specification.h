@@ -69,6 +69,12 @@ inline ToolSpec identify_specification() {
       "A flat tool that covers the body compresses it between plates, bonded to both: samples "
       "beyond a strain of 0.3, to which finite strain (hyperelastic) was verified, are left out, "
       "here and in hs-diagnose.",
+      "Of places that nobody has pressed it is said how far the forces may be off there: metadata "
+      "unseen_band, a share of the force's root mean square at a place, the noise aside, and "
+      "unseen_chance, with which it holds for a place like those that were pressed, among them. It "
+      "is an order statistic of the errors at whole places left out in turn (--folds), so it needs "
+      "no law of them, and 19 places for 95 %; of n fewer ones it is their largest error, with a "
+      "chance of n/(n+1).",
       "Measured torques of a six-axis sensor count beside the forces where the recording has them: "
       "tqx,tqy,tqz [N m], of the body on the tool about its tip, the middle of its flat face, in "
       "the frame of the forces; or tx,ty,tz about the sensor's origin, with '# torque_at: X Y Z', "

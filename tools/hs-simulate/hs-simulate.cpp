@@ -1,8 +1,11 @@
 // hs-simulate: the forces of a model along a motion.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 
 #include "acfm/acfm_fit.h"
@@ -11,7 +14,9 @@
 #include "base/error.h"
 #include "base/shell_words.h"
 #include "common_options.h"
+#include "experiment/fitted_range.h"
 #include "experiment/forces.h"
+#include "experiment/unseen_band.h"
 #include "hs-simulate/flags.h"
 #include "hs-simulate/live.h"
 #include "hs-simulate/specification.h"
@@ -49,6 +54,31 @@ void write_simulated(const Arguments& arguments, const std::string& label, Recor
   Output output(result_file(arguments));
   write_recording(output.stream(), out);
   output.commit();
+}
+
+// How far the model may be off at places that it was not fitted to, and how many these are; as the
+// recording's metadata too.
+void tell_unseen(const Model& model, Recording& out, Summary& summary) {
+  const UnseenBand band = recorded_band(model.metadata, model.name);
+  const std::vector<Vec3> known = fitted_range(model.metadata, model.name).places;
+  if (!band.known() || known.empty()) return;
+  std::set<std::array<double, 3>> places, others;
+  for (const Vec3& p : out.position) {
+    if (!places.insert({p.x(), p.y(), p.z()}).second) continue;
+    const auto here = [&](const Vec3& q) { return (p - q).norm() < out.tool_radius() / 2; };
+    if (std::none_of(known.begin(), known.end(), here)) others.insert({p.x(), p.y(), p.z()});
+  }
+  if (others.empty()) return;
+  summary.items.push_back(
+      {"UNSEEN",
+       "",
+       "",
+       {fmt::format("{} of {} are not among those that the model was fitted to; {}", others.size(),
+                    counted(places.size(), "place", "places"), band_words(band))}});
+  summary.values.push_back({"unseen_places", static_cast<double>(others.size()), "1"});
+  summary.values.push_back({"unseen_band", band.share, "1"});
+  summary.values.push_back({"unseen_chance", band.chance, "1"});
+  record_band(band, out.metadata);
 }
 
 // Other modes have forces alone: measured torques are not to pass for simulated ones.
@@ -275,6 +305,7 @@ int run(const Arguments& arguments) {
                     out.rows(), simulated.positions, 100 * simulated.mesh_uncertainty)}}};
   summary.values.push_back({"positions", static_cast<double>(simulated.positions), "1"});
   summary.values.push_back({"mesh_uncertainty", simulated.mesh_uncertainty, "1"});
+  tell_unseen(model, out, summary);
   if (points) {
     if (arguments.given(flag::marker_noise))
       add_marker_noise(simulated.markers, arguments[flag::marker_noise],

@@ -21,7 +21,11 @@ inline ToolSpec simulate_specification() {
       "exactly for motion that is straight between samples "
       "and for any time steps.",
       "Measured and simulated recordings have one format, so the output feeds hs-compare and "
-      "hs-identify alike. Its metadata mesh_uncertainty is the share of the force that the contact "
+      "hs-identify alike. Where the motion has places that the model was not fitted to, what the "
+      "model says of such places (its metadata unseen_band, see hs-identify(1)) is told, and "
+      "stands "
+      "in the recording's metadata. Its metadata mesh_uncertainty is the share of the force that "
+      "the contact "
       "meshes leave open, the median over the positions.",
       "Torques (--torques) are those about the tool's tip, the middle of its flat face, which "
       "moves with it: by finite elements a lever of each place times the body's force, to a few "

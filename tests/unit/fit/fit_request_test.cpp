@@ -71,7 +71,7 @@ TEST(FitRequest, EffectsAreAddedOneAfterTheOther) {
   }
   const Fit fitted = fit_best(starts.models, w, all_episodes(w.dataset), options, starts.known);
   const ForceError unseen =
-      held_out_error(request, fitted.model, w, make_folds(w.dataset, 3), options, {});
+      held_out_error(request, fitted.model, w, make_folds(w.dataset, 3), options, {}).error;
   EXPECT_NEAR(unseen.pooled, 0.01, 0.001);  // the noise: nothing that positions do not share
 }
 
