@@ -15,7 +15,7 @@
 
 namespace hapsim {
 
-constexpr int kFullRounds = 12;
+constexpr int kFullRounds = 30;
 
 // Where a fit stands.
 struct FitProgress {
