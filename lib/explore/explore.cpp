@@ -84,7 +84,8 @@ class Question {
     options_.diagnose.tell("looking inside");
     image_ = stiffness_image(fitted_->model, *experiment_, fitted_->about, body_, options);
     result_.goals.push_back(lump_state(options_.goals.lump, *image_));
-    result_.lump = words_of(*image_);
+    result_.lumps = image_->lumps;
+    result_.inside = words_of(*image_);
   }
 
   void plan() {

@@ -42,7 +42,8 @@ struct Exploration {
   std::string parameter;
   MeasurementPlan plan;  // numbers and times go on after the recording's; empty when done
   std::optional<Diagnosis> diagnosis;  // not before kLeastPresses
-  std::vector<std::string> lump;       // in words, where one was looked for
+  std::vector<Lump> lumps;             // seen inside, strongest first
+  std::vector<std::string> inside;     // what is seen there in words, where it was looked for
   bool done() const { return reached || ended; }
 };
 

@@ -37,7 +37,15 @@ std::string explore_json(const Exploration& e) {
   if (e.diagnosis)
     for (const Finding& f : e.diagnosis->findings)
       if (f.verdict == Verdict::kMissing) j["missing"].push_back(f.effect);
-  j["lump"] = e.lump;
+  j["lumps"] = nlohmann::json::array();
+  for (const Lump& l : e.lumps)
+    j["lumps"].push_back({{"centre", {l.centre.x(), l.centre.y(), l.centre.z()}},
+                          {"low", {l.x.low, l.y.low, l.z.low}},
+                          {"high", {l.x.high, l.y.high, l.z.high}},
+                          {"radius", l.radius},
+                          {"ratio", l.ratio},
+                          {"chance", l.chance}});
+  j["inside"] = e.inside;
   j["next"] = nlohmann::json::array();
   for (const PlannedPress& p : e.plan.presses)
     j["next"].push_back({{"motion", p.motion},

@@ -38,7 +38,7 @@ Summary explore_summary(const Exploration& e, const std::string& recording,
                        counted(e.places, "place", "places"));
   for (const GoalState& g : e.goals)
     s.items.push_back({g.reached ? "REACHED" : "OPEN", g.name, "", {state_words(g)}});
-  for (const std::string& words : e.lump) s.notes.push_back(words);
+  if (!e.inside.empty()) s.notes.push_back(e.inside.front());
   if (e.ended) s.notes.push_back("As many presses as --most-presses allows are there.");
   if (e.done()) return s;
   s.notes.push_back(e.why + ":");

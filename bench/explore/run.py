@@ -1,0 +1,153 @@
+#!/usr/bin/env python3
+"""run.py BIN OUT [BODY...]: presses of a closed loop (hs-plan with a simulated robot) against those of the smallest
+regular grid that comes to the right end, on the bodies of bodies.py. A line a body on standard output.
+
+An end is right when hs-plan calls its goal reached and the verdict is what is hidden: the very effects and E known to
+3 %; of a lump the 95 % intervals of its centre within 2 mm to each side, and the centre within 2 mm of the true one.
+The loop ends by what hs-plan says, which knows no truth; the grids (2 x 2 to 5 x 5 places) are tried in turn until one
+is right: with the usual three presses a place (slow, fast with a hold, sideways), and with one a place in turn. Forces
+are those of the exact shape on a mesh of its own, the body is made of a scan; noise 0.01 N. OUT keeps everything, and
+what is there is not made again. Recorded in bench/results/explore.txt (bench/record.sh)."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import grids
+from bodies import BODIES, ELASTIC
+
+HERE = Path(__file__).resolve().parent
+SHARE = HERE.parent.parent / "share/examples"
+GOALS = {False: "verdict,E=3%", True: "lump=2mm"}
+SIDES = range(2, 6)
+MOST = 40  # presses of a loop
+# The shapes and the scan are those of bench/diagnosis/run.sh.
+SHAPES = {
+    "phantom": "awk -v what=dome -v a=0.055 -v b=0.042 -v c=0.038 -v n=96 -v m=32 -v lobe=0 -f {0}/shapes.awk",
+    "organ": "awk -v what=dome -v a=0.05 -v b=0.045 -v c=0.035 -v n=96 -v m=32 -v lobe=0.25 -f {0}/shapes.awk",
+    "block": "awk -v what=cuboid -v a=0.11 -v b=0.09 -v c=0.04 -f {0}/shapes.awk |"
+    " awk 'NF == 3 && NR > 2 {{ $1 -= 0.055; $2 -= 0.045 }} {{ print }}'",
+}
+
+
+def shell(command, **options):
+    return subprocess.run(["bash", "-euo", "pipefail", "-c", command], check=True, **options)
+
+
+def shape_of(out, shape):
+    folder = out / shape
+    if not (folder / "body.ply").exists():
+        folder.mkdir(parents=True, exist_ok=True)
+        shell(f"""cd {folder}; {SHAPES[shape].format(SHARE)} >surface.off
+          awk -v count=3000 -f {HERE}/../diagnosis/scan.awk surface.off >scan.csv
+          hs-tetmesh -q surface.off -o true.ply
+          hs-scan2ply -q scan.csv --unit mm | hs-reconstruct -q | hs-tetmesh -q -o body.ply""")
+    return folder
+
+
+def ask(data, body, lump, path, presses, most, motion="/dev/null"):
+    """hs-plan's answer to a recording, as JSON; `most` 1: judged alone, without a plan."""
+    if not path.exists():
+        run = subprocess.run(
+            ["hs-plan", "-q", str(data), "--body", str(body), "--tool-radius", "4mm", "--goal", GOALS[lump],
+             "--presses", str(presses), "--most-presses", str(most), "--threads", "1", "--json", str(path) + ".new",
+             "-o", str(motion)], stderr=subprocess.PIPE, text=True)
+        if run.returncode != 0:  # a recording that bears no judgement, as an image of too few places
+            Path(str(path) + ".new").write_text(json.dumps(
+                {"reached": False, "ended": True, "failed": run.stderr.strip(), "verdict": "failed", "missing": [],
+                 "presses": 0, "goals": [], "lumps": [], "next": [], "aim": "none"}))
+        os.replace(str(path) + ".new", path)
+    return json.loads(path.read_text())
+
+
+def right(answer, hidden):
+    if not answer["reached"]:
+        return False
+    if isinstance(hidden, tuple):
+        return sum((a - b) ** 2 for a, b in zip(answer["lumps"][0]["centre"], hidden)) ** 0.5 <= 0.002
+    return sorted(answer["missing"]) == sorted(hidden)
+
+
+def said(answer):
+    if answer["lumps"] and answer["verdict"] is None:
+        return "lump (%.1f %.1f %.1f) mm" % tuple(1e3 * x for x in answer["lumps"][0]["centre"])
+    if answer["verdict"] is None:
+        return "no lump seen"
+    names = "+".join(answer["missing"])
+    return answer["verdict"] + (": " + names if names else "")
+
+
+def by_loop(work, body, lump):
+    """Batches of six, then of two."""
+    folder = work / "loop"
+    folder.mkdir(exist_ok=True)
+    data, k = folder / "data.csv", 0
+    if not data.exists():
+        data.touch()
+    for k in range(MOST):
+        motion = folder / f"motion-{k}.csv"
+        answer = ask(data, body, lump, folder / f"plan-{k}.json", 6 if k == 0 else 2, MOST, motion)
+        if answer["reached"] or answer["ended"]:
+            return answer
+        if not (folder / f"done-{k}").exists():
+            shell(f"{SHARE}/explore/robot.sh {work}/truth {motion} >{folder}/new.csv && cat {folder}/new.csv >>{data}"
+                  f" && touch {folder}/done-{k}")
+    return answer
+
+
+def by_grid(work, shape_folder, shape, body, lump, hidden, kinds):
+    """The first right answer, or the last one; and the grid's side."""
+    surface = grids.read_off(shape_folder / "surface.off")
+    for side in SIDES:
+        folder = work / f"grid-{kinds}-{side}"
+        folder.mkdir(exist_ok=True)
+        if not (folder / "data.csv").exists():
+            (folder / "motion.csv").write_text(grids.motion(surface, shape, side, kinds))
+            shell(f"hs-simulate -q {folder}/motion.csv --body {work}/truth/body.ply --model {work}/truth/model.csv"
+                  f" --rim-edge $RIM --add-noise 0.01 --seed 12 -o {folder}/data.csv")
+        answer = ask(folder / "data.csv", body, lump, folder / "plan.json", 1, 1)
+        answer["presses"] = kinds * side * side
+        if right(answer, hidden):
+            break
+    return answer, side
+
+
+def main():
+    binaries, out = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
+    out.mkdir(parents=True, exist_ok=True)
+    out = out.resolve()
+    wanted = sys.argv[3:]
+    os.environ.update(PATH=f"{binaries}:{os.environ['PATH']}", RIM="0.12", NOISE="0.01", SEED="11")
+    line = "%-24s %5s %-42s %6s %6s %7s  %s"
+    print(line % ("hidden", "loop", "says", "3 each", "1 each", "ratio", "smaller grid says"))
+    good = halves = tried = 0
+    for name, shape, rows, hidden in BODIES:
+        if wanted and name not in wanted:
+            continue
+        lump = isinstance(hidden, tuple)
+        shape_folder, work = shape_of(out, shape), out / name
+        (work / "truth").mkdir(parents=True, exist_ok=True)
+        if not (work / "truth/model.csv").exists():
+            shell(f"cp {shape_folder}/true.ply {work}/truth/body.ply")
+            (work / "truth/model.csv").write_text("effect,region,parameter,value\n" + ELASTIC + rows)
+        body = shape_folder / "body.ply"
+        loop = by_loop(work, body, lump)
+        ends = {k: by_grid(work, shape_folder, shape, body, lump, hidden, k) for k in (1, 3)}
+        found = {k: a["presses"] for k, (a, side) in ends.items() if right(a, hidden)}
+        shown = {k: str(found[k]) if k in found else ">%d" % ends[k][0]["presses"] for k in (1, 3)}
+        usual = found.get(3, ends[3][0]["presses"])
+        ok = right(loop, hidden)
+        tried += 1
+        good += ok
+        halves += ok and loop["presses"] <= usual / 2
+        ratio = "%s%.2f" % ("" if 3 in found else "<", loop["presses"] / usual) if ok else "-"
+        print(line % (name, loop["presses"], ("right, " if ok else "WRONG, " if loop["reached"] else "open, ") + said(loop),
+                      shown[3], shown[1], ratio, said(ends[1][0])), flush=True)
+    print(f"\nloop right in {good} of {tried}; right with at most half the presses of the smallest right grid with"
+          f" three presses a place in {halves} of {tried}")
+
+
+if __name__ == "__main__":
+    main()
