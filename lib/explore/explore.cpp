@@ -42,7 +42,9 @@ class Question {
                                               [](const GoalState& g) { return g.reached; });
     result_.ended = !result_.reached && result_.presses >= options_.most_presses;
     if (!result_.done()) plan();
-    result_.plan.motion.metadata.set("tool_radius", *recording_.metadata.find("tool_radius"));
+    for (const char* key : {"tool_radius", "tool"})
+      if (const auto value = recording_.metadata.find(key))
+        result_.plan.motion.metadata.set(key, *value);
     return std::move(result_);
   }
 
@@ -71,10 +73,14 @@ class Question {
       fail_numerics(recording_.name, "the model does not fit: " + fitted_->message,
                     "give another one by --model");
     seen_ = seen_places(*fitted_, *experiment_);
-    if (options_.goals.lump > 0 && seen_.size() >= kLeastPlaces) look_inside();
+    if (options_.goals.lump > 0) look_inside();
   }
 
   void look_inside() {
+    if (seen_.size() < kLeastPlaces) {
+      result_.goals.push_back(lump_state(options_.goals.lump, {}));
+      return;
+    }
     const MaterialSpec material = material_of(fitted_->model);
     if (material.modulus.size() > 1 || !material.features.empty())
       fail_input("", "a lump is looked for in a body of one modulus",
@@ -244,7 +250,9 @@ class Question {
     };
   }
 
-  double radius() const { return recording_.disc_radius(); }
+  double radius() const {
+    return experiment_ ? experiment_->dataset.recording.disc_radius() : recording_.disc_radius();
+  }
   double step() const {
     return experiment_ ? std::max(1e-4, summarise(experiment_->dataset, 1).sample_step) : kStep;
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "plan/press_paths.h"
 
 namespace hapsim {
@@ -13,17 +12,14 @@ std::vector<PressablePlace> fitting_places(
   while (true) {
     const std::vector<PressablePlace> wanted = choose(places, count);
     std::vector<PressablePlace> fit;
-    std::vector<Vec3> unfit;
-    for (const PressablePlace& place : wanted) {
-      try {
-        const std::shared_ptr<const SetupPlaces> there = prepare({place.point});
-        if (there->contacts().front().unfit.empty()) {
-          fit.push_back({place.point, there->stand(0).normal});
-          continue;
-        }
-      } catch (const Error&) {  // an edge, a gap: nothing to press on
-      }
-      unfit.push_back(place.point);
+    std::vector<Vec3> points, unfit;
+    for (const PressablePlace& place : wanted) points.push_back(place.point);
+    const std::shared_ptr<const SetupPlaces> there = prepare(points);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (there->contacts()[k].unfit.empty())
+        fit.push_back({points[k], there->stand(k).normal});
+      else
+        unfit.push_back(points[k]);
     }
     if (unfit.empty()) return fit;
     std::erase_if(places, [&](const PressablePlace& p) {
