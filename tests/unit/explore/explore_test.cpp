@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "expect_error.h"
+#include "plan/press_paths.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -109,6 +110,35 @@ TEST(Explore, AHiddenRelaxationIsNamedAndTheLoopEnds) {
   EXPECT_TRUE(e.ended);
   EXPECT_FALSE(e.reached);
   EXPECT_TRUE(e.plan.presses.empty());
+}
+
+TEST(Explore, ALumpIsSeenAndSurrounded) {
+  const Vec3 centre(0.050, 0.040, 0.031);
+  const Model truth = test::with(test::elastic(1.5e4, 0.42), "inclusion",
+                                 {centre.x(), centre.y(), centre.z(), 0.005, 8});
+  MeasurementPlan grid;
+  for (int k = 0; k < 9; ++k)
+    append_press(grid.motion, k + 1, 20.0 * k, 0.05,
+                 Vec3(0.02 + 0.02 * (k % 3), 0.02 + 0.02 * (k / 3), 0.04), Vec3::UnitZ(),
+                 press_paths(0.002)[3]);
+  grid.motion.metadata.set("tool_radius", "0.004");
+  Recording so_far = nothing();
+  execute(so_far, grid.motion, truth, 7);
+  const Exploration e = explore(body(), {}, {}, so_far, options_for({"lump=0.2mm"}, 4));
+  EXPECT_FALSE(e.diagnosis.has_value());  // nobody asked for it
+  ASSERT_FALSE(e.lumps.empty());
+  EXPECT_FALSE(e.reached);
+  EXPECT_EQ(e.aim, Aim::kLump);
+  ASSERT_EQ(e.plan.presses.size(), 4u);
+  // Four presses where they are asked for tell far more than the nine of the grid.
+  execute(so_far, e.plan.motion, truth, 8);
+  const Exploration after = explore(body(), {}, {}, so_far, options_for({"lump=2mm"}, 4));
+  ASSERT_FALSE(after.lumps.empty());
+  for (const Exploration* x : {&e, &after})
+    std::printf("%zu presses: lump %.1f mm off, within %.1f mm to each side\n", x->presses,
+                1e3 * (x->lumps[0].centre - centre).norm(), 1e3 * x->goals[0].value);
+  EXPECT_LT(after.goals[0].value, 0.5 * e.goals[0].value);
+  EXPECT_LT((after.lumps[0].centre - centre).norm(), 0.004);
 }
 
 TEST(Explore, ABodyThatNowhereLooksUpIsRefused) {
