@@ -5,9 +5,12 @@ regular grid that comes to the right end, on the bodies of bodies.py. A line a b
 An end is right when hs-plan calls its goal reached and the verdict is what is hidden: the very effects and E known to
 3 %; of a lump the 95 % intervals of its centre within 2 mm to each side, and the centre within 2 mm of the true one.
 The loop ends by what hs-plan says, which knows no truth; the grids (2 x 2 to 5 x 5 places) are tried in turn until one
-is right: with the usual three presses a place (slow, fast with a hold, sideways), and with one a place in turn. Forces
-are those of the exact shape on a mesh of its own, the body is made of a scan; noise 0.01 N. OUT keeps everything, and
-what is there is not made again. Recorded in bench/results/explore.txt (bench/record.sh)."""
+is right: with the usual three presses a place (slow, fast with a hold, sideways), and with one a place in turn; for a
+lump with one alone, since places are what tells. The ratio is that to three each where they were tried.
+
+Forces are those of the exact shape on a mesh of its own (RIM, 0.15 of the tool's radius at its rim), the body is made
+of a scan; noise 0.01 N. OUT keeps everything, and what is there is not made again. GRIDS (3 1)
+says which presses a place are tried. Recorded in bench/results/explore.txt (bench/record.sh)."""
 
 import json
 import os
@@ -120,14 +123,15 @@ def main():
     out.mkdir(parents=True, exist_ok=True)
     out = out.resolve()
     wanted = sys.argv[3:]
-    os.environ.update(PATH=f"{binaries}:{os.environ['PATH']}", RIM="0.12", NOISE="0.01", SEED="11")
+    kinds = [int(k) for k in os.environ.get("GRIDS", "3 1").split()]
+    os.environ.setdefault("RIM", "0.15")
+    os.environ.update(PATH=f"{binaries}:{os.environ['PATH']}", NOISE="0.01", SEED="11")
     line = "%-24s %5s %-42s %6s %6s %7s  %s"
-    print(line % ("hidden", "loop", "says", "3 each", "1 each", "ratio", "smaller grid says"))
+    print(line % ("hidden", "loop", "says", "3 each", "1 each", "ratio", "the last grid says"))
     good = tried = 0
-    halves = {1: 0, 3: 0}  # by presses a place
-    for name, shape, rows, hidden in BODIES:
-        if wanted and name not in wanted:
-            continue
+    asked, halves = {1: 0, 3: 0}, {1: 0, 3: 0}  # by presses a place
+    table = {body[0]: body for body in BODIES}
+    for name, shape, rows, hidden in [table[w] for w in wanted] if wanted else BODIES:
         lump = isinstance(hidden, tuple)
         shape_folder, work = shape_of(out, shape), out / name
         (work / "truth").mkdir(parents=True, exist_ok=True)
@@ -136,21 +140,24 @@ def main():
             (work / "truth/model.csv").write_text("effect,region,parameter,value\n" + ELASTIC + rows)
         body = shape_folder / "body.ply"
         loop = by_loop(work, body, lump)
-        ends = {k: by_grid(work, shape_folder, shape, body, lump, hidden, k) for k in (1, 3)}
+        ends = {k: by_grid(work, shape_folder, shape, body, lump, hidden, k) for k in ((1,) if lump else kinds)}
         found = {k: a["presses"] for k, (a, side) in ends.items() if right(a, hidden)}
-        shown = {k: str(found[k]) if k in found else ">%d" % ends[k][0]["presses"] for k in (1, 3)}
-        usual = found.get(3, ends[3][0]["presses"])
+        shown = {k: str(found[k]) if k in found else ">%d" % ends[k][0]["presses"] for k in ends}
+        usual = max(ends)
+        presses = found.get(usual, ends[usual][0]["presses"])
         ok = right(loop, hidden)
         tried += 1
         good += ok
         for k in halves:
-            halves[k] += ok and loop["presses"] <= found.get(k, ends[k][0]["presses"]) / 2
-        ratio = "%s%.2f" % ("" if 3 in found else "<", loop["presses"] / usual) if ok else "-"
+            if k in ends:
+                asked[k] += 1
+                halves[k] += ok and loop["presses"] <= found.get(k, ends[k][0]["presses"]) / 2
+        ratio = "%s%.2f" % ("" if usual in found else "<", loop["presses"] / presses) if ok else "-"
         print(line % (name, loop["presses"], ("right, " if ok else "WRONG, " if loop["reached"] else "open, ") + said(loop),
-                      shown[3], shown[1], ratio, said(ends[1][0])), flush=True)
+                      shown.get(3, "-"), shown.get(1, "-"), ratio, said(ends[min(ends)][0])), flush=True)
     print(f"\nloop right in {good} of {tried}; right with at most half the presses of the smallest right grid (of the"
-          f" largest tried, where none is): {halves[3]} of {tried} with three presses a place, {halves[1]} of {tried}"
-          " with one")
+          f" largest tried, where none is): {halves[3]} of {asked[3]} with three presses a place, {halves[1]} of"
+          f" {asked[1]} with one")
 
 
 if __name__ == "__main__":

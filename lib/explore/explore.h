@@ -1,7 +1,9 @@
 // The closed loop of measuring: what is known of a body, and which presses to record next.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
