@@ -6,11 +6,13 @@ An end is right when hs-plan calls its goal reached and the verdict is what is h
 3 %; of a lump the 95 % intervals of its centre within 2 mm to each side, and the centre within 2 mm of the true one.
 The loop ends by what hs-plan says, which knows no truth; the grids (2 x 2 to 5 x 5 places) are tried in turn until one
 is right: with the usual three presses a place (slow, fast with a hold, sideways), and with one a place in turn; for a
-lump with one alone, since places are what tells. The ratio is that to three each where they were tried.
+lump with one alone, since places are what tells. Where none is
+right, the smallest that could be is the next one, and counts as such (>=).
 
 Forces are those of the exact shape on a mesh of its own (RIM, 0.15 of the tool's radius at its rim), the body is made
-of a scan; noise 0.01 N. OUT keeps everything, and what is there is not made again. GRIDS (3 1)
-says which presses a place are tried. Recorded in bench/results/explore.txt (bench/record.sh)."""
+of a scan; noise 0.01 N. OUT keeps everything, and what is there is not made again. GRIDS (3 1) says which presses a
+place are tried; KEPT=yes tells of what is there and runs nothing. Recorded in bench/results/explore.txt
+(bench/record.sh)."""
 
 import json
 import os
@@ -36,13 +38,23 @@ SHAPES = {
 }
 
 
+class NotThere(Exception):
+    """What KEPT asks for was not run to its end."""
+
+
+def kept():
+    return os.environ.get("KEPT") == "yes"
+
+
 def shell(command, **options):
+    if kept():
+        raise NotThere
     return subprocess.run(["bash", "-euo", "pipefail", "-c", command], check=True, **options)
 
 
 def shape_of(out, shape):
     folder = out / shape
-    if not (folder / "body.ply").exists():
+    if not (folder / "body.ply").exists() and not kept():
         folder.mkdir(parents=True, exist_ok=True)
         shell(f"""cd {folder}; {SHAPES[shape].format(SHARE)} >surface.off
           awk -v count=3000 -f {HERE}/../diagnosis/scan.awk surface.off >scan.csv
@@ -54,6 +66,8 @@ def shape_of(out, shape):
 def ask(data, body, lump, path, presses, most, motion="/dev/null"):
     """hs-plan's answer to a recording, as JSON; `most` 1: judged alone, without a plan."""
     if not path.exists():
+        if kept():
+            raise NotThere
         run = subprocess.run(
             ["hs-plan", "-q", str(data), "--body", str(body), "--tool-radius", "4mm", "--goal", GOALS[lump],
              "--presses", str(presses), "--most-presses", str(most), "--threads", "1", "--json", str(path) + ".new",
@@ -86,9 +100,9 @@ def said(answer):
 def by_loop(work, body, lump):
     """Batches of six, then of two."""
     folder = work / "loop"
-    folder.mkdir(exist_ok=True)
     data, k = folder / "data.csv", 0
-    if not data.exists():
+    if not kept():
+        folder.mkdir(exist_ok=True)
         data.touch()
     for k in range(MOST):
         motion = folder / f"motion-{k}.csv"
@@ -106,8 +120,9 @@ def by_grid(work, shape_folder, shape, body, lump, hidden, kinds):
     surface = grids.read_off(shape_folder / "surface.off")
     for side in SIDES:
         folder = work / f"grid-{kinds}-{side}"
-        folder.mkdir(exist_ok=True)
-        if not (folder / "data.csv").exists():
+        if not kept():
+            folder.mkdir(exist_ok=True)
+        if not kept() and not (folder / "data.csv").exists():
             (folder / "motion.csv").write_text(grids.motion(surface, shape, side, kinds))
             shell(f"hs-simulate -q {folder}/motion.csv --body {work}/truth/body.ply --model {work}/truth/model.csv"
                   f" --rim-edge $RIM --add-noise 0.01 --seed 12 -o {folder}/data.csv")
@@ -118,6 +133,19 @@ def by_grid(work, shape_folder, shape, body, lump, hidden, kinds):
     return answer, side
 
 
+def both(*asked, hidden, kinds):
+    """What the grids with so many presses a place come to."""
+    ends = {}
+    for k in kinds:
+        try:
+            ends[k] = by_grid(*asked, hidden, k)
+        except NotThere:
+            pass
+    if not ends:
+        raise NotThere
+    return ends
+
+
 def main():
     binaries, out = Path(sys.argv[1]).resolve(), Path(sys.argv[2])
     out.mkdir(parents=True, exist_ok=True)
@@ -126,37 +154,40 @@ def main():
     kinds = [int(k) for k in os.environ.get("GRIDS", "3 1").split()]
     os.environ.setdefault("RIM", "0.15")
     os.environ.update(PATH=f"{binaries}:{os.environ['PATH']}", NOISE="0.01", SEED="11")
-    line = "%-24s %5s %-42s %6s %6s %7s  %s"
-    print(line % ("hidden", "loop", "says", "3 each", "1 each", "ratio", "the last grid says"))
+    line = "%-24s %4s  %-44s %6s %6s %6s %6s  %s"
+    print(line % ("hidden", "loop", "says", "3 each", "ratio", "1 each", "ratio", "the last grid says"))
     good = tried = 0
     asked, halves = {1: 0, 3: 0}, {1: 0, 3: 0}  # by presses a place
     table = {body[0]: body for body in BODIES}
     for name, shape, rows, hidden in [table[w] for w in wanted] if wanted else BODIES:
         lump = isinstance(hidden, tuple)
         shape_folder, work = shape_of(out, shape), out / name
-        (work / "truth").mkdir(parents=True, exist_ok=True)
-        if not (work / "truth/model.csv").exists():
+        if not kept():
+            (work / "truth").mkdir(parents=True, exist_ok=True)
+        if not kept() and not (work / "truth/model.csv").exists():
             shell(f"cp {shape_folder}/true.ply {work}/truth/body.ply")
             (work / "truth/model.csv").write_text("effect,region,parameter,value\n" + ELASTIC + rows)
         body = shape_folder / "body.ply"
-        loop = by_loop(work, body, lump)
-        ends = {k: by_grid(work, shape_folder, shape, body, lump, hidden, k) for k in ((1,) if lump else kinds)}
-        found = {k: a["presses"] for k, (a, side) in ends.items() if right(a, hidden)}
-        shown = {k: str(found[k]) if k in found else ">%d" % ends[k][0]["presses"] for k in ends}
-        usual = max(ends)
-        presses = found.get(usual, ends[usual][0]["presses"])
+        try:
+            loop = by_loop(work, body, lump)
+            ends = both(work, shape_folder, shape, body, lump, hidden=hidden, kinds=(1,) if lump and not kept() else kinds)
+        except NotThere:
+            continue
+        presses = {k: a["presses"] if right(a, hidden) else k * SIDES.stop**2 for k, (a, side) in ends.items()}
+        least = {k: "" if right(a, hidden) else ">=" for k, (a, side) in ends.items()}
         ok = right(loop, hidden)
         tried += 1
         good += ok
-        for k in halves:
-            if k in ends:
-                asked[k] += 1
-                halves[k] += ok and loop["presses"] <= found.get(k, ends[k][0]["presses"]) / 2
-        ratio = "%s%.2f" % ("" if usual in found else "<", loop["presses"] / presses) if ok else "-"
-        print(line % (name, loop["presses"], ("right, " if ok else "WRONG, " if loop["reached"] else "open, ") + said(loop),
-                      shown.get(3, "-"), shown.get(1, "-"), ratio, said(ends[min(ends)][0])), flush=True)
-    print(f"\nloop right in {good} of {tried}; right with at most half the presses of the smallest right grid (of the"
-          f" largest tried, where none is): {halves[3]} of {asked[3]} with three presses a place, {halves[1]} of"
+        for k in ends:
+            asked[k] += 1
+            halves[k] += ok and loop["presses"] <= presses[k] / 2
+        grid = {k: f"{least[k]}{presses[k]}" for k in ends}
+        ratio = {k: ("<=" if least[k] else "") + "%.2f" % (loop["presses"] / presses[k]) if ok else "-" for k in ends}
+        end = ("right, " if ok else "WRONG, " if loop["reached"] else "open, ") + said(loop)
+        print(line % (name, loop["presses"], end, *(x.get(k, "-") for k in (3, 1) for x in (grid, ratio)),
+                      said(ends[min(ends)][0])), flush=True)
+    print(f"\nloop right in {good} of {tried}; right with at most half the presses of the smallest right grid:"
+          f" {halves[3]} of {asked[3]} with three presses a place, {halves[1]} of"
           f" {asked[1]} with one")
 
 
