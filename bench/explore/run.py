@@ -92,7 +92,7 @@ def said(answer):
     if answer["lumps"] and answer["verdict"] is None:
         return "lump (%.1f %.1f %.1f) mm" % tuple(1e3 * x for x in answer["lumps"][0]["centre"])
     if answer["verdict"] is None:
-        return "no lump seen"
+        return "no lump seen" if answer["goals"] else "too few presses to settle anything"
     names = "+".join(answer["missing"])
     return answer["verdict"] + (": " + names if names else "")
 
@@ -116,21 +116,28 @@ def by_loop(work, body, lump):
 
 
 def by_grid(work, shape_folder, shape, body, lump, hidden, kinds):
-    """The first right answer, or the last one; and the grid's side."""
+    """The first right answer, or the last one; and the presses of the smallest grid that is, or could be, right."""
     surface = grids.read_off(shape_folder / "surface.off")
+    last = None
     for side in SIDES:
+        presses = kinds * side * side
         folder = work / f"grid-{kinds}-{side}"
-        if not kept():
-            folder.mkdir(exist_ok=True)
-        if not kept() and not (folder / "data.csv").exists():
-            (folder / "motion.csv").write_text(grids.motion(surface, shape, side, kinds))
-            shell(f"hs-simulate -q {folder}/motion.csv --body {work}/truth/body.ply --model {work}/truth/model.csv"
-                  f" --rim-edge $RIM --add-noise 0.01 --seed 12 -o {folder}/data.csv")
-        answer = ask(folder / "data.csv", body, lump, folder / "plan.json", 1, 1)
-        answer["presses"] = kinds * side * side
+        try:
+            if not kept():
+                folder.mkdir(exist_ok=True)
+            if not kept() and not (folder / "data.csv").exists():
+                (folder / "motion.csv").write_text(grids.motion(surface, shape, side, kinds))
+                shell(f"hs-simulate -q {folder}/motion.csv --body {work}/truth/body.ply --model {work}/truth/model.csv"
+                      f" --rim-edge $RIM --add-noise 0.01 --seed 12 -o {folder}/data.csv")
+            answer = ask(folder / "data.csv", body, lump, folder / "plan.json", 1, 1)
+        except NotThere:
+            if last is None:
+                raise
+            return last, presses
         if right(answer, hidden):
-            break
-    return answer, side
+            return answer, presses
+        last = answer
+    return last, kinds * SIDES.stop**2
 
 
 def both(*asked, hidden, kinds):
@@ -173,8 +180,8 @@ def main():
             ends = both(work, shape_folder, shape, body, lump, hidden=hidden, kinds=(1,) if lump and not kept() else kinds)
         except NotThere:
             continue
-        presses = {k: a["presses"] if right(a, hidden) else k * SIDES.stop**2 for k, (a, side) in ends.items()}
-        least = {k: "" if right(a, hidden) else ">=" for k, (a, side) in ends.items()}
+        presses = {k: smallest for k, (a, smallest) in ends.items()}
+        least = {k: "" if right(a, hidden) else ">=" for k, (a, smallest) in ends.items()}
         ok = right(loop, hidden)
         tried += 1
         good += ok
