@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hapsim {
 namespace {
@@ -50,6 +51,12 @@ std::vector<PressPath> press_paths(double deepest) {
   sideways("along y and back", 0, 1);
   sideways("diagonally and back", std::sqrt(0.5), std::sqrt(0.5));
   return result;
+}
+
+const PressPath& path_in_turn(const std::vector<PressPath>& paths, std::size_t turn) {
+  // Held at one and a half, along x, slowly, along y, held, diagonally; of press_paths().
+  constexpr std::size_t kTurns[] = {8, 9, 3, 10, 5, 11};
+  return paths.at(kTurns[turn % std::size(kTurns)]);
 }
 
 void append_press(Recording& r, int press, double start, double step, const Vec3& position,

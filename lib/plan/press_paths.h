@@ -25,6 +25,11 @@ struct PressPath {
 // pushed sideways along two directions and their diagonal, to and fro.
 std::vector<PressPath> press_paths(double deepest);
 
+// What the first presses of a body do, one after the other and then from the start again: each is
+// another of these paths, so that few presses see depths, rates, holds and both directions
+// sideways. The deepest comes first: what is pressed later goes no deeper.
+const PressPath& path_in_turn(const std::vector<PressPath>& paths, std::size_t turn);
+
 // Appends one press along a path in steps of `step` [s], without forces, with a piece of air before
 // and after it. `start`: time of its first row [s]. The first tangent is the x axis laid into the
 // surface (the y axis where that stands upright on it).

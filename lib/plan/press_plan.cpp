@@ -38,9 +38,15 @@ bool depends_on_place(const Model& model) {
 
 // The recording's positions, and some between and around them where the models say different things
 // of other places. None that cannot be pressed.
-std::shared_ptr<const SetupPlaces> places_for(const std::vector<Model>& models,
-                                              const Experiment& e) {
+std::shared_ptr<const SetupPlaces> places_for(const std::vector<Model>& models, const Experiment& e,
+                                              const PlanAsked& asked) {
   const std::shared_ptr<const SetupPlaces>& pressed = e.places.setup(0);
+  if (!asked.places.empty()) {
+    std::vector<Vec3> places;
+    if (asked.pressed_places) places = pressed->positions();
+    places.insert(places.end(), asked.places.begin(), asked.places.end());
+    return pressed->with_positions(places);
+  }
   if (std::none_of(models.begin(), models.end(), depends_on_place)) return pressed;
   std::vector<Vec3> places = pressed->positions();
   for (const Vec3& p : unpressed_places(pressed->surface(), pressed->contacts(),
@@ -61,12 +67,14 @@ std::vector<ToolStand> stands_of(const SetupPlaces& places) {
 }
 
 // Every path at every position, each as if it came right after the recording.
-Candidates make_candidates(const std::vector<Model>& models, const Experiment& e) {
+Candidates make_candidates(const std::vector<Model>& models, const Experiment& e,
+                           const PlanAsked& asked) {
   const Dataset& known = e.dataset;
   const DataSummary summary = summarise(known, 1);
+  const double depth = asked.depth > 0 ? asked.depth : summary.depth;
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   Candidates candidates;
-  candidates.places = places_for(models, e);
+  candidates.places = places_for(models, e, asked);
   const std::vector<Vec3>& positions = candidates.places->positions();
   const std::vector<ToolStand> stands = stands_of(*candidates.places);
   Recording r;
@@ -74,7 +82,7 @@ Candidates make_candidates(const std::vector<Model>& models, const Experiment& e
   r.metadata = known.recording.metadata;
   int press = 0;
   for (std::size_t p = 0; p < positions.size(); ++p)
-    for (const PressPath& path : press_paths(summary.depth)) {
+    for (const PressPath& path : press_paths(depth)) {
       append_press(r, press++, 0, step, positions[p], stands[p].normal, path);
       candidates.names.push_back(path.name);
     }
@@ -84,8 +92,9 @@ Candidates make_candidates(const std::vector<Model>& models, const Experiment& e
                       static_cast<double>(known.recording.temp.size()));
   candidates.dataset = on_body(make_dataset(std::move(r)), stands);
   std::vector<double> past(positions.size(), 0);
+  const bool pressed_first = asked.places.empty() || asked.pressed_places;
   for (const Episode& press : known.episodes)
-    for (std::size_t i = 0; i < press.view.size(); ++i)
+    for (std::size_t i = 0; i < press.view.size() && pressed_first; ++i)
       if (!press.view.in_air[i])
         past[press.position] = std::max(past[press.position], press.view.u[i].norm());
   for (Episode& press : candidates.dataset.episodes) {
@@ -165,14 +174,14 @@ std::vector<std::size_t> choose(std::size_t candidates, std::size_t count, const
 }  // namespace
 
 MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment& e,
-                             std::size_t count) {
+                             std::size_t count, const PlanAsked& asked) {
   std::vector<Model> plain;
   std::vector<Eigen::MatrixXd> known;
   for (const Model& m : models) {
     plain.push_back(without_press_offsets(m));
     known.push_back(known_information(plain.back(), e));
   }
-  const Candidates candidates = make_candidates(plain, e);
+  const Candidates candidates = make_candidates(plain, e, asked);
   const SetupPlaces& places = *candidates.places;
   std::vector<SetupLinearisation> about;
   for (const Model& m : plain)
@@ -235,7 +244,13 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
       return sd;
     };
     Eigen::Index worst = 0;
-    const double before = spread(known[0]).maxCoeff(&worst);
+    const Eigen::VectorXd uncertain = spread(known[0]);
+    uncertain.maxCoeff(&worst);
+    for (std::size_t c = 0; c < free.size(); ++c)
+      if (const Parameter& p = plain[0].parameters[free[c]];
+          p.effect + " " + p.name == asked.parameter)
+        worst = static_cast<Eigen::Index>(c);
+    const double before = uncertain[worst];
     const Parameter& p = plain[0].parameters[free[static_cast<std::size_t>(worst)]];
     plan.parameter = p.effect + " " + p.name;
     const auto gain = [&](const std::vector<std::size_t>& set) {
@@ -250,7 +265,8 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
   const DataSummary summary = summarise(e.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   const std::vector<ToolStand> stands = stands_of(places);
-  const std::vector<PressPath> all_paths = press_paths(summary.depth);
+  const std::vector<PressPath> all_paths =
+      press_paths(asked.depth > 0 ? asked.depth : summary.depth);
   double start = 0;
   for (const std::size_t k : chosen) {
     const auto position = static_cast<std::size_t>(candidates.dataset.episodes[k].position);

@@ -24,7 +24,16 @@ struct MeasurementPlan {
   // the recording leaves them, at least over all pairs. With one model: the share that is left of
   // the standard error of its least certain parameter.
   double separation = 0;
-  std::string parameter;  // the least certain one; "" with rivals
+  std::string parameter;  // the least certain one, or the one asked for; "" with rivals
+};
+
+// What is asked of a plan beyond the usual.
+struct PlanAsked {
+  double depth = 0;  // that of a full press [m]; 0: of the deepest in the recording
+  std::string
+      parameter;  // "elastic E": what a plan for one model determines; "": the least certain
+  std::vector<Vec3> places;    // further candidates, at which the tool is known to fit
+  bool pressed_places = true;  // the recording's positions are candidates
 };
 
 // Tries at every position of the recording, and where the models say different things of other
@@ -33,9 +42,10 @@ struct MeasurementPlan {
 // diagonal, and pushed to and fro. Picks them one by one, each the best on top of those before it
 // (greedy D- and T-optimal design: Atkinson and Fedorov, Biometrika 62, 1975). Differences below 1
 // % of the force count for nothing: no model is so good. `models` are fitted to the experiment's
-// recording.
+// recording. With places in `asked`, these take the place of those that are found between the
+// pressed ones.
 MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment& experiment,
-                             std::size_t count = 3);
+                             std::size_t count = 3, const PlanAsked& asked = {});
 
 // What to record, and what for: the file of the motion, then a line a press.
 std::vector<std::string> plan_lines(const MeasurementPlan& plan, const std::string& file);

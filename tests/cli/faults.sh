@@ -33,6 +33,7 @@ declare -A command=(
   [hs-simulate]='hs-simulate data.csv --body body.ply --model model.csv --rim-edge 0.3 --threads 1'
   [hs-identify]='hs-identify data.csv --body body.ply --rim-edge 0.3 --folds 0 --threads 1'
   [hs-diagnose]='hs-diagnose data.csv --body body.ply --model model.csv --rim-edge 0.3 --flips 99'
+  [hs-plan]='hs-plan data.csv --body body.ply --rim-edge 0.3'
   [hs-compare]='hs-compare data.csv --simulated forces.csv'
   [hs-check]='hs-check model.csv --golden model.csv'
   [hs-export]='hs-export model.csv --body body.ply --data data.csv --format calculix'
@@ -43,7 +44,7 @@ declare -A command=(
 )
 tools=($(printf '%s\n' "${!command[@]}" | sort))
 declare -A input=([hs-tetmesh]=box.off [hs-scan2ply]=scan.csv [hs-reconstruct]=points.ply [hs-import]=machine.csv [hs-simulate]=data.csv
-  [hs-identify]=data.csv [hs-diagnose]=data.csv [hs-compare]=data.csv [hs-check]=model.csv [hs-export]=model.csv
+  [hs-identify]=data.csv [hs-diagnose]=data.csv [hs-plan]=data.csv [hs-compare]=data.csv [hs-check]=model.csv [hs-export]=model.csv
   [hs-batch]=manifest.csv [hs-calibrate]=poses.csv [hs-cluster]=samples.csv [hs-library]=lab.db [hs-fuse]=forces.csv)
 
 row() { printf '%-28s %-14s %s\n' "$1" "$2" "$3"; }

@@ -44,6 +44,12 @@ for data in null stiff one; do
   valid hs-diagnose $data.json
   valid hs-compare compared-$data.json
 done
+# Before the first press, and when no more are asked for.
+"$bin/hs-plan" -q /dev/null --body block.ply --tool-radius 4mm --rim-edge 0.3 --json first.json -o first.csv || complain 'hs-plan without presses'
+valid hs-plan first.json
+"$bin/hs-plan" -q null.csv --body block.ply --rim-edge 0.3 --most-presses 1 --json last.json -o last.csv || complain 'hs-plan with presses enough'
+valid hs-plan last.json
+sed 's/"reached": false/"reached": "no"/' last.json >other.json && refused hs-plan other.json
 sed 's/"nodes"/"knots"/' body.json >other.json && refused hs-tetmesh other.json
 sed 's/"rows": [0-9]*/"rows": "many"/' compared-null.json >other.json && refused hs-compare other.json
 

@@ -42,6 +42,7 @@ hs-simulate|#|data.csv --body block.ply --model model.csv --own-mesh
 hs-compare|#|data.csv --simulated forces.csv
 hs-compare|#|data.csv --simulated wrong.csv
 hs-diagnose|#|data.csv --body block.ply --model model.csv --rim-edge 0.3 --flips 99
+hs-plan|#|data.csv --body block.ply --rim-edge 0.3 --presses 2
 hs-cluster|#|samples.csv
 hs-library|entry,|lab.db
 hs-library|#|lab.db --show 1

@@ -112,6 +112,7 @@ row hs-compare-data data.csv hs-compare @ --simulated data.csv
 row hs-compare-simulated data.csv hs-compare data.csv --simulated @
 row hs-diagnose-data data.csv hs-diagnose @ --model model.csv --body body.ply --rim-edge 0.5 --flips 99
 row hs-diagnose-model model.csv hs-diagnose data.csv --model @ --body body.ply --rim-edge 0.5 --flips 99
+row hs-plan-data data.csv hs-plan @ --body body.ply --rim-edge 0.5 --tool-radius 0.004
 row hs-check-model model.csv hs-check @ --golden model.csv
 row hs-check-golden model.csv hs-check model.csv --golden @
 row hs-fuse-fast data.csv hs-fuse @ --slow data.csv

@@ -1,0 +1,33 @@
+// Places for presses at which the tool really fits, and the presses there.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "experiment/setup_places.h"
+#include "plan/press_plan.h"
+#include "plan/spread_places.h"
+
+namespace hapsim {
+
+// What asks for the next `count` places among those that are left.
+using PlaceChoice = std::function<std::vector<PressablePlace>(
+    const std::vector<PressablePlace>& left, std::size_t count)>;
+
+// `count` places as `choose` wants them, in its order, with the normals of the meshed contact; one
+// at which the tool's disc cannot be meshed is left out and another asked for. `prepare` meshes and
+// solves a place. Fewer where there are no more.
+std::vector<PressablePlace> fitting_places(
+    std::vector<PressablePlace> places, std::size_t count, const PlaceChoice& choose,
+    const std::function<std::shared_ptr<const SetupPlaces>(const std::vector<Vec3>&)>& prepare);
+
+// Presses at these places, one after the other, each along the next path in turn (path_in_turn())
+// from the `turn`-th on; numbers from 1, times from 0.
+MeasurementPlan presses_in_turn(const std::vector<PressablePlace>& places, double depth,
+                                std::size_t turn, double step);
+
+// Numbers and times that go on after a recording's last press.
+void go_on_after(const Recording& recording, MeasurementPlan& plan);
+
+}  // namespace hapsim
