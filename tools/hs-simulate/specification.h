@@ -223,6 +223,11 @@ inline ToolSpec simulate_specification() {
                                   "before the first line.",
                           .group = "Live"});
   spec.options.push_back(accuracy_option("Live"));
+  spec.options.push_back({.flag = flag::large_strain,
+                          .help = "Live: large strain (hyperelastic with finite = 1) by finite "
+                                  "elements that were pressed beforehand, instead of by a law of "
+                                  "what lies under the tool.",
+                          .group = "Live"});
   spec.options.push_back({.flag = flag::uncertainty,
                           .help = "Live: the standard uncertainty of each force, in a column.",
                           .group = "Live"});
