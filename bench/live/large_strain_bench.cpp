@@ -110,8 +110,8 @@ void run(int argc, char** argv) {
     near.push_back(p);
   PreparedBodyOptions options;
   options.tool_radius = kRadius;
-  options.threads = 1;
-  options.tolerance = 0.007;
+  options.threads = 2;
+  options.tolerance = 0.02;
   if (const char* cache = std::getenv("HAPSIM_BENCH_CACHE")) options.cache = cache;
   options.contacts = [&](const MaterialSpec& material) {
     ContactLibraryOptions how;
@@ -126,6 +126,9 @@ void run(int argc, char** argv) {
     return known;
   };
   const PreparedBody law(body, model, options);
+  fmt::print("linear stiffness: {} samples, {:.2f} % expected between them\n",
+             law.field().samples(), 100 * law.field().expected_error());
+  std::fflush(stdout);
   options.large_strain = true;
   if (argc > 5) options.most_strain_samples = static_cast<std::size_t>(std::atoi(argv[5]));
   const Clock::time_point start = Clock::now();
@@ -183,6 +186,7 @@ void run(int argc, char** argv) {
     full_depth = std::min(full_depth,
                           deep * std::min(1.0, kEvery * static_cast<double>(f_full.size()) / 400));
 
+    fmt::print(stderr, "press {} of {}\n", p + 1, places);
     double peak = 0;
     for (const Vec3& f : f_same) peak = std::max(peak, f.norm());
     loop.begin(at.point);

@@ -25,6 +25,9 @@ using Coordinates = Eigen::Matrix<double, 9, 1>;
 
 constexpr double kStrainVersion = 1;  // of samples in the cache
 constexpr std::size_t kStrainFirst = 24, kStrainRound = 12, kStrainPool = 600;
+// The first where much may be left unknown, and the tolerance from which on that is so.
+constexpr std::size_t kStrainFewest = 8;
+constexpr double kStrainMuch = 0.1;
 constexpr double kStrainThrough = 0.35;  // of the way through the body
 constexpr double kStrainApart = 0.5;     // samples, in tool radii
 constexpr double kOtherWay = 0.2;        // normals of less cosine have nothing in common
@@ -140,7 +143,8 @@ LargeStrain::LargeStrain(const TetMesh& body, const Model& model, const Stiffnes
   key.add(options_.tool_radius);
   key_ = key.hex();
 
-  const std::size_t first = std::min(kStrainFirst, options_.most_samples);
+  const std::size_t first = std::min(
+      options_.tolerance < kStrainMuch ? kStrainFirst : kStrainFewest, options_.most_samples);
   add(apart(draw(kStrainPool, 1), first));
   if (samples_.size() < std::min<std::size_t>(first, 8))
     fail_input(model.name, "hardly any place of this body could be solved at finite strain",
