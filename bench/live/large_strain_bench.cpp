@@ -12,6 +12,7 @@
 // latencies of steps in contact.
 //
 //   bench_large_strain BODY.ply MODEL.csv CONTACTS.csv PLACES [SAMPLES [SHARE]]
+// (large_strain.sh makes them)
 //
 // CONTACTS: places (x,y,z in metres, without a header) about which is sampled. HAPSIM_BENCH_CACHE:
 // where samples stay.

@@ -44,7 +44,7 @@ std::vector<ForceLoop::Running> ForceLoop::steps_of(const PreparedBody& body,
     if (stage == Stage::kSensor && !options.sensor) continue;
     if (body.is_regional() && relaxes(i)) continue;  // the elements stand for all that relaxes
     // Sampled elements stand for the law of finite strain.
-    if (body.large_strain() != nullptr && i.effect->card().name == "hyperelastic") continue;
+    if (body.large_strain() != nullptr && is_finite_strain(i)) continue;
     std::unique_ptr<EffectStep> step = i.effect->step(i.values, context);
     if (!step) continue;
     const std::size_t needed = step->memory();

@@ -14,7 +14,6 @@
 #include "base/parallel.h"
 #include "base/random.h"
 #include "estimate/kriging.h"
-#include "experiment/forces.h"
 #include "io/stream.h"
 #include "mesh/way_through.h"
 
@@ -96,6 +95,11 @@ void store_sample(const std::string& path, const StrainSample& sample) {
 
 }  // namespace
 
+bool is_finite_strain(const EffectInstance& effect) {
+  FullSpec spec;
+  return effect.effect->full(effect.values, 1, spec) && spec.finite;
+}
+
 Model static_part(const Model& model) {
   std::set<std::string> kept;
   bool finite = false;
@@ -105,7 +109,7 @@ Model static_part(const Model& model) {
     FullSpec spec;
     if (!i.effect->full(i.values, 1, spec) || !spec.terms.empty()) continue;
     kept.insert(card.name);
-    finite = finite || spec.finite;
+    finite = finite || is_finite_strain(i);
   }
   if (!finite)
     fail_input(model.name, "the model has no finite strain, so there is nothing to sample of it",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "experiment/forces.h"
 #include "mesh/signed_distance.h"
 #include "realtime/place_facts.h"
 #include "realtime/strain_sample.h"
@@ -105,6 +106,9 @@ class LargeStrain {
   double variance_ = 0;  // of the relative doubt, for a process of variance one
   double left_out_ = 0;
 };
+
+// Its law is one of finite strain, which elements solve as it is (FullSpec::finite).
+bool is_finite_strain(const EffectInstance& effect);
 
 // The part of a model that stands still: body and support without what relaxes, to be solved by
 // elements of finite strain. Error(kBadInput) without hyperelastic, finite = 1.
