@@ -30,7 +30,7 @@ constexpr double kStrainMuch = 0.1;
 constexpr double kStrainThrough = 0.35;  // of the way through the body
 constexpr double kStrainApart = 0.5;     // samples, in tool radii
 constexpr double kOtherWay = 0.2;        // normals of less cosine have nothing in common
-// Of what is beyond the linear force: what its meshes leave, half the 1.3 % of strain_sample.h.
+// Of what is beyond the linear force: what its meshes leave (solve_strain_sample()).
 constexpr double kStrainMesh = 0.0075;
 // Lengths by which first places are told apart: tool radii, of a normal, of logarithms of K.
 constexpr std::array<double, 3> kUnlike{3, 0.3, 0.15};

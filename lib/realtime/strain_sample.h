@@ -46,9 +46,9 @@ struct StrainSample {
 // Solves the body at a place (FullPress) along thirteen ways from no displacement to `into` tool
 // radii, straight down and to both sides of strain_side(), and fits the energy to the forces:
 // relative to each force, a floor of 5 % of the largest below. Elements of half a radius at the
-// rim with straight edges: forces over the linear stiffness of the same mesh are then within 1.3 %
-// of what finer meshes tend to, to 2.25 radii (bench/live/large_strain.sh), while elements with
-// quarter points (FullOptions) at this size are 4 % off. A way that does not converge ends there,
+// rim with straight edges: forces over the linear stiffness of the same mesh are then within 1 % of
+// those of edges a third as long as far as these converge (one place of a block, s = 0.2), while
+// with quarter points (FullOptions) they are 4 to 7 % off. A way that does not converge ends there,
 // and the sample with the shortest. `model`: body and support effects alone, static. Nothing where
 // the tool does not fit, or nothing converges.
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,

@@ -28,8 +28,8 @@ struct FullOptions {
   bool own_mesh = false;
   double rim_edge = 1.0 / 6;  // of that mesh, over the tool's radius
   double growth = 0;          // of its edges with the distance from there; 0: with rim_edge
-  // At the rim, which follow the stress of the linear body there. At finite strain they are off
-  // (bench/live/large_strain.sh) and turn inside out two thirds of a radius sooner.
+  // At the rim, which follow the stress of the linear body there. At finite strain forces converge
+  // more slowly with them, and the tangent fails at half the depth or less.
   bool quarter_points = true;
   bool averaged = true;  // mean dilatation (dilatation.h), so that elements do not lock
   const ContactBase* base = nullptr;  // of the body; null: it is made

@@ -64,7 +64,7 @@ inline ToolSpec simulate_specification() {
       "thirteen ways down to 2.5 tool radii, or 0.35 of the way through, and sideways to a quarter "
       "of a radius and half the depth, a radius at most, give an energy; between places it is "
       "interpolated until those left out are foretold within --accuracy, or 96 were pressed (it "
-      "says what was reached). That takes some 3 to 5 s of a processor a place, by --threads at "
+      "says what was reached). That takes some 3 to 7 s of a processor a place, by --threads at "
       "once; each place is kept in the cache when it is done, so a start that was ended goes on. "
       "With --contacts the places lie within three radii of those alone. Relaxation, friction, the "
       "sensor and all else act on that force as on the linear one. Farther than was pressed the "
