@@ -108,6 +108,7 @@ void BodyAssembly::set_scale(const std::vector<double>& scale) {
     const PointResponse r = law->respond(Matrix3d::Identity(), true);
     modulus = std::max(modulus, r.D.diagonal().maxCoeff() + law->volume(1).second);
   }
+  modulus_ = modulus;
   force_unit_ = stiffest * modulus * std::pow(volume, 2.0 / 3);
 }
 
@@ -121,6 +122,15 @@ Cliques BodyAssembly::cliques() const {
   for (const NodeSpring& s : springs_) cliques.add({s.node});
   for (const FaceSpring& s : face_springs_) cliques.add(s.nodes);
   return cliques;
+}
+
+void BodyAssembly::stiffen(NodeSystem& system, double share) const {
+  for (std::size_t t = 0; t < mesh_->tets.size(); ++t) {
+    double volume = 0;
+    for (int q = 0; q < points(t); ++q) volume += weight_[first_point_[t] + q];
+    system.add(t, share * scale_[t] * modulus_ * std::cbrt(volume) *
+                      Eigen::MatrixXd::Identity(3 * nodes_, 3 * nodes_));
+  }
 }
 
 }  // namespace hapsim

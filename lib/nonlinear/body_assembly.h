@@ -88,6 +88,10 @@ class BodyAssembly {
   void tangent(NodeSystem& system, const std::vector<char>& kept,
                std::vector<CliqueMatrix>& kept_matrices) const;
 
+  // Adds to `system` a spring from each node of each element to the ground, of `share` of a modulus
+  // over the element's size: what makes a tangent positive definite that is not.
+  void stiffen(NodeSystem& system, double share) const;
+
   // Derivatives of phi'.forces() by parameters at fixed displacement, for fields phi (3 nodes x m).
   struct Derivatives {
     std::vector<Eigen::MatrixXd> constants;  // by law: m x its constants
@@ -147,7 +151,7 @@ class BodyAssembly {
   std::vector<std::vector<int>> local_;  // with kPatch: place of the element's nodes in its patch
 
   Eigen::VectorXd u_, force_;
-  double energy_ = 0, force_unit_ = 0;
+  double energy_ = 0, force_unit_ = 0, modulus_ = 0;
 };
 
 }  // namespace hapsim

@@ -32,6 +32,9 @@ struct SolveOptions {
   double tolerance = 1e-9;  // free nodes' forces over the handles', both as norms
   int newton_limit = 14;    // a load step
   double least_step = 1.0 / 256;
+  // Where the tangent is not positive definite, as where the surface beside a tool's rim creases,
+  // down the energy all the same, to the next state that is stable. Without tips.
+  bool past_instability = false;
 };
 
 // Displacement-controlled path following: Newton's method with the consistent tangent, a line

@@ -93,6 +93,19 @@ struct NonlinearBody::Impl {
     for (Tip& t : tips) t.fields.resize(0, 0);
     return factorised = system.factorise();
   }
+  // The tangent, or the least stiffened one that has a way down.
+  bool factorise(const SolveOptions& options) {
+    if (factorise()) return true;
+    if (!options.past_instability || !tips.empty()) return false;
+    for (double share = 1e-4; share < 1; share *= 4) {
+      system.clear();
+      touched.clear();
+      assembly.tangent(system, moved, touched);
+      assembly.stiffen(system, share);
+      if (system.factorise()) return true;
+    }
+    return false;
+  }
 
   VectorXd residual() const {
     VectorXd r = assembly.forces() - load;
@@ -159,7 +172,7 @@ struct NonlinearBody::Impl {
   // One load step: predictor along the tangent, then Newton's method.
   SolveStatus step(const VectorXd& change, const VectorXd& new_load, const SolveOptions& options,
                    int& newton_steps) {
-    if (!factorise()) return SolveStatus::kUnstable;
+    if (!factorise(options)) return SolveStatus::kUnstable;
     const MatrixXd field = spread(change);
     double before = std::max(norms().constrained, new_load.norm());
     for (const Tip& t : tips)
@@ -175,9 +188,10 @@ struct NonlinearBody::Impl {
           step_with_tips(field + system.solve(load - assembly.forces() - times_touched(field)));
       if (found != SolveStatus::kConverged) return found;
     }
-    for (int k = 0; k < (tips.empty() ? 1 : 2) * options.newton_limit; ++k) {
+    const int rounds = !tips.empty() ? 2 : options.past_instability ? 4 : 1;
+    for (int k = 0; k < rounds * options.newton_limit; ++k) {
       if (balanced(options, before) && fits()) return settled();
-      if (!factorise()) return SolveStatus::kUnstable;
+      if (!factorise(options)) return SolveStatus::kUnstable;
       ++newton_steps;
       const SolveStatus found = tips.empty()
                                     ? line_search(system.solve(-residual()))

@@ -28,6 +28,7 @@ struct ToolBody::Impl {
   std::vector<double> scale;   // one a tetrahedron
   std::vector<double> factor;  // by law: 1 + sum of share c of the step at hand
   NonlinearBody body;
+  SolveOptions options;
   State now;
   MatrixXd
       compliance;  // of the freedoms under force control, by Broyden's method; empty: not known
@@ -155,7 +156,7 @@ struct ToolBody::Impl {
       else
         prescribed.segment<3>(3 * number[t]) = motion[t];
     }
-    return body.solve(prescribed);
+    return body.solve(prescribed, options);
   }
 
   // A part of the motion that follows a force.
@@ -306,6 +307,9 @@ SolveReport ToolBody::step(const std::vector<ToolTarget>& targets, double dt) {
   return report;
 }
 
+void ToolBody::set_options(const SolveOptions& options) {
+  impl_->options = options;
+}
 int ToolBody::tools() const {
   return static_cast<int>(impl_->tools.size());
 }
@@ -317,6 +321,13 @@ Vec3 ToolBody::force(int tool) const {
 }
 const NonlinearBody& ToolBody::body() const {
   return impl_->body;
+}
+std::optional<Eigen::Matrix3d> ToolBody::stiffness(int tool) {
+  assert(!impl_->tools[static_cast<std::size_t>(tool)].tip);
+  const NonlinearBody::Linearisation about = impl_->body.linearise();
+  if (!about.stable) return std::nullopt;
+  const Index at = 3 * impl_->number[static_cast<std::size_t>(tool)];
+  return Eigen::Matrix3d(about.K.block<3, 3>(at, at));
 }
 const ToolBody::State& ToolBody::state() const {
   return impl_->now;

@@ -47,11 +47,15 @@ class ToolBody {
   // 1e-8 (1e-7 with tips) by Broyden's method (Math. Comput. 19, 1965), each trial a whole
   // solution: exact at once where the body is linear.
   SolveReport step(const std::vector<ToolTarget>& targets, double dt);
+  void set_options(const SolveOptions& options);  // of later steps
 
   int tools() const;
   Vec3 motion(int tool) const;  // since the start [m]
   Vec3 force(int tool) const;   // of the body on the tool [N]
   const NonlinearBody& body() const;
+  // Minus d force / d motion at the last step, of a bonded tool [N/m], the other tools held: of
+  // what relaxes as stiff as in that step. Nothing where the tangent is not positive definite.
+  std::optional<Eigen::Matrix3d> stiffness(int tool);
 
   // All that the next step starts from.
   struct State {

@@ -43,6 +43,8 @@ std::vector<ForceLoop::Running> ForceLoop::steps_of(const PreparedBody& body,
     const Stage stage = i.effect->card().stage;
     if (stage == Stage::kSensor && !options.sensor) continue;
     if (body.is_regional() && relaxes(i)) continue;  // the elements stand for all that relaxes
+    // Sampled elements stand for the law of finite strain.
+    if (body.large_strain() != nullptr && is_finite_strain(i)) continue;
     std::unique_ptr<EffectStep> step = i.effect->step(i.values, context);
     if (!step) continue;
     const std::size_t needed = step->memory();
@@ -60,7 +62,7 @@ ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options,
     : ToolLoop(&body.distance(), within_reach(options, steps)),
       body_(body),
       steps_(std::move(steps)) {
-  set_law(law_of(steps_, body.tool_radius()));
+  if (body.large_strain() == nullptr) set_law(law_of(steps_, body.tool_radius()));
   state_.h.fill(Vec3::Zero());
   state_.driver.fill(Vec3::Zero());
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
@@ -77,8 +79,9 @@ void ForceLoop::restore(const ForceLoopState& state) noexcept {
   state_ = state;
   restore_tool(state.tool);
   set_quality(state_.uncertainty, state_.sampled);
-  if (state_.placed)
-    for (const Running& s : steps_) s.step->take_place(state_.place);
+  if (!state_.placed) return;
+  if (body_.large_strain() != nullptr) strain_ = body_.large_strain()->at(state_.place);
+  for (const Running& s : steps_) s.step->take_place(state_.place);
 }
 
 void ForceLoop::take_place(const Place& place) noexcept {
@@ -90,7 +93,21 @@ void ForceLoop::take_place(const Place& place) noexcept {
   state_.sampled = entry.sampled;
   set_quality(state_.uncertainty, state_.sampled);
   if (body_.is_regional()) body_.maxwell_at(place.face, place.point, state_.maxwell.data());
+  if (body_.large_strain() != nullptr) strain_ = body_.large_strain()->at(state_.place);
   for (const Running& s : steps_) s.step->take_place(state_.place);
+}
+
+// `doubt`: what sampled elements leave of it, relative.
+Vec3 ForceLoop::body_force(const StepSample& sample, const Vec3& u, double& doubt) noexcept {
+  Vec3 f = -(state_.place.contact.K * u);
+  if (body_.large_strain() != nullptr) {
+    const LargeStrain::Force strained = body_.large_strain()->force(strain_, u);
+    f = -strained.f;
+    doubt = strained.doubt;
+    if (!strained.within) mark_beyond_law();
+  }
+  if (body_.is_regional()) f += regional_memory(sample, u);
+  return f;
 }
 
 StepSample ForceLoop::next_sample(double t, const Vec3& u, bool in_air) noexcept {
@@ -139,8 +156,8 @@ Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {
   double* memory = state_.memory.data();
   for (const Running& s : steps_) s.step->move(sample, memory + s.memory);
   const Vec3 pressed = in_air ? Vec3(Vec3::Zero()) : sample.u;
-  Vec3 f = -(state_.place.contact.K * pressed);
-  if (body_.is_regional()) f += regional_memory(sample, pressed);
+  double doubt = 0;
+  Vec3 f = body_force(sample, pressed, doubt);
   auto s = steps_.begin();
   for (; s != steps_.end() && s->stage < Stage::kContact; ++s)
     s->step->apply(sample, memory + s->memory, f);
@@ -151,8 +168,8 @@ Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {
   for (; s != steps_.end(); ++s) s->step->apply(sample, memory + s->memory, f);
   double share = 1;
   for (const Running& r : steps_) share = std::max(share, r.step->share_of_stiffness());
-  set_quality(state_.uncertainty * direction_doubt(state_.place.contact.K, pressed) * share,
-              state_.sampled);
+  const double place = state_.uncertainty * direction_doubt(state_.place.contact.K, pressed);
+  set_quality(doubt > 0 ? std::hypot(place * share, doubt) : place * share, state_.sampled);
   return f;
 }
 

@@ -61,6 +61,7 @@ class ForceLoop : public ToolLoop {
   };
   static std::vector<Running> steps_of(const PreparedBody& body, const ToolLoopOptions& options);
   ForceLoop(const PreparedBody& body, const ToolLoopOptions& options, std::vector<Running> steps);
+  Vec3 body_force(const StepSample& sample, const Vec3& u, double& doubt) noexcept;
   StepSample next_sample(double t, const Vec3& u, bool in_air) noexcept;
   Vec3 regional_memory(const StepSample& sample, const Vec3& u) noexcept;
   Vec3 advance(double t, const Vec3& u, bool in_air) noexcept;
@@ -68,6 +69,7 @@ class ForceLoop : public ToolLoop {
   const PreparedBody& body_;
   std::vector<Running> steps_;
   ForceLoopState state_;
+  LargeStrain::Place strain_;  // of state_.place
   double stiffness_ = 1, moduli_ = 1, times_ = 1;
 };
 

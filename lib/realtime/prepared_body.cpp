@@ -163,6 +163,16 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     fail_input(model.name, "the model has " + std::to_string(terms_.size()) + " relaxation times",
                "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");
+  if (!options.large_strain) return;
+  LargeStrainOptions strain;
+  strain.tool_radius = tool_radius_;
+  strain.tolerance = options.tolerance;
+  strain.most_samples = options.most_strain_samples;
+  for (const KnownStiffness& k : known) strain.near.push_back(k.point);
+  strain.threads = options.threads;
+  strain.cache = options.cache;
+  if (options.strain_progress) strain.sampled = options.strain_progress();
+  large_strain_ = std::make_unique<LargeStrain>(body, model, *field_, *distance_, *facts_, strain);
 }
 
 void PreparedBody::prepare_regional(const std::vector<RegionRelaxation>& regions,

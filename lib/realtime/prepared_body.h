@@ -10,6 +10,7 @@
 #include "mesh/signed_distance.h"
 #include "model/model.h"
 #include "model/relaxation_steps.h"
+#include "realtime/large_strain.h"
 #include "realtime/place_facts.h"
 #include "realtime/stiffness_field.h"
 
@@ -26,6 +27,11 @@ struct PreparedBodyOptions {
   double rim_edge = kRimEdge;  // of the contact meshes, over the tool's radius
   double tolerance = 0.02;     // relative error of the force between samples, root mean square
   std::size_t most_samples = kMostSamples;  // the tolerance may then not be reached
+  // Finite strain by sampled elements, in place of the closed law of hyperelastic; the field's
+  // tolerance is theirs.
+  bool large_strain = false;
+  std::size_t most_strain_samples = LargeStrainOptions{}.most_samples;
+  std::function<std::function<void()>()> strain_progress;      // a step function
   std::function<std::function<void()>(std::size_t)> progress;  // from the most, a step function
 };
 
@@ -53,6 +59,7 @@ class PreparedBody {
   bool heals() const { return heals_; }
   double modulus() const { return modulus_; }  // E of region 0 [Pa]
   const PlaceFacts& facts() const { return *facts_; }
+  const LargeStrain* large_strain() const { return large_strain_.get(); }  // null: not asked for
   // Of regional relaxation: what the Maxwell elements leave of the stiffness, the worst entry's,
   // relative to it.
   double misfit() const { return misfit_; }
@@ -72,6 +79,7 @@ class PreparedBody {
   double misfit_ = 0;
   std::unique_ptr<StiffnessField> field_;
   std::unique_ptr<SignedDistance> distance_;
+  std::unique_ptr<LargeStrain> large_strain_;
 };
 
 // The stiffnesses that the batch mode would take at these places, solved for the material.

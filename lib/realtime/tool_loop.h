@@ -73,6 +73,8 @@ class ToolLoop {
   void set_quality(double uncertainty, bool sampled) noexcept {
     uncertainty_ = uncertainty, sampled_ = sampled;
   }
+  // The sample at hand is beyond the law's range.
+  void mark_beyond_law() noexcept { beyond_ |= kBeyondLaw; }
   // The range of the model's law [m]; at first it is endless.
   void set_law(const LawRange& law) noexcept { law_ = law; }
 

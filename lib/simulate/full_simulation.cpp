@@ -38,6 +38,14 @@ struct Session {
   double last_time = 0;
 };
 
+// The middle node of each edge to its middle.
+void straighten(TetMesh& mesh) {
+  for (const auto& t : mesh.tets)
+    for (int e = 0; e < 6; ++e)
+      mesh.nodes[t[4 + e]] =
+          0.5 * (mesh.nodes[t[kTetEdges[e][0]]] + mesh.nodes[t[kTetEdges[e][1]]]);
+}
+
 class Simulation {
  public:
   Simulation(const TetMesh& body, const Model& model, const Recording& recording,
@@ -71,7 +79,7 @@ class Simulation {
       if (f.feature.kind == Feature::kTransverse && spec_.finite)
         fail_input(model.name, "finite strain of a transversely isotropic body is not in the model",
                    "take hyperelastic or anisotropic out");
-    base_ = make_contact_base(body);
+    base_ = options.base != nullptr ? *options.base : make_contact_base(body);
     surface_ = free_surface(base_);
   }
 
@@ -115,6 +123,7 @@ class Simulation {
     }
     return session_->body->force(0);
   }
+  Session& session() { return *session_; }
 
  private:
   void prepare(const ToolSteps& steps) {
@@ -122,9 +131,10 @@ class Simulation {
     Session& s = *session_;
     const std::vector<std::size_t> rows = steps.first_rows();
     if (rows.size() == 1 && !options_.own_mesh) {
-      s.own =
-          make_contact_mesh(base_, recording_.position[rows[0]], radius_,
-                            radius_ * options_.rim_edge, kGrowth * options_.rim_edge / kRimEdge);
+      s.own = make_contact_mesh(
+          base_, recording_.position[rows[0]], radius_, radius_ * options_.rim_edge,
+          options_.growth > 0 ? options_.growth : kGrowth * options_.rim_edge / kRimEdge);
+      if (!options_.quarter_points) straighten(s.own.mesh);
       s.mesh = &s.own.mesh;
       s.contacts = {{s.own.point, s.own.normal, s.own.patch_nodes}};
     } else {
@@ -153,6 +163,7 @@ class Simulation {
     bool free_base = false;
     const BodyModel model = body_model(*s.mesh, free_base);
     s.body = std::make_unique<ToolBody>(model, tools, relaxation_by_law(), free_base);
+    s.body->set_options(options_.solve);
     result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
   }
 
@@ -330,6 +341,7 @@ struct FullPress::Impl {
         recording(one_row(contact, tool_radius)),
         simulation(body, model, recording, options) {
     simulation.begin();
+    start = simulation.session().body->state();
   }
   static Recording one_row(const Vec3& contact, double tool_radius) {
     Recording r;
@@ -345,6 +357,7 @@ struct FullPress::Impl {
   FullOptions options;
   Recording recording;
   Simulation simulation;
+  ToolBody::State start;
 };
 
 FullPress::FullPress(const TetMesh& body, const Model& model, const Vec3& contact,
@@ -353,6 +366,15 @@ FullPress::FullPress(const TetMesh& body, const Model& model, const Vec3& contac
 FullPress::~FullPress() = default;
 Vec3 FullPress::step(const Vec3& u, double dt) {
   return impl_->simulation.advance(u, dt);
+}
+void FullPress::reset() {
+  impl_->simulation.session().body->restore(impl_->start);
+}
+const Vec3& FullPress::normal() const {
+  return impl_->simulation.session().contacts[0].normal;
+}
+std::optional<Eigen::Matrix3d> FullPress::stiffness() {
+  return impl_->simulation.session().body->stiffness(0);
 }
 
 }  // namespace hapsim

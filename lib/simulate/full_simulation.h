@@ -4,11 +4,12 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "contact/contact_stiffness.h"
 #include "model/model.h"
-#include "nonlinear/body_assembly.h"
+#include "nonlinear/nonlinear_body.h"
 #include "recording/recording.h"
 
 namespace hapsim {
@@ -25,8 +26,14 @@ struct FullOptions {
   // On the body's own mesh; else each press on a mesh graded to its tool's rim, as the condensed
   // stiffnesses are. Several tools at once always press the body's own.
   bool own_mesh = false;
-  double rim_edge = 1.0 / 6;   // of that mesh, over the tool's radius
-  bool averaged = true;        // mean dilatation (dilatation.h), so that elements do not lock
+  double rim_edge = 1.0 / 6;  // of that mesh, over the tool's radius
+  double growth = 0;          // of its edges with the distance from there; 0: with rim_edge
+  // At the rim, which follow the stress of the linear body there. At finite strain forces converge
+  // more slowly with them, and the tangent fails at half the depth or less.
+  bool quarter_points = true;
+  bool averaged = true;  // mean dilatation (dilatation.h), so that elements do not lock
+  const ContactBase* base = nullptr;  // of the body; null: it is made
+  SolveOptions solve;
   bool force_control = false;  // the recording's forces are given, its displacements are found
   std::function<void(std::size_t rows_done)> step;
   std::function<void(const FullView&)> observe;
@@ -61,6 +68,10 @@ class FullPress {
   ~FullPress();
   // To the displacement u [m], dt [s] after the last step: the force on the tool [N].
   Vec3 step(const Vec3& u, double dt);
+  void reset();  // back to the undeformed body, at rest
+  // Of the bonded tool where it stands, as the mesh has it.
+  const Vec3& normal() const;                  // outward, unit
+  std::optional<Eigen::Matrix3d> stiffness();  // ToolBody::stiffness() [N/m]
 
  private:
   struct Impl;

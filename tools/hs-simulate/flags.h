@@ -10,7 +10,7 @@ inline constexpr ForceFlag add_noise{"--add-noise"};
 inline constexpr IntegerFlag seed{"--seed"}, tools{"--tools"};
 inline constexpr SwitchFlag own_mesh{"--own-mesh"}, full{"--full"},
     force_control{"--force-control"}, torques{"--torques"}, live{"--live"},
-    uncertainty{"--uncertainty"};
+    uncertainty{"--uncertainty"}, large_strain{"--large-strain"};
 inline constexpr ChoiceFlag solver{"--solver"}, binary{"--binary"};
 inline constexpr TextFlag vtu{"--vtu"}, rows{"--rows"};
 inline constexpr FileFlag contacts{"--contacts"}, markers_out{"--markers-out"};

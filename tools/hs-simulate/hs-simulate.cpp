@@ -267,8 +267,9 @@ int run(const Arguments& arguments) {
     if (acfm) return run_live_acfm(arguments, *acfm);
     return run_live_mode(arguments, model);
   }
-  for (const AnyFlag& flag : AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools,
-                                      flag::hand, flag::accuracy, flag::uncertainty})
+  for (const AnyFlag& flag :
+       AnyFlags{flag::rate, flag::contacts, flag::binary, flag::tools, flag::hand, flag::accuracy,
+                flag::uncertainty, flag::large_strain})
     if (arguments.given(flag))
       fail_usage(flag + " is of the live mode", "add --live, or leave it out");
   hand_limits(arguments);

@@ -181,6 +181,18 @@ inline int answer_several(const Arguments& arguments, LiveInput& in, const Model
                    });
 }
 
+// How well what was pressed beforehand foretells what was not.
+inline void tell_large_strain(const Arguments& arguments, const PreparedBody& body) {
+  const LargeStrain* strain = body.large_strain();
+  if (strain == nullptr) return;
+  std::string words =
+      fmt::format("large strain: {} places pressed, forces at places left out {:.1f} % off",
+                  strain->samples(), 100 * strain->left_out_error());
+  if (strain->left_out_error() > arguments[flag::accuracy])
+    words += fmt::format(", not the {:g} % of --accuracy", 100 * arguments[flag::accuracy]);
+  say(arguments, "hs-simulate", words);
+}
+
 inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
   LiveInput in(arguments);
@@ -199,6 +211,11 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
       return known_contacts(fine->places, material);
     };
   options.heals = in.heals();
+  options.large_strain = arguments.given(flag::large_strain);
+  options.strain_progress = [&]() -> std::function<void()> {
+    progress = std::make_shared<Progress>(arguments, "places pressed at large strain", 0);
+    return [&progress] { progress->step(); };
+  };
   const std::int64_t start = monotonic_ns();
   const PreparedBody body(mesh, model, options);
   progress.reset();
@@ -211,6 +228,7 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
                   "expected; {} contacts solved finely",
                   1e-9 * static_cast<double>(monotonic_ns() - start), body.field().samples(),
                   100 * body.field().expected_error(), fine ? fine->dataset.positions.size() : 0));
+  tell_large_strain(arguments, body);
   if (body.is_regional())
     say(arguments, "hs-simulate",
         fmt::format("regions relax each in its own way: {} Maxwell elements, within {:.1g} of the "
@@ -226,6 +244,8 @@ inline int run_live_mode(const Arguments& arguments, const Model& model) {
 inline int run_live_acfm(const Arguments& arguments, const Acfm& model) {
   if (arguments.given(flag::uncertainty))
     fail_usage("--uncertainty is of finite elements, and this model has none", "leave it out");
+  if (arguments.given(flag::large_strain))
+    fail_usage("--large-strain is of finite elements, and this model has none", "leave it out");
   if (arguments.given(flag::contacts))
     fail_usage("--contacts is of finite elements, and this model has none", "leave it out");
   LiveInput in(arguments);

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# large_strain.sh BUILD OUT [PRESSES [SAMPLES [EDGE...]]]: hs-simulate --live --large-strain against finite elements, on
+# a block 80 x 60 x 30 mm that is pressed to 30 % of its thickness with a tool of 4 mm at places that its samples do
+# not have (bench_large_strain says what the rows are), elastic and relaxing. EDGE [m] is of the body's mesh: 0.0042 has
+# 10,000 tetrahedra, 0.0019 has 107,000. The samples stay in OUT/cache, so an interrupted call is gone on with.
+# Recorded in bench/results/large-strain.txt (bench/record.sh).
+set -euo pipefail
+(($# >= 2)) || { echo 'usage: large_strain.sh BUILD OUT [PRESSES [SAMPLES [EDGE...]]]' >&2; exit 2; }
+build=$(cd "$1" && pwd)
+mkdir -p "$2/cache"
+out=$(cd "$2" && pwd) presses=${3:-5} samples=${4:-24}
+shift $(($# < 4 ? $# : 4))
+edges=(0.0042)
+(($# == 0)) || edges=("$@")
+cd "$out"
+export HAPSIM_BENCH_CACHE=$out/cache
+
+awk 'BEGIN { X = 0.08; Y = 0.06; Z = 0.03; print "OFF\n8 12 0"
+  for (k = 0; k < 2; k++) for (j = 0; j < 2; j++) for (i = 0; i < 2; i++) print i * X, j * Y, k * Z
+  print "3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5" }' >box.off
+printf '%s,0.03\n' 0.028,0.022 0.040,0.022 0.052,0.022 0.028,0.034 0.040,0.034 0.052,0.038 >contacts.csv
+cat >elastic.csv <<'END'
+effect,region,parameter,value,unit,std_error,lower,upper,state
+elastic,0,E,20000,Pa,,1,1e12,fixed
+elastic,0,nu,0.4,1,,0,0.499,fixed
+hyperelastic,0,s,0.2,1,,0,1.2,fixed
+hyperelastic,0,finite,1,1,,0,1,fixed
+END
+{ head -n 3 elastic.csv; printf 'viscoelastic,0,E1,8000,Pa,,0,1e12,fixed\nviscoelastic,0,tau1,0.2,s,,0.0001,100000,fixed\n'
+  tail -n 2 elastic.csv; } >relaxing.csv
+for edge in "${edges[@]}"; do
+  "$build/bin/hs-tetmesh" -q box.off --edge "$edge" -o "box-$edge.ply"
+  for model in elastic relaxing; do
+    echo "$model, edges of $edge m:"
+    "$build/bench/live/bench_large_strain" "box-$edge.ply" $model.csv contacts.csv "$presses" "$samples"
+  done
+done

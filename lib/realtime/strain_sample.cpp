@@ -1,0 +1,207 @@
+#include "realtime/strain_sample.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+#include <vector>
+
+#include "base/error.h"
+#include "contact/contact_cache.h"
+#include "simulate/full_simulation.h"
+
+namespace hapsim {
+namespace {
+
+constexpr int kMostPower = 6;
+constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
+constexpr double kStrainFloor = 0.05;    // of the largest force: below, errors are over that
+constexpr double kStrainRidge = 1e-7;    // of the columns' squares
+constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
+constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '1'};
+
+struct Powers {
+  int i, j, k;
+};
+
+constexpr std::array<Powers, kStrainTerms> monomials() {
+  constexpr std::array<int, 5> most{6, 4, 4, 2, 1};
+  std::array<Powers, kStrainTerms> all{};
+  int n = 0;
+  for (int m = 0; m < 5; ++m)
+    for (int i = std::max(0, 3 - m); i <= most[static_cast<std::size_t>(m)]; ++i)
+      for (int j = 0; j <= m; ++j) all[static_cast<std::size_t>(n++)] = {i, j, m - j};
+  return all;
+}
+constexpr std::array<Powers, kStrainTerms> kMonomials = monomials();
+
+// Powers of one coordinate with their first and second derivatives.
+struct PowerTable {
+  explicit PowerTable(double x) noexcept {
+    f[0] = 1;
+    for (int p = 1; p <= kMostPower; ++p) f[p] = f[p - 1] * x;
+    for (int p = 0; p <= kMostPower; ++p) {
+      d[p] = p > 0 ? p * f[p - 1] : 0;
+      dd[p] = p > 1 ? p * (p - 1) * f[p - 2] : 0;
+    }
+  }
+  std::array<double, kMostPower + 1> f, d, dd;
+};
+
+struct Solved {
+  std::vector<Vec3> v, f;  // ways in radii and forces that move the tool, in the frame [N]
+};
+
+void fit(const Solved& solved, double radius, StrainSample& sample) {
+  const auto rows = static_cast<Eigen::Index>(3 * solved.v.size());
+  const Eigen::Matrix3d K = sample.frame * sample.K * sample.frame.transpose();
+  const double unit = K(0, 0) * radius;
+  double largest = 0;
+  for (const Vec3& f : solved.f) largest = std::max(largest, f.norm());
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows + kStrainTerms, kStrainTerms);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(rows + kStrainTerms);
+  for (std::size_t s = 0; s < solved.v.size(); ++s) {
+    const double weight = unit / std::max(solved.f[s].norm(), kStrainFloor * largest);
+    const auto row = 3 * static_cast<Eigen::Index>(s);
+    A.middleRows<3>(row) = weight * strain_gradients(solved.v[s]);
+    b.segment<3>(row) = weight * (solved.f[s] / unit - K * solved.v[s] / K(0, 0));
+  }
+  const Eigen::VectorXd scale = A.colwise().norm().cwiseMax(1e-12).cwiseInverse().transpose();
+  A = A * scale.asDiagonal();
+  const Eigen::MatrixXd forces = A.topRows(rows);
+  A.bottomRows(kStrainTerms).diagonal().setConstant(std::sqrt(kStrainRidge));
+  const Eigen::VectorXd x = A.colPivHouseholderQr().solve(b);
+  sample.fit =
+      std::sqrt((forces * x - b.head(rows)).squaredNorm() / static_cast<double>(solved.v.size()));
+  sample.c = x.cwiseProduct(scale);
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 3, kStrainTerms> strain_gradients(const Vec3& v) noexcept {
+  const PowerTable d(v[0]), p(v[1]), q(v[2]);
+  Eigen::Matrix<double, 3, kStrainTerms> g;
+  for (int t = 0; t < kStrainTerms; ++t) {
+    const auto [i, j, k] = kMonomials[static_cast<std::size_t>(t)];
+    g.col(t) << d.d[i] * p.f[j] * q.f[k], d.f[i] * p.d[j] * q.f[k], d.f[i] * p.f[j] * q.d[k];
+  }
+  return g;
+}
+
+Vec3 strain_gradient(const StrainCoefficients& c, const Vec3& v) noexcept {
+  const PowerTable d(v[0]), p(v[1]), q(v[2]);
+  Vec3 g = Vec3::Zero();
+  for (int t = 0; t < kStrainTerms; ++t) {
+    const auto [i, j, k] = kMonomials[static_cast<std::size_t>(t)];
+    g[0] += c[t] * d.d[i] * p.f[j] * q.f[k];
+    g[1] += c[t] * d.f[i] * p.d[j] * q.f[k];
+    g[2] += c[t] * d.f[i] * p.f[j] * q.d[k];
+  }
+  return g;
+}
+
+Eigen::Matrix3d strain_hessian(const StrainCoefficients& c, const Vec3& v) noexcept {
+  const PowerTable d(v[0]), p(v[1]), q(v[2]);
+  Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+  for (int t = 0; t < kStrainTerms; ++t) {
+    const auto [i, j, k] = kMonomials[static_cast<std::size_t>(t)];
+    h(0, 0) += c[t] * d.dd[i] * p.f[j] * q.f[k];
+    h(1, 1) += c[t] * d.f[i] * p.dd[j] * q.f[k];
+    h(2, 2) += c[t] * d.f[i] * p.f[j] * q.dd[k];
+    h(0, 1) += c[t] * d.d[i] * p.d[j] * q.f[k];
+    h(0, 2) += c[t] * d.d[i] * p.f[j] * q.d[k];
+    h(1, 2) += c[t] * d.f[i] * p.d[j] * q.d[k];
+  }
+  h(1, 0) = h(0, 1), h(2, 0) = h(0, 2), h(2, 1) = h(1, 2);
+  return h;
+}
+
+std::string StrainSample::bytes() const {
+  std::vector<double> numbers(point.begin(), point.end());
+  numbers.insert(numbers.end(), frame.data(), frame.data() + 9);
+  numbers.insert(numbers.end(), K.data(), K.data() + 9);
+  numbers.push_back(into);
+  numbers.push_back(fit);
+  numbers.insert(numbers.end(), c.data(), c.data() + kStrainTerms);
+  std::string text(kStrainMagic, sizeof kStrainMagic);
+  text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
+  ContentHash sum;
+  sum.add(text);
+  return text + sum.hex();
+}
+
+std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
+  constexpr std::size_t kNumbersOf = 3 + 9 + 9 + 2 + kStrainTerms, kSum = 32;
+  constexpr std::size_t kBody = sizeof kStrainMagic + kNumbersOf * sizeof(double);
+  if (bytes.size() != kBody + kSum) return std::nullopt;
+  ContentHash sum;
+  sum.add(bytes.substr(0, kBody));
+  if (sum.hex() != bytes.substr(kBody) ||
+      std::memcmp(bytes.data(), kStrainMagic, sizeof kStrainMagic) != 0)
+    return std::nullopt;
+  std::array<double, kNumbersOf> numbers;
+  std::memcpy(numbers.data(), bytes.data() + sizeof kStrainMagic, sizeof numbers);
+  StrainSample s;
+  s.point = Eigen::Map<const Vec3>(numbers.data());
+  s.frame = Eigen::Map<const Eigen::Matrix3d>(numbers.data() + 3);
+  s.K = Eigen::Map<const Eigen::Matrix3d>(numbers.data() + 12);
+  s.into = numbers[21];
+  s.fit = numbers[22];
+  s.c = Eigen::Map<const StrainCoefficients>(numbers.data() + 23);
+  return s;
+}
+
+std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
+                                                const Model& model, const Vec3& point,
+                                                double tool_radius, double into) {
+  FullOptions options;
+  options.rim_edge = kStrainRim;
+  options.growth = kStrainGrowth;
+  options.quarter_points = false;
+  options.solve.past_instability = true;
+  options.base = &base;
+  StrainSample sample;
+  Solved solved;
+  try {
+    FullPress press(body, model, point, tool_radius, options);
+    sample.point = point;
+    const Vec3 n = press.normal(), e = n.unitOrthogonal();
+    sample.frame << -n.transpose(), e.transpose(), n.cross(e).transpose();
+    const std::optional<Eigen::Matrix3d> K = press.stiffness();
+    if (!K) return std::nullopt;
+    sample.K = *K;
+    sample.into = into;
+    const auto way = [&](double angle, double share, int steps) {
+      press.reset();
+      double reached = 0;
+      try {
+        for (int i = 1; i <= steps; ++i) {
+          const double d = into * i / steps, side = share * strain_side(d);
+          const Vec3 v(d, side * std::cos(angle), side * std::sin(angle));
+          const Vec3 f = press.step(tool_radius * sample.frame.transpose() * v, 0);
+          solved.v.push_back(v);
+          solved.f.push_back(-sample.frame * f);
+          reached = d;
+        }
+      } catch (const Error& error) {
+        if (error.code() != ExitCode::kNoConvergence) throw;
+      }
+      sample.into = std::min(sample.into, reached);
+    };
+    way(0, 0, kDown);
+    for (int k = 0; k < 6; ++k) {
+      way(k * std::numbers::pi / 3, 1, kSideways);
+      way((k + 0.5) * std::numbers::pi / 3, 0.5, kSideways);
+    }
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::kBadInput) return std::nullopt;  // the tool does not fit
+    throw;
+  }
+  if (!(sample.into > 0)) return std::nullopt;
+  fit(solved, tool_radius, sample);
+  return sample;
+}
+
+}  // namespace hapsim
