@@ -71,7 +71,9 @@ inline ToolSpec simulate_specification() {
       "says what was reached). That takes some 3 to 7 s of a processor a place, by --threads at "
       "once; each place is kept in the cache when it is done, so a start that was ended goes on. "
       "With --contacts the places lie within three radii of those alone. Relaxation, friction, the "
-      "sensor and all else act on that force as on the linear one. Farther than was pressed the "
+      "sensor and all else act on that force as on the linear one; what elements that relax at "
+      "large strain do otherwise, above all while the tool leaves, is in no uncertainty. Farther "
+      "than was pressed the "
       "force goes on along its tangent, with 32 in beyond.",
       "With --hand the forces go through the last layer before a hand: within the limits they are "
       "what they were; where no motion comes for --hold, lines go out of their own until the force "
