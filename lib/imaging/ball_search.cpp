@@ -3,9 +3,12 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "imaging/ball_signal.h"
 #include "mesh/signed_distance.h"
@@ -13,38 +16,18 @@
 namespace hapsim {
 namespace {
 
+// The same by blocks, which are worth a thread's while.
+void in_blocks(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
+  constexpr std::size_t kBlock = 64;
+  in_parallel((count + kBlock - 1) / kBlock, threads, [&](std::size_t b) {
+    for (std::size_t i = b * kBlock; i < std::min(count, (b + 1) * kBlock); ++i) task(i);
+  });
+}
+
 double ratio_of(double effect) {
   constexpr double kMost = 2.4;  // a rigid ball has 2.5
   const double e = std::min(effect, kMost);
   return std::max(0.02, 1 + e / (1 - 0.4 * e));
-}
-
-struct Candidate {
-  Vec3 centre;
-  double depth = 0, radius = 0;
-  Eigen::VectorXd signal;
-};
-
-std::vector<Candidate> candidates(const Eigen::MatrixXd& J, const FieldGrid& grid,
-                                  const BallScene& w) {
-  const SignedDistance surface(w.surface);
-  const double tool = w.tool_radius;
-  std::vector<Candidate> result;
-  for (std::size_t n = 0; n < grid.size(); ++n) {
-    const Vec3 p = grid.node(n);
-    const double depth = -surface.at(p).distance;
-    if (depth <= 0 || depth > w.largest_depth) continue;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t q = 0; q < w.contacts.size(); ++q) {
-      const Vec3 d = p - w.contacts[q].point;
-      const Vec3& normal = w.contacts[q].normal;
-      nearest = std::min(nearest, (d - d.dot(normal) * normal).norm());
-    }
-    if (nearest > 3 * tool) continue;  // not under the presses
-    for (const double radius : {0.75 * tool, tool, 1.5 * tool, 2 * tool, 3 * tool})
-      if (depth >= radius) result.push_back({p, depth, radius, ball_signal(J, grid, p, radius)});
-  }
-  return result;
 }
 
 // Least squares of the gains on what is free and a ball of unknown effect.
@@ -87,15 +70,15 @@ class Scan {
 };
 
 // The best ball; its numbers are means over all candidates by their likelihood.
-FoundBall best_ball(const Scan& scan, const std::vector<Candidate>& all) {
+FoundBall best_ball(const Scan& scan, const std::vector<BallCandidate>& all, int threads) {
   double most = 0;
-  std::vector<std::pair<double, double>> fits;
-  for (const Candidate& c : all) {
-    fits.push_back(scan.fit(c.signal));
-    const bool possible = fits.back().first > ball_effect(0.02) && fits.back().first < 2.4;
-    if (!possible) fits.back().second = 0;
-    most = std::max(most, fits.back().second);
-  }
+  std::vector<std::pair<double, double>> fits(all.size());
+  in_blocks(all.size(), threads, [&](std::size_t i) {
+    fits[i] = scan.fit(all[i].signal);
+    const bool possible = fits[i].first > ball_effect(0.02) && fits[i].first < 2.4;
+    if (!possible) fits[i].second = 0;
+  });
+  for (const auto& [effect, drop] : fits) most = std::max(most, drop);
   FoundBall ball;
   ball.drop = most;
   double sum = 0, log_radius = 0, log_ratio = 0, squares = 0;
@@ -129,7 +112,7 @@ struct ByChance {
   double chance(double drop) const { return -std::expm1(-std::exp(-(drop - mode) / scale)); }
 };
 
-ByChance by_chance(const Scan& scan, const std::vector<Candidate>& all) {
+ByChance by_chance(const Scan& scan, const std::vector<BallCandidate>& all) {
   constexpr std::size_t kMost = 4000;  // neighbours say nearly the same
   constexpr int kDraws = 300;
   if (all.empty()) return {};
@@ -154,12 +137,36 @@ ByChance by_chance(const Scan& scan, const std::vector<Candidate>& all) {
 
 }  // namespace
 
-BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid, const Eigen::VectorXd& data,
+std::vector<BallCandidate> ball_candidates(const Eigen::MatrixXd& J, const FieldGrid& grid,
+                                           const BallScene& w) {
+  const SignedDistance surface(w.surface);
+  const double tool = w.tool_radius;
+  std::vector<std::vector<BallCandidate>> at(grid.size());
+  in_blocks(grid.size(), w.threads, [&](std::size_t n) {
+    const Vec3 p = grid.node(n);
+    const double depth = -surface.at(p).distance;
+    if (depth <= 0 || depth > w.largest_depth) return;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const PreparedContact& contact : w.contacts) {
+      const Vec3 d = p - contact.point;
+      nearest = std::min(nearest, (d - d.dot(contact.normal) * contact.normal).norm());
+    }
+    if (nearest > 3 * tool) return;  // not under the presses
+    for (const double radius : {0.75 * tool, tool, 1.5 * tool, 2 * tool, 3 * tool})
+      if (depth >= radius) at[n].push_back({p, depth, radius, ball_signal(J, grid, p, radius)});
+  });
+  std::vector<BallCandidate> all;
+  for (std::vector<BallCandidate>& some : at)
+    std::move(some.begin(), some.end(), std::back_inserter(all));
+  return all;
+}
+
+BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid,
+                       const std::vector<BallCandidate>& all, const Eigen::VectorXd& data,
                        const Eigen::VectorXd& noise, const BallScene& w) {
   const Eigen::Index n = data.size();
   const double tool = w.tool_radius, depth = w.largest_depth;
   BallSearch image;
-  const std::vector<Candidate> all = candidates(J, grid, w);
 
   // Errors that grow, alike everywhere, until the best ball leaves no more than they allow.
   const auto errors = [&](double extra) -> Eigen::VectorXd {
@@ -167,8 +174,8 @@ BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid, const Ei
   };
   const auto too_small = [&](double extra) {
     const Scan scan(data, errors(extra), w.free);
-    const double left =
-        (scan.chi2() - best_ball(scan, all).drop) / std::max<double>(1, static_cast<double>(n) - 6);
+    const double left = (scan.chi2() - best_ball(scan, all, w.threads).drop) /
+                        std::max<double>(1, static_cast<double>(n) - 6);
     return left > 1.05;
   };
   double extra = w.least_error;
@@ -188,7 +195,7 @@ BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid, const Ei
   image.misfit_before = std::sqrt(scan.chi2() / double(n)) * image.error;
   const ByChance chance = by_chance(scan, all);
   image.critical = chance.critical(kFalseAlarm);
-  FoundBall ball = best_ball(scan, all);
+  FoundBall ball = best_ball(scan, all, w.threads);
   if (ball.drop >= image.critical) {
     ball.chance = chance.chance(ball.drop);
     // The candidates are a step apart, and the linear signal errs as well.

@@ -46,13 +46,27 @@ struct BallScene {
   // Gains x directions that are not told from other causes; empty: a common gain.
   Eigen::MatrixXd free = {};
   double least_error = 0;  // of a gain, beside its noise
+  int threads = 0;         // 0: as many as the machine has
 };
 
+// A ball that could be there, and its ball_signal().
+struct BallCandidate {
+  Vec3 centre;
+  double depth = 0, radius = 0;  // [m]
+  Eigen::VectorXd signal;
+};
+
+// Balls of several sizes about the nodes of the grid that lie wholly inside the body and under the
+// presses. Depends on nothing that was measured.
+std::vector<BallCandidate> ball_candidates(const Eigen::MatrixXd& J, const FieldGrid& grid,
+                                           const BallScene& scene);
+
 // `J`: derivatives of the log gains `data` by log E at the nodes of the grid; `noise`: their
-// standard errors. The best ball (ball_signal.h) under the presses, at errors that grow until it
-// leaves no misfit; it lies wholly inside the body and must drop chi^2 by more than all places
-// together do by chance in kFalseAlarm of the bodies without one (drawn).
-BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid, const Eigen::VectorXd& data,
+// standard errors. The best of the `candidates` (ball_candidates()), at errors that grow until it
+// leaves no misfit; it must drop chi^2 by more than all places together do by chance in kFalseAlarm
+// of the bodies without one (drawn).
+BallSearch search_ball(const Eigen::MatrixXd& J, const FieldGrid& grid,
+                       const std::vector<BallCandidate>& candidates, const Eigen::VectorXd& data,
                        const Eigen::VectorXd& noise, const BallScene& scene);
 
 }  // namespace hapsim

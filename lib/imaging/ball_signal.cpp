@@ -15,6 +15,7 @@ Eigen::VectorXd ball_signal(const Eigen::MatrixXd& J, const FieldGrid& grid, con
                             double radius) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(J.rows());
   double volume = 0;
+  const double cube = std::pow(grid.step, 3);
   std::array<int, 3> from{}, to{};
   for (int c = 0; c < 3; ++c) {
     const double at = (centre[c] - grid.low[c]) / grid.step, reach = radius / grid.step + 0.5;
@@ -29,7 +30,7 @@ Eigen::VectorXd ball_signal(const Eigen::MatrixXd& J, const FieldGrid& grid, con
         const double share = std::clamp(inside, 0.0, 1.0);
         if (share == 0) continue;
         sum += share * J.col(static_cast<Eigen::Index>(n));
-        volume += share * std::pow(grid.step, 3);
+        volume += share * cube;
       }
   const double wanted = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
   return volume > 0 ? Eigen::VectorXd(wanted / volume * sum) : sum;

@@ -104,9 +104,10 @@ void find_lumps(const LumpData& whole, BallScene scene, const BallSolver& solver
   };
   scene.free = whole.free;
   scene.least_error = whole.floor;
+  const std::vector<BallCandidate> candidates = ball_candidates(whole.J, whole.grid, scene);
   while (true) {
     const LumpData data = left_by_others(found.size());
-    image.found = search_ball(whole.J, whole.grid, data.gain, whole.noise, scene);
+    image.found = search_ball(whole.J, whole.grid, candidates, data.gain, whole.noise, scene);
     if (found.empty()) image.misfit_before = image.found.misfit_before;
     if (!image.found.ball || found.size() == kMost) break;
     const FoundBall& ball = *image.found.ball;
@@ -222,7 +223,8 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                      grid};
   const LumpSolver solver(contacts.base(), experiment.places, tool, material_of(model).nu, views,
                           options.threads);
-  find_lumps(lump_data, {pressed, contacts.base().fine, tool, depth}, solver, image);
+  find_lumps(lump_data, {pressed, contacts.base().fine, tool, depth, {}, 0, options.threads},
+             solver, image);
   image.field = image_field(J, grid, position, data, image.found.errors, options.penalty);
   return image;
 }

@@ -14,8 +14,9 @@ namespace {
 class BallSearchTest : public MadePresses {
  protected:
   BallSearch search(const Eigen::VectorXd& data) const {
-    return search_ball(J, grid, data, Eigen::VectorXd::Constant(data.size(), kNoise),
-                       {contacts, surface, kTool, kDepth});
+    const BallScene scene{contacts, surface, kTool, kDepth};
+    return search_ball(J, grid, ball_candidates(J, grid, scene), data,
+                       Eigen::VectorXd::Constant(data.size(), kNoise), scene);
   }
   static double sight(const BallSearch& found, double radius, double ratio) {
     for (const Sight& s : found.sight)
