@@ -143,7 +143,8 @@ void ContactCache::trim() const {
   double total = 0;
   std::error_code ignored;
   for (const auto& item : fs::directory_iterator(directory_, ignored)) {
-    if (item.path().extension() != ".contact" && item.path().extension() != ".field") continue;
+    const fs::path kind = item.path().extension();
+    if (kind != ".contact" && kind != ".field" && kind != ".strain") continue;
     Entry entry{item.last_write_time(ignored), static_cast<double>(item.file_size(ignored)),
                 item.path()};
     total += entry.size;

@@ -22,7 +22,7 @@ ImprovementStep fitted_step(const std::string& added, const std::vector<Model>& 
   if (step.fitted.converged && !folds.held_out.empty()) {
     const HeldOut held_out = held_out_of(step.fitted, g, folds, Map::kAnew);
     step.held_out = held_out.error;
-    step.band = held_out_band(held_out, folds, g.dataset, g.allowance);
+    step.band = held_out_band(held_out, folds, g.experiment, g.allowance, step.fitted);
   }
   return step;
 }

@@ -74,6 +74,7 @@ FittedRange fitted_range(const Metadata& metadata, const std::string& name) {
   range.depth = number_or_infinity(metadata, name, "depth");
   range.speed = number_or_infinity(metadata, name, "speed");
   range.reach = number_or_infinity(metadata, name, "reach");
+  if (metadata.find("covers")) range.covers = number_or_infinity(metadata, name, "covers");
   const std::string text = metadata.find("places").value_or("");
   std::vector<double> numbers;
   for (std::size_t at = text.find_first_not_of(' '); at < text.size();
@@ -95,7 +96,7 @@ FittedRange fitted_range(const Metadata& metadata, const std::string& name) {
 }
 
 void record_range(const Dataset& dataset, Metadata& metadata) {
-  for (const char* key : {"speed", "places", "reach"}) metadata.remove(key);
+  for (const char* key : {"speed", "places", "covers", "reach"}) metadata.remove(key);
   const bool timed = std::all_of(dataset.episodes.begin(), dataset.episodes.end(),
                                  [](const Episode& e) { return !e.view.t.empty(); });
   if (const double speed = timed ? fastest(dataset) : 0; speed > 0)
@@ -120,6 +121,7 @@ void record_range(const Dataset& dataset, Metadata& metadata) {
     reach = std::max(reach, *nine);
   }
   metadata.set("places", text);
+  if (covers > 0) metadata.set("covers", format_number(std::ceil(kPerMetre * covers) / kPerMetre));
   metadata.set("reach", format_number(std::ceil(kPerMetre * (reach + covers) + 1) / kPerMetre));
 }
 

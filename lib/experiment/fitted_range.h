@@ -15,6 +15,8 @@ struct FittedRange {
   double depth = std::numeric_limits<double>::infinity();  // deepest displacement [m]
   double speed = std::numeric_limits<double>::infinity();  // fastest in contact (ToolSpeed) [m/s]
   std::vector<Vec3> places;                                // that were pressed [m]
+  // These stand for others as far as this from one of them [m]; 0: they are all.
+  double covers = 0;
   // So far from one of them a place is still among them [m].
   double reach = std::numeric_limits<double>::infinity();
 
@@ -27,7 +29,7 @@ struct FittedRange {
   static constexpr double kRounded = 1.001;
 };
 
-// Of a model's metadata depth, speed, places (x y z of one after the other) and reach.
+// Of a model's metadata depth, speed, places (x y z of one after the other), covers and reach.
 // Error(kBadInput) with the model's name: they are no such numbers.
 FittedRange fitted_range(const Metadata& metadata, const std::string& name);
 

@@ -35,7 +35,7 @@ UnseenBand recorded_band(const Metadata& metadata, const std::string& name) {
 std::string band_words(const UnseenBand& band) {
   return fmt::format(
       "at places not pressed, among these, within {:.3g} % (rms of a place) with a chance of "
-      "{:.0f} "
+      "{:.3g} "
       "%",
       100 * band.share, 100 * band.chance);
 }

@@ -55,7 +55,8 @@ void take_out_cross_means(const Dataset& dataset, const Selection& selection,
   Eigen::Index at = 0;
   for (const int e : selection) {
     const auto n = static_cast<std::size_t>(rows_of(dataset, e));
-    const auto half = [&](std::size_t i) { return i * kStretches / n % 2; };
+    const std::size_t stretches = std::min<std::size_t>(kStretches, n);
+    const auto half = [&](std::size_t i) { return i * stretches / n % 2; };
     Vec3 sum[2] = {Vec3::Zero(), Vec3::Zero()};
     double count[2] = {0, 0};
     for (std::size_t i = 0; i < n; ++i) {

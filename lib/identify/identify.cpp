@@ -135,7 +135,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
     const HeldOut held_out =
         held_out_error(request.fit, result.fitted.model, w, folds, fit_options, extend);
     unseen = held_out.error;
-    result.band = held_out_band(held_out, folds, w.dataset, w.allowance());
+    result.band = held_out_band(held_out, folds, w, w.allowance(), result.fitted);
   }
   if (request.end && request.end() && result.cut_short.empty()) {
     result.cut_short = "the error on unseen data was found";

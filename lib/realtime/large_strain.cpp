@@ -151,7 +151,9 @@ LargeStrain::LargeStrain(const TetMesh& body, const Model& model, const Stiffnes
       options_.tolerance < kStrainMuch ? kStrainFirst : kStrainFewest, options_.most_samples);
   add(apart(draw(kStrainPool, 1), first));
   if (samples_.size() < std::min<std::size_t>(first, 8))
-    fail_input(model.name, "hardly any place of this body could be solved at finite strain",
+    fail_input(model.name,
+               "hardly any place of this body could be solved at finite strain" +
+                   (refused_.empty() ? "" : "; the last: " + refused_),
                "check the unit of the tool's radius, or leave out --large-strain");
   for (std::uint64_t round = 2;; ++round) {
     relate();
@@ -227,6 +229,7 @@ std::vector<StepPlace> LargeStrain::apart(const std::vector<StepPlace>& pool,
 
 void LargeStrain::add(std::vector<StepPlace> places) {
   std::vector<std::optional<StrainSample>> found(places.size());
+  std::vector<std::string> why(places.size());
   in_parallel(places.size(), options_.threads, [&](std::size_t i) {
     const StepPlace& place = places[i];
     ContentHash key;
@@ -238,13 +241,15 @@ void LargeStrain::add(std::vector<StepPlace> places) {
     if (!found[i]) {
       const double through = way_through(surface_, place.point, -place.normal);
       const double into = std::min(kDeepest, kStrainThrough * through / options_.tool_radius);
-      found[i] = solve_strain_sample(body_, base_, model_, place.point, options_.tool_radius, into);
+      found[i] = solve_strain_sample(body_, base_, model_, place.point, options_.tool_radius, into,
+                                     why[i]);
       if (found[i]) store_sample(path, *found[i]);
     }
     if (options_.sampled) options_.sampled();
   });
   for (std::size_t i = 0; i < places.size(); ++i) {
     tried_.push_back(places[i].point);
+    if (!why[i].empty()) refused_ = why[i];
     if (found[i]) samples_.push_back({*found[i], coordinates(places[i]), places[i].normal});
   }
 }
@@ -405,7 +410,9 @@ LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const n
   const Vec3 near = side > most ? Vec3(along * (most / side)) : along;
   const Vec3 held = near - into * place.normal, rest = u - held;
   Force result;
-  result.within = rest.squaredNorm() <= 1e-20 * a * a || (d < 0 && side <= most);
+  // Pulls were not sampled: the linear force holds for small ones.
+  result.within =
+      rest.squaredNorm() <= 1e-20 * a * a || (d < 0 && -d <= kLinearPull * a && side <= most);
   const Vec3 linear = place.K * u;
   Vec3 beyond = Vec3::Zero();
   for (int k = 0; k < place.count; ++k) {
@@ -419,8 +426,10 @@ LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const n
   result.f = linear + beyond;
   const double size = result.f.norm();
   if (size > 0) result.doubt = std::hypot(place.fit, place.doubt * beyond.norm() / size);
-  if (!result.within && size > 0)  // the tangent may be off by all of what it adds
-    result.doubt = std::hypot(result.doubt, (place.K * rest).norm() / size);
+  if (size > 0 && (d < 0 || !result.within)) {  // the tangent may be off by all of what it adds
+    const double share = d < 0 && side <= most ? std::min(1.0, -d / a) : 1;
+    result.doubt = std::hypot(result.doubt, share * (place.K * rest).norm() / size);
+  }
   return result;
 }
 

@@ -36,6 +36,7 @@ class LargeStrain {
  public:
   static constexpr double kDeepest = 2.5;  // tool radii; nor deeper than 0.35 of the way through
   static constexpr double kNear = 3;
+  static constexpr double kLinearPull = 0.1;  // out of the body, in tool radii: within 1 %
 
   // Solves places until what samples say of those left out is within the tolerance; each is stored
   // in the cache as it comes, so that a run that was ended goes on from there. `surface` and
@@ -100,6 +101,7 @@ class LargeStrain {
   std::string key_;
   std::vector<Known> samples_;
   std::vector<Vec3> tried_;
+  std::string refused_;                // why the last place was
   std::array<double, 4> length_ = {};  // of the process: place, normal, stiffness, its second part
   double second_ = 0, nugget_ = 0;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> inverse_;

@@ -164,6 +164,9 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
                "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");
   if (!options.large_strain) return;
+  if (is_regional())
+    fail_input(model.name, "regions that relax each in its own way remember the linear force alone",
+               "give all regions the Maxwell elements of region 0, or leave out --large-strain");
   LargeStrainOptions strain;
   strain.tool_radius = tool_radius_;
   strain.tolerance = options.tolerance;

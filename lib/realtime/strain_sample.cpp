@@ -155,7 +155,7 @@ std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
 
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
                                                 const Model& model, const Vec3& point,
-                                                double tool_radius, double into) {
+                                                double tool_radius, double into, std::string& why) {
   FullOptions options;
   options.rim_edge = kStrainRim;
   options.growth = kStrainGrowth;
@@ -196,8 +196,9 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
       way((k + 0.5) * std::numbers::pi / 3, 0.5, kSideways);
     }
   } catch (const Error& error) {
-    if (error.code() == ExitCode::kBadInput) return std::nullopt;  // the tool does not fit
-    throw;
+    if (error.code() != ExitCode::kBadInput) throw;
+    why = error.what();
+    return std::nullopt;
   }
   if (!(sample.into > 0)) return std::nullopt;
   fit(solved, tool_radius, sample);

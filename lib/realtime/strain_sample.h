@@ -50,9 +50,9 @@ struct StrainSample {
 // those of edges a third as long as far as these converge (one place of a block, s = 0.2), while
 // with quarter points (FullOptions) they are 4 to 7 % off. A way that does not converge ends there,
 // and the sample with the shortest. `model`: body and support effects alone, static. Nothing where
-// the tool does not fit, or nothing converges.
+// the model or the place is refused, as `why` then says, or nothing converges.
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
                                                 const Model& model, const Vec3& point,
-                                                double tool_radius, double into);
+                                                double tool_radius, double into, std::string& why);
 
 }  // namespace hapsim

@@ -74,7 +74,8 @@ inline ToolSpec identify_specification() {
       "unseen_chance, with which it holds for a place like those that were pressed, among them. It "
       "is an order statistic of the errors at whole places left out in turn (--folds), so it needs "
       "no law of them, and 19 places for 95 %; of n fewer ones it is their largest error, with a "
-      "chance of n/(n+1).",
+      "chance of n/(n+1). Nothing is said where an offset of each press (tare) is solved for, or a "
+      "component of the force was not measured.",
       "Measured torques of a six-axis sensor count beside the forces where the recording has them: "
       "tqx,tqy,tqz [N m], of the body on the tool about its tip, the middle of its flat face, in "
       "the frame of the forces; or tx,ty,tz about the sensor's origin, with '# torque_at: X Y Z', "

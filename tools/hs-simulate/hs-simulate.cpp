@@ -44,8 +44,10 @@ void say_beyond(const Arguments& arguments, const PressDepth& depth, const Model
 }
 
 // Noise as asked for, metadata, and out.
-void write_simulated(const Arguments& arguments, const std::string& label, Recording& out) {
+void write_simulated(const Arguments& arguments, const std::string& label, Recording& out,
+                     const UnseenBand& band = {}) {
   mark_simulated(out.metadata, label);
+  record_band(band, out.metadata);  // none is left from another model
   if (arguments.given(flag::add_noise))
     add_noise(out, arguments[flag::add_noise], static_cast<std::uint64_t>(arguments[flag::seed]));
   if (arguments.given(flag::torque_noise))
@@ -56,19 +58,20 @@ void write_simulated(const Arguments& arguments, const std::string& label, Recor
   output.commit();
 }
 
-// How far the model may be off at places that it was not fitted to, and how many these are; as the
-// recording's metadata too.
-void tell_unseen(const Model& model, Recording& out, Summary& summary) {
+// How far the model may be off at places that it was not fitted to, and how many these are.
+UnseenBand tell_unseen(const Model& model, const Recording& out, Summary& summary) {
   const UnseenBand band = recorded_band(model.metadata, model.name);
-  const std::vector<Vec3> known = fitted_range(model.metadata, model.name).places;
-  if (!band.known() || known.empty()) return;
+  const FittedRange range = fitted_range(model.metadata, model.name);
+  if (!band.known() || range.places.empty()) return {};
+  const double near = std::max(out.tool_radius() / 2, range.covers);
   std::set<std::array<double, 3>> places, others;
   for (const Vec3& p : out.position) {
     if (!places.insert({p.x(), p.y(), p.z()}).second) continue;
-    const auto here = [&](const Vec3& q) { return (p - q).norm() < out.tool_radius() / 2; };
-    if (std::none_of(known.begin(), known.end(), here)) others.insert({p.x(), p.y(), p.z()});
+    const auto here = [&](const Vec3& q) { return (p - q).norm() <= near; };
+    if (std::none_of(range.places.begin(), range.places.end(), here))
+      others.insert({p.x(), p.y(), p.z()});
   }
-  if (others.empty()) return;
+  if (others.empty()) return {};
   summary.items.push_back(
       {"UNSEEN",
        "",
@@ -78,7 +81,7 @@ void tell_unseen(const Model& model, Recording& out, Summary& summary) {
   summary.values.push_back({"unseen_places", static_cast<double>(others.size()), "1"});
   summary.values.push_back({"unseen_band", band.share, "1"});
   summary.values.push_back({"unseen_chance", band.chance, "1"});
-  record_band(band, out.metadata);
+  return band;
 }
 
 // Other modes have forces alone: measured torques are not to pass for simulated ones.
@@ -306,7 +309,7 @@ int run(const Arguments& arguments) {
                     out.rows(), simulated.positions, 100 * simulated.mesh_uncertainty)}}};
   summary.values.push_back({"positions", static_cast<double>(simulated.positions), "1"});
   summary.values.push_back({"mesh_uncertainty", simulated.mesh_uncertainty, "1"});
-  tell_unseen(model, out, summary);
+  const UnseenBand band = tell_unseen(model, out, summary);
   if (points) {
     if (arguments.given(flag::marker_noise))
       add_marker_noise(simulated.markers, arguments[flag::marker_noise],
@@ -316,7 +319,7 @@ int run(const Arguments& arguments) {
     markers.commit();
     summary.values.push_back({"marker_rows", static_cast<double>(simulated.markers.rows()), "1"});
   }
-  write_simulated(arguments, effects_label(model), out);
+  write_simulated(arguments, effects_label(model), out, band);
   tell_answer(arguments, summary);
   return 0;
 }

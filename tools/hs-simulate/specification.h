@@ -21,11 +21,10 @@ inline ToolSpec simulate_specification() {
       "exactly for motion that is straight between samples "
       "and for any time steps.",
       "Measured and simulated recordings have one format, so the output feeds hs-compare and "
-      "hs-identify alike. Where the motion has places that the model was not fitted to, what the "
-      "model says of such places (its metadata unseen_band, see hs-identify(1)) is told, and "
-      "stands "
-      "in the recording's metadata. Its metadata mesh_uncertainty is the share of the force that "
-      "the contact "
+      "hs-identify alike. Where the motion has places that the model was not fitted to, this mode "
+      "tells what the model says of such places (its metadata unseen_band, see hs-identify(1)), "
+      "which stands in the recording's metadata too. Its metadata mesh_uncertainty is the share of "
+      "the force that the contact "
       "meshes leave open, the median over the positions.",
       "Torques (--torques) are those about the tool's tip, the middle of its flat face, which "
       "moves with it: by finite elements a lever of each place times the body's force, to a few "
@@ -58,7 +57,8 @@ inline ToolSpec simulate_specification() {
       "Lines are press,t,x,y,z,ux,uy,uz[,contact], or t,x,y,z, the positions of the tool's tip, of "
       "which contacts are found, with temp or without. Every effect runs live, those of the force "
       "sensor too, and at the positions of --contacts the forces are those of the batch mode (to "
-      "1e-6 of the largest; where a step cannot be, hs-effects(7) says why). A body that has "
+      "1e-6 of the largest; where a step cannot be, hs-effects(7) says why; but of "
+      "--large-strain). A body that has "
       "moved (shift) needs --contacts. Every touch of a tip "
       "is a press of its own; lines before the first one are of press 0. SIGINT or SIGTERM ends "
       "the motion; what was answered until then, or before a bad row, is written.",

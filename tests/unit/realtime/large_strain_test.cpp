@@ -135,8 +135,9 @@ TEST(LargeStrain, ATurnedBodyHasTurnedForces) {
       Eigen::AngleAxisd(0.8, Vec3(0.3, -0.5, 0.9).normalized()).toRotationMatrix();
   for (Vec3& p : turned.nodes) p = R * p;
   const auto sample = [&](const TetMesh& body, const Vec3& at) {
-    return solve_strain_sample(body, make_contact_base(body), model, at, test::kStrainedRadius,
-                               1.5);
+    std::string why;
+    return solve_strain_sample(body, make_contact_base(body), model, at, test::kStrainedRadius, 1.5,
+                               why);
   };
   const auto a = sample(mesh, kBetween), b = sample(turned, R * kBetween);
   ASSERT_TRUE(a && b);
