@@ -147,15 +147,15 @@ ToolSpec specification() {
                     "as in hs-identify(1), without forces; with a piece of air before and after "
                     "each press; no "
                     "rows when no more presses are asked for"}}}};
-  spec.examples = {
-      {"hs-plan /dev/null --body body.ply --tool-radius 4mm --presses 6 -o first.csv",
-       "The first presses of a body."},
-      {"hs-plan data.csv --body body.ply --goal E=2% --json plan.json -o next.csv",
-       "What to record next, and why."},
-      {": >data.csv; while hs-plan data.csv --body body.ply --tool-radius 4mm --more -o next.csv "
-       "&& robot next.csv >>data.csv; do :; done",
-       "A closed loop: `robot` executes a motion and prints its rows with forces, the "
-       "first time with a header."}};
+  spec.examples = {{"hs-plan /dev/null --body body.ply --tool-radius 4mm --presses 6 -o first.csv",
+                    "The first presses of a body."},
+                   {"hs-plan data.csv --body body.ply --goal E=2% --json plan.json -o next.csv",
+                    "What to record next, and why."},
+                   {"touch data.csv; while hs-plan data.csv --body body.ply --tool-radius 4mm "
+                    "--more -o m.csv && "
+                    "robot m.csv >>data.csv; do :; done",
+                    "A closed loop: `robot` executes a motion and prints its rows with forces, the "
+                    "first time with a header."}};
   spec.see_also = {"hs-diagnose(1)", "hs-identify(1)", "hs-effects(7)"};
   return spec;
 }

@@ -6,14 +6,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "diagnose/draft_experiment.h"
-#include "diagnose/held_out.h"
+#include "explore/judgement.h"
 #include "explore/lump_places.h"
 #include "explore/place_finder.h"
 #include "explore/press_depths.h"
-#include "explore/seen_places.h"
 #include "explore/suspects.h"
-#include "fit/extend.h"
 #include "model/model_edit.h"
 
 namespace hapsim {
@@ -43,7 +40,7 @@ class Question {
     result_.places = seen_.size();
     result_.no_times = recording_.rows() > 0 && recording_.t.empty();
     if (result_.presses >= kLeastPresses)
-      judge();
+      take_stock();
     else
       tell_what_is_hopeless();
     const std::vector<GoalState>& goals = result_.goals;
@@ -51,7 +48,7 @@ class Question {
     const bool judged = result_.presses >= kLeastPresses && !goals.empty();
     result_.reached = judged && std::none_of(goals.begin(), goals.end(), open);
     if (result_.reached) {
-      if (settled_ && !image_) tell_sight();
+      if (const auto image = sight_of(*known_, body_, options_)) tell_inside(*image);
       return std::move(result_);
     }
     if (result_.presses >= options_.most_presses)
@@ -77,85 +74,30 @@ class Question {
   }
 
   // What is known by now.
-  void judge() {
-    Model start = model_;
-    experiment_ = draft_experiment(body_, window_, start, recording_, options_.experiment);
-    const TrialGround ground(*experiment_, experiment_->allowance());
-    const Selection all = all_episodes(experiment_->dataset);
-    coverage_ = coverage_of(experiment_->dataset);
-    coverage_.presses = result_.presses;
-    if (start.parameters.empty()) start = elastic_model(*experiment_, all);
-    if (options_.goals.of_forces()) judge_forces(start, ground);
-    fitted_ = fit(start, *experiment_, all, trial_fit_options(ground));
-    if (!fitted_->converged)
-      fail_numerics(recording_.name, "the model does not fit: " + fitted_->message,
-                    "give another one by --model");
-    seen_ = seen_places(*fitted_, *experiment_);
-    if (options_.goals.lump > 0) look_inside();
+  void take_stock() {
+    known_ = judge(body_, window_, model_, recording_, options_);
+    result_.diagnosis = known_->diagnosis;
+    if (known_->diagnosis) result_.untested = untested_effects(*known_->diagnosis);
+    result_.goals = known_->goals;
+    seen_ = known_->seen;
     result_.gap = finder().widest_gap();
+    if (known_->image) tell_inside(*known_->image);
   }
 
-  void judge_forces(const Model& start, const TrialGround& ground) {
-    result_.diagnosis = diagnose(start, *experiment_, ground.allowance, options_.diagnose);
-    const Diagnosis& d = *result_.diagnosis;
-    result_.untested = untested_effects(d);
-    result_.goals.push_back(verdict_state(d, coverage_));
-    settled_ = result_.goals.back().reached;
-    // An error is none of a model that lacks something, and not asked for before.
-    for (const WantedError& wanted : options_.goals.errors) {
-      const std::optional<GoalState> never = hopeless(wanted, ground.allowance.floor);
-      if (settled_)
-        result_.goals.push_back(error_state(wanted, d.rivals.front(), ground.allowance.floor));
-      else
-        result_.goals.push_back(
-            never ? *never : GoalState{wanted.parameter, "", std::nan(""), wanted.share});
-    }
-  }
-
-  void look_inside() {
-    if (seen_.size() < kSettledPlaces) {
-      result_.goals.push_back(lump_state(options_.goals.lump, {}));
-      return;
-    }
-    const MaterialSpec material = material_of(fitted_->model);
-    if (material.modulus.size() > 1 || !material.features.empty())
-      fail_input("", "a lump is looked for in a body of one modulus",
-                 "give a model without regions, layers and inclusions, or none");
-    ImageOptions options;
-    options.threads = options_.experiment.threads;
-    options_.diagnose.tell("looking inside");
-    image_ = stiffness_image(fitted_->model, *experiment_, fitted_->about, body_, options);
-    result_.goals.push_back(lump_state(options_.goals.lump, *image_));
-    result_.lumps = image_->lumps;
-    result_.inside = words_of(*image_);
-  }
-
-  // How deep a lump would have shown: a verdict holds no further. Nothing is said where no image
-  // can be made (of several moduli, of few gains).
-  void tell_sight() {
-    const MaterialSpec material = material_of(result_.diagnosis->rivals.front());
-    if (material.modulus.size() > 1 || !material.features.empty()) return;
-    options_.diagnose.tell("looking how deep these presses see");
-    try {
-      const TrialGround ground(*experiment_, experiment_->allowance());
-      const Fit all = fit(result_.diagnosis->rivals.front(), *experiment_,
-                          all_episodes(experiment_->dataset), trial_fit_options(ground));
-      ImageOptions options;
-      options.threads = options_.experiment.threads;
-      const StiffnessImage image =
-          stiffness_image(all.model, *experiment_, all.about, body_, options);
-      result_.lumps = image.lumps;
-      result_.inside = words_of(image);
-    } catch (const Error&) {
-    }
+  void tell_inside(const StiffnessImage& image) {
+    result_.lumps = image.lumps;
+    result_.inside = words_of(image);
+    result_.sight = image.found.sight;
   }
 
   void plan() {
-    const bool open = result_.diagnosis && !settled_;
-    if (open && !coverage_.lacking.empty()) return make_up_motions();
-    if (open && coverage_.places >= kSettledPlaces && tell_apart()) return;
-    if (settled_ && sharpen()) return;
-    if (image_ && !image_->lumps.empty() && !result_.goals.back().reached) return surround_lump();
+    const bool settled = known_ && known_->settled;
+    const bool open = result_.diagnosis && !settled;
+    if (open && !known_->coverage.lacking.empty()) return make_up_motions();
+    if (open && known_->coverage.places >= kSettledPlaces && tell_apart()) return;
+    if (settled && sharpen()) return;
+    if (known_ && known_->image && !known_->image->lumps.empty() && !result_.goals.back().reached)
+      return surround_lump();
     spread();
   }
 
@@ -164,7 +106,7 @@ class Question {
     result_.aim = Aim::kTest;
     std::string what;
     std::vector<std::size_t> turns;
-    for (const LackingMotion& m : coverage_.lacking) {
+    for (const LackingMotion& m : known_->coverage.lacking) {
       what += (what.empty() ? "" : "; ") + m.what;
       if (std::find(turns.begin(), turns.end(), m.turn) == turns.end()) turns.push_back(m.turn);
     }
@@ -175,12 +117,12 @@ class Question {
   }
 
   bool tell_apart() {
-    Suspects suspects = suspects_of(*result_.diagnosis, *experiment_, options_.diagnose);
+    Suspects suspects = suspects_of(*result_.diagnosis, known_->experiment, options_.diagnose);
     if (suspects.models.size() < 2) return false;
     PlanAsked asked;
     asked.depth_at = full_depth();
     for (const PressablePlace& p : places_by_spread(kOffered)) asked.places.push_back(p.point);
-    MeasurementPlan plan = plan_presses(suspects.models, *experiment_, count(), asked);
+    MeasurementPlan plan = plan_presses(suspects.models, known_->experiment, count(), asked);
     if (!(plan.separation >= kTellsApart)) return false;
     result_.aim = Aim::kTellApart;
     result_.promise = plan.separation;
@@ -220,7 +162,7 @@ class Question {
       asked.places.push_back(p.point);
     if (asked.places.empty()) return false;
     MeasurementPlan plan =
-        plan_presses({result_.diagnosis->rivals.front()}, *experiment_, count(), asked);
+        plan_presses({result_.diagnosis->rivals.front()}, known_->experiment, count(), asked);
     result_.aim = Aim::kSharpen;
     result_.promise = plan.separation;
     result_.parameter = worst->determine;
@@ -237,13 +179,13 @@ class Question {
   }
 
   void surround_lump() {
-    const Lump& lump = image_->lumps.front();
+    const Lump& lump = known_->image->lumps.front();
     result_.aim = Aim::kLump;
     result_.why = fmt::format("to know better where the lump near ({:.0f}, {:.0f}, {:.0f}) mm lies",
                               1e3 * lump.centre.x(), 1e3 * lump.centre.y(), 1e3 * lump.centre.z());
     press(finder().fresh(
         [&](const std::vector<PressablePlace>& left, std::size_t n) {
-          return lump_places(left, seen_, lump, radius(), image_->error, n);
+          return lump_places(left, seen_, lump, radius(), known_->image->error, n);
         },
         count()));
   }
@@ -255,7 +197,7 @@ class Question {
             ? fmt::format(
                   "to see whether places differ: of fewer than {} presses nothing is settled",
                   kLeastPresses)
-        : image_
+        : known_->image
             ? "to find something inside: where the stiffness stands out, and where least is known"
             : "to see whether places differ: where the stiffness stands out, and where least is "
               "known";
@@ -278,7 +220,9 @@ class Question {
 
   void take(MeasurementPlan plan) {
     result_.plan = std::move(plan);
-    tell_shallower();
+    for (const PlannedPress& p : result_.plan.presses)
+      if (const std::string words = depths_.shallower_words(p.position); !words.empty())
+        result_.shallower.push_back(words);
     go_on_after(recording_, result_.plan);
   }
 
@@ -286,18 +230,6 @@ class Question {
     result_.ended = true;
     result_.aim = Aim::kNone;
     result_.why = why;
-  }
-
-  void tell_shallower() {
-    for (const PlannedPress& p : result_.plan.presses) {
-      const double deepest = depths_.deepest_at(p.position, surface_.at(p.position).normal);
-      if (deepest < 0.99 * depths_.deepest())
-        result_.shallower.push_back(fmt::format(
-            "at ({:.1f}, {:.1f}, {:.1f}) mm presses go {:.2g} mm deep at most, not {:.2g}: the "
-            "body is thin there",
-            1e3 * p.position.x(), 1e3 * p.position.y(), 1e3 * p.position.z(), 1e3 * deepest,
-            1e3 * depths_.deepest()));
-    }
   }
 
   std::vector<PressablePlace> places_by_spread(std::size_t count) {
@@ -321,10 +253,10 @@ class Question {
     return std::min(options_.presses, options_.most_presses - result_.presses);
   }
   double radius() const {
-    return experiment_ ? experiment_->dataset.recording.disc_radius() : recording_.disc_radius();
+    return known_ ? known_->experiment.dataset.recording.disc_radius() : recording_.disc_radius();
   }
   double step() const {
-    const double own = experiment_ ? summarise(experiment_->dataset, 1).sample_step : 0;
+    const double own = known_ ? summarise(known_->experiment.dataset, 1).sample_step : 0;
     return own > 0 ? std::max(1e-4, own) : kStep;
   }
   DepthAt full_depth() const {
@@ -338,34 +270,13 @@ class Question {
   const ExploreOptions& options_;
   const SignedDistance surface_;
   const PressDepths depths_;
-  std::optional<Experiment> experiment_;
-  Coverage coverage_;
-  bool settled_ = false;       // the verdict
-  std::optional<Fit> fitted_;  // the model as it was given
-  std::optional<StiffnessImage> image_;
+  std::optional<Judgement> known_;  // of kLeastPresses or more
   std::vector<SeenPlace> seen_;
   std::optional<PlaceFinder> finder_;
   Exploration result_;
 };
 
 }  // namespace
-
-std::string aim_name(Aim aim) {
-  switch (aim) {
-    case Aim::kSpread:
-      return "spread";
-    case Aim::kTest:
-      return "test";
-    case Aim::kTellApart:
-      return "tell apart";
-    case Aim::kSharpen:
-      return "sharpen";
-    case Aim::kLump:
-      return "lump";
-    default:
-      return "none";
-  }
-}
 
 Exploration explore(const TetMesh& body, const std::vector<Vec3>& window, const Model& model,
                     const Recording& recording, const ExploreOptions& options) {

@@ -44,9 +44,8 @@ struct Exploration {
   MeasurementPlan plan;  // numbers and times go on after the recording's; empty when done
   std::optional<Diagnosis> diagnosis;  // not before kLeastPresses
   std::vector<Lump> lumps;             // seen inside, strongest first
-  // What is seen there in words, where it was looked for; with a verdict that is reached, how deep
-  // the presses see.
-  std::vector<std::string> inside;
+  std::vector<std::string> inside;     // what is seen there in words, where it was looked for
+  std::vector<Sight> sight;            // and how deep these presses see
   // Effects of which the verdict says nothing, since no plan of presses can test them.
   std::vector<UntestedEffect> untested;
   bool no_times = false;  // the recording has none: what goes on in time cannot be told

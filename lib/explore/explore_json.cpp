@@ -12,6 +12,23 @@ nlohmann::json known(double value) {
 
 }  // namespace
 
+std::string aim_name(Aim aim) {
+  switch (aim) {
+    case Aim::kSpread:
+      return "spread";
+    case Aim::kTest:
+      return "test";
+    case Aim::kTellApart:
+      return "tell apart";
+    case Aim::kSharpen:
+      return "sharpen";
+    case Aim::kLump:
+      return "lump";
+    default:
+      return "none";
+  }
+}
+
 std::string explore_json(const Exploration& e) {
   nlohmann::json j;
   j["reached"] = e.reached;

@@ -27,12 +27,28 @@ std::string state_words(const GoalState& g) {
   return bare_words(g) + (g.note.empty() ? "" : ": " + g.note);
 }
 
+// Of balls that are stiffer, but not much: what is stiffer still is seen deeper.
+std::string sight_words(const std::vector<Sight>& sight) {
+  double ratio = 0;
+  for (const Sight& s : sight)
+    if (s.ratio > 1 && (ratio == 0 || s.ratio < ratio)) ratio = s.ratio;
+  std::string words;
+  for (const Sight& s : sight)
+    if (s.ratio == ratio)
+      words +=
+          fmt::format("{}one of {:.0f} mm {}", words.empty() ? "" : ", ", 2e3 * s.radius,
+                      s.depth > 0 ? fmt::format("down to {:.0f} mm", 1e3 * s.depth) : "nowhere");
+  if (words.empty()) return "";
+  return fmt::format("Of balls {:g} times as stiff these presses see {}. ", ratio, words);
+}
+
 // What a verdict of no fault is worth: of what was pressed.
 std::string gap_words(const Exploration& e) {
   return fmt::format(
-      "Presses lie up to {:.0f} mm from the next place that could be pressed. What differs between "
-      "or beside them, or deeper than they feel, is not known.",
-      1e3 * e.gap);
+      "{}Presses lie up to {:.0f} mm from the next place that could be pressed: what differs "
+      "between "
+      "or beside them, or deeper, is not known.",
+      sight_words(e.sight), 1e3 * e.gap);
 }
 
 std::string untested_words(const std::vector<UntestedEffect>& untested) {
@@ -60,9 +76,7 @@ Summary explore_summary(const Exploration& e, const std::string& recording,
                        g.name,
                        "",
                        {state_words(g)}});
-  // The last one is of the image itself.
-  const std::size_t told = e.diagnosis && !e.inside.empty() ? e.inside.size() - 1 : 1;
-  for (std::size_t k = 0; k < std::min(told, e.inside.size()); ++k) s.notes.push_back(e.inside[k]);
+  if (!e.inside.empty()) s.notes.push_back(e.inside.front());
   if (e.diagnosis && std::isfinite(e.gap) && !e.goals.empty() && e.goals.front().reached)
     s.notes.push_back(gap_words(e));
   if (e.no_times)

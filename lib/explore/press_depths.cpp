@@ -63,4 +63,13 @@ double PressDepths::full_at(const Vec3& point, const Vec3& normal) const {
   return deepest_at(point, normal) / kDeepestPath;
 }
 
+std::string PressDepths::shallower_words(const Vec3& point) const {
+  const double here = deepest_at(point, surface_.at(point).normal);
+  if (here >= 0.99 * deepest_) return "";
+  return fmt::format(
+      "at ({:.1f}, {:.1f}, {:.1f}) mm presses go {:.2g} mm deep at most, not {:.2g}: the body is "
+      "thin there",
+      1e3 * point.x(), 1e3 * point.y(), 1e3 * point.z(), 1e3 * here, 1e3 * deepest_);
+}
+
 }  // namespace hapsim

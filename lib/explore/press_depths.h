@@ -1,6 +1,8 @@
 // How deep the next presses go.
 #pragma once
 
+#include <string>
+
 #include "mesh/signed_distance.h"
 #include "recording/recording.h"
 
@@ -23,6 +25,8 @@ class PressDepths {
   double deepest_at(const Vec3& point, const Vec3& normal) const;
   // Of a full press there, which press_paths() goes beyond.
   double full_at(const Vec3& point, const Vec3& normal) const;
+  // What is said of a place where the body is too thin for the deepest; "" elsewhere.
+  std::string shallower_words(const Vec3& point) const;
 
  private:
   const SignedDistance& surface_;
