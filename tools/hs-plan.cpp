@@ -39,20 +39,42 @@ ToolSpec specification() {
           "up "
           "(--steepest) and goes on around the tool; later those count more where the stiffness "
           "stands out.",
-      "From then on the model is diagnosed as hs-diagnose(1) does. Where effects do equally well, "
-      "or "
-      "none passes its gates and several are possible, the presses are those that tell them apart, "
-      "as its --plan says; a plan that promises less than three standard deviations of the noise "
-      "is "
-      "not asked for, but places that were not pressed yet. Once the verdict is settled, the "
-      "parameter that is farthest from its goal is determined, at new places: at one that was "
-      "pressed the meshes err as before, and another press there tells little.",
+      "From then on the model is diagnosed as hs-diagnose(1) does. Where a motion is lacking "
+      "without "
+      "which some effect cannot show (a push sideways, a way out, a hold of a second, a second "
+      "pace), "
+      "that comes next. Where effects do equally well, or none passes its gates and several are "
+      "possible, the presses are those that tell them apart, as its --plan says; a plan that "
+      "promises "
+      "less than three standard deviations of the noise is not asked for, but places that were not "
+      "pressed yet. A verdict is settled when one set of effects explains all or nothing is "
+      "missing, "
+      "no such motion is lacking, and presses lie at six places a tool's radius apart or more. "
+      "What "
+      "the recording cannot test whatever is pressed (a column of times or temperatures is "
+      "missing) "
+      "is said to be outside it, and how far apart the places are: what lies between or deeper "
+      "than "
+      "presses feel is not known. Once the verdict is settled, the parameter that is farthest from "
+      "its goal is determined, at new places: at one that was pressed the meshes err as before, "
+      "and "
+      "another press there tells little. A parameter is not known while it, or Poisson's ratio "
+      "beside "
+      "a modulus, is at its bound; a modulus never better than what mesh and shape allow "
+      "(--floor), "
+      "which is said at once.",
       "For a lump the presses of all places are looked at as by hs-identify --lumps. Where one is "
       "seen, the next presses are those after which its centre is known best, as a small lump in a "
       "half-space would have it; otherwise they lie where the stiffness stands out and where least "
       "is known.",
-      "No press goes deeper than one and a half of --depth.",
-      "A loop of a shell: --more ends it, and so does anything that fails."};
+      "New places lie a tool's radius or more from those that were pressed. With none left no more "
+      "presses are asked for: the goals cannot be reached with this tool on this body.",
+      "No press goes deeper than --depth, nor, where the body is thin, than half of the way "
+      "through "
+      "it; without --depth than a third.",
+      "A loop of a shell: --more ends it, and so does anything that fails. A robot prints the "
+      "recording's comments and header once, with the first motion, and rows alone after that: "
+      "they are added to one table."};
   spec.options = experiment_flags();
   const std::vector<Option> own{
       {.flag = flag::model,
@@ -79,17 +101,20 @@ ToolSpec specification() {
        .maximum = 100},
       {.flag = flag::most_presses,
        .value = "N",
-       .help = "With so many presses in the recording no more are asked for, whatever is known.",
+       .help =
+           "With so many presses in the recording no more are asked for, whatever is known, nor a "
+           "motion with more than are left.",
        .group = "Plan",
        .default_text = "60",
        .minimum = 1,
        .maximum = 100000},
       {.flag = flag::depth,
        .value = "M",
-       .help =
-           "Depth of a full press [m]; the deepest goes half as deep again. Otherwise that no "
-           "press is deeper than those so far; of the first presses three quarters of the tool's "
-           "radius, a tenth of the body's least extent at most.",
+       .help = "The deepest that a press goes [m]; most go two thirds of it. Otherwise that no "
+               "press is "
+               "deeper than those so far went into the surface; of the first presses 1.125 radii "
+               "of the "
+               "tool, 0.15 of the body's least extent at most.",
        .group = "Plan",
        .minimum = 1e-6,
        .maximum = 1},
@@ -126,24 +151,37 @@ ToolSpec specification() {
                     "The first presses of a body."},
                    {"hs-plan data.csv --body body.ply --goal E=2% --json plan.json -o next.csv",
                     "What to record next, and why."},
-                   {"while hs-plan data.csv --body body.ply --tool-radius 4mm --more -o next.csv "
-                    "&& robot next.csv "
-                    ">>data.csv; do :; done",
-                    "A closed loop: `robot` executes a motion and prints its rows with forces."}};
+                   {"touch data.csv; while hs-plan data.csv --body body.ply --tool-radius 4mm "
+                    "--more -o m.csv && "
+                    "robot m.csv >>data.csv; do :; done",
+                    "A closed loop: `robot` executes a motion and prints its rows with forces, the "
+                    "first time with a header."}};
   spec.see_also = {"hs-diagnose(1)", "hs-identify(1)", "hs-effects(7)"};
   return spec;
 }
 
-// Whether a table has a row beside its header and comments.
-bool has_rows(const std::string& bytes) {
-  int lines = 0;
-  for (std::size_t begin = 0; begin < bytes.size() && lines < 2;) {
+// The lines of a table that are no comments, two of them at most: a header and perhaps a row.
+std::vector<std::string> first_lines(const std::string& bytes) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < bytes.size() && lines.size() < 2;) {
     const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
     const std::size_t first = bytes.find_first_not_of(" \t\r", begin);
-    if (first < end && bytes[first] != '#') ++lines;
+    if (first < end && bytes[first] != '#') lines.push_back(bytes.substr(begin, end - begin));
     begin = end + 1;
   }
-  return lines > 1;
+  return lines;
+}
+
+// Error(kBadInput) where a line is no header of a recording: it is read with a row of zeros.
+void require_header(const std::string& header, const std::string& name) {
+  std::string row;
+  for (const char c : header)
+    if (c == ',' || c == ';' || c == '\t')
+      row += c;
+    else if (row.empty() || row.back() != '0')
+      row += '0';
+  Input input = Input::from_bytes(header + "\n" + row + "\n", name);
+  read_recording(input);
 }
 
 // All presses so far; before the first, what the comments say of the tool.
@@ -151,9 +189,11 @@ Recording load_so_far(const Arguments& arguments) {
   Input given(arguments.input());
   const std::string bytes = given.read_all();
   Input input = Input::from_bytes(bytes, given.name());
-  if (has_rows(bytes))
+  const std::vector<std::string> lines = first_lines(bytes);
+  if (lines.size() > 1)
     return as_asked(arguments, read_measured(arguments, input), true,
                     [&](const std::string& words) { say(arguments, words); });
+  if (!lines.empty()) require_header(lines.front(), given.name());
   Recording none;
   none.name = given.name();
   for (std::string line; input.read_line(line);)

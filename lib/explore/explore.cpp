@@ -2,19 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
-#include "diagnose/draft_experiment.h"
-#include "diagnose/held_out.h"
-#include "effects/catalogue.h"
+#include "explore/judgement.h"
 #include "explore/lump_places.h"
-#include "explore/planned_places.h"
-#include "explore/seen_places.h"
-#include "fit/extend.h"
-#include "mesh/window.h"
+#include "explore/place_finder.h"
+#include "explore/press_depths.h"
+#include "explore/suspects.h"
 #include "model/model_edit.h"
 
 namespace hapsim {
@@ -23,25 +19,45 @@ namespace {
 constexpr std::size_t kOffered = 4;  // new places that a plan by models may choose from
 constexpr double kTellsApart = 3;    // standard deviations; a plan that promises less tells nothing
 constexpr double kStep = 0.02;       // [s] of a motion, where no recording says another
-constexpr std::size_t kLeastPlaces = kLeastPresses;  // before a lump is looked for
 
 // One question to the loop, and what is at hand to answer it.
 class Question {
  public:
   Question(const TetMesh& body, const std::vector<Vec3>& window, const Model& model,
            const Recording& recording, const ExploreOptions& options)
-      : body_(body), window_(window), model_(model), recording_(recording), options_(options) {}
+      : body_(body),
+        window_(window),
+        model_(model),
+        recording_(recording),
+        options_(options),
+        surface_(boundary_surface(body), "body"),
+        depths_(surface_, recording, options.depth) {}
 
   Exploration answer() {
+    require_on_body(surface_, recording_);
     seen_ = pressed_places(recording_);
     result_.presses = recording_.presses().size();
     result_.places = seen_.size();
-    if (result_.presses >= kLeastPresses) judge();
-    result_.reached =
-        !result_.goals.empty() && std::all_of(result_.goals.begin(), result_.goals.end(),
-                                              [](const GoalState& g) { return g.reached; });
-    result_.ended = !result_.reached && result_.presses >= options_.most_presses;
-    if (!result_.done()) plan();
+    result_.no_times = recording_.rows() > 0 && recording_.t.empty();
+    if (result_.presses >= kLeastPresses)
+      take_stock();
+    else
+      tell_what_is_hopeless();
+    const std::vector<GoalState>& goals = result_.goals;
+    const auto open = [](const GoalState& g) { return !g.reached; };
+    const bool judged = result_.presses >= kLeastPresses && !goals.empty();
+    result_.reached = judged && std::none_of(goals.begin(), goals.end(), open);
+    if (result_.reached) {
+      if (const auto image = sight_of(*known_, body_, options_)) tell_inside(*image);
+      return std::move(result_);
+    }
+    if (result_.presses >= options_.most_presses)
+      end("as many presses as --most-presses allows are there");
+    else if (judged && std::none_of(goals.begin(), goals.end(),
+                                    [&](const GoalState& g) { return open(g) && !g.unreachable; }))
+      end("what is open cannot be reached by presses");
+    else
+      plan();
     for (const char* key : {"tool_radius", "tool"})
       if (const auto value = recording_.metadata.find(key))
         result_.plan.motion.metadata.set(key, *value);
@@ -49,101 +65,68 @@ class Question {
   }
 
  private:
-  // What is known by now.
-  void judge() {
-    Model start = model_;
-    experiment_ = draft_experiment(body_, window_, start, recording_, options_.experiment);
-    const TrialGround ground(*experiment_, experiment_->allowance());
-    const Selection all = all_episodes(experiment_->dataset);
-    if (start.parameters.empty()) start = elastic_model(*experiment_, all);
-    if (options_.goals.of_forces()) {
-      result_.diagnosis = diagnose(start, *experiment_, ground.allowance, options_.diagnose);
-      const Diagnosis& d = *result_.diagnosis;
-      result_.goals.push_back(verdict_state(d, result_.presses));
-      // An error is none of a model that lacks something, and not asked for before.
-      for (const WantedError& wanted : options_.goals.errors) {
-        if (settles(d, result_.presses))
-          result_.goals.push_back(error_state(wanted, d.rivals.front()));
-        else
-          result_.goals.push_back({wanted.parameter, "", std::nan(""), wanted.share, false});
-      }
-    }
-    fitted_ = fit(start, *experiment_, all, trial_fit_options(ground));
-    if (!fitted_->converged)
-      fail_numerics(recording_.name, "the model does not fit: " + fitted_->message,
-                    "give another one by --model");
-    seen_ = seen_places(*fitted_, *experiment_);
-    if (options_.goals.lump > 0) look_inside();
+  // Of a modulus wanted better than any mesh gives, before anything is measured.
+  void tell_what_is_hopeless() {
+    const double asked = options_.experiment.floor;
+    for (const WantedError& wanted : options_.goals.errors)
+      if (const auto state = hopeless(wanted, asked >= 0 ? asked : kLeastFloor))
+        result_.goals.push_back(*state);
   }
 
-  void look_inside() {
-    if (seen_.size() < kLeastPlaces) {
-      result_.goals.push_back(lump_state(options_.goals.lump, {}));
-      return;
-    }
-    const MaterialSpec material = material_of(fitted_->model);
-    if (material.modulus.size() > 1 || !material.features.empty())
-      fail_input("", "a lump is looked for in a body of one modulus",
-                 "give a model without regions, layers and inclusions, or none");
-    ImageOptions options;
-    options.threads = options_.experiment.threads;
-    options_.diagnose.tell("looking inside");
-    image_ = stiffness_image(fitted_->model, *experiment_, fitted_->about, body_, options);
-    result_.goals.push_back(lump_state(options_.goals.lump, *image_));
-    result_.lumps = image_->lumps;
-    result_.inside = words_of(*image_);
+  // What is known by now.
+  void take_stock() {
+    known_ = judge(body_, window_, model_, recording_, options_);
+    result_.diagnosis = known_->diagnosis;
+    if (known_->diagnosis) result_.untested = untested_effects(*known_->diagnosis);
+    result_.goals = known_->goals;
+    seen_ = known_->seen;
+    result_.gap = finder().widest_gap();
+    if (known_->image) tell_inside(*known_->image);
+  }
+
+  void tell_inside(const StiffnessImage& image) {
+    result_.lumps = image.lumps;
+    result_.inside = words_of(image);
+    result_.sight = image.found.sight;
   }
 
   void plan() {
-    const Diagnosis* d = result_.diagnosis ? &*result_.diagnosis : nullptr;
-    if (d != nullptr && !settles(*d, result_.presses) && tell_apart(*d)) return;
-    if (d != nullptr && settles(*d, result_.presses) && sharpen(*d)) return;
-    if (image_ && !image_->lumps.empty() && !result_.goals.back().reached) return surround_lump();
+    const bool settled = known_ && known_->settled;
+    const bool open = result_.diagnosis && !settled;
+    if (open && !known_->coverage.lacking.empty()) return make_up_motions();
+    if (open && known_->coverage.places >= kSettledPlaces && tell_apart()) return;
+    if (settled && sharpen()) return;
+    if (known_ && known_->image && !known_->image->lumps.empty() && !result_.goals.back().reached)
+      return surround_lump();
     spread();
   }
 
-  // The rivals, or where nothing passes the gates the best of what is possible: fitted models, and
-  // their effects' names.
-  std::vector<Model> suspects(const Diagnosis& d) {
-    if (d.rivals.size() > 1) {
-      for (const Finding& f : d.findings)
-        if (f.verdict == Verdict::kIndistinguishable) result_.rivals.push_back(f.effect);
-      return d.rivals;
+  // Presses with the motions that no press so far had, at new places where there are any.
+  void make_up_motions() {
+    result_.aim = Aim::kTest;
+    std::string what;
+    std::vector<std::size_t> turns;
+    for (const LackingMotion& m : known_->coverage.lacking) {
+      what += (what.empty() ? "" : "; ") + m.what;
+      if (std::find(turns.begin(), turns.end(), m.turn) == turns.end()) turns.push_back(m.turn);
     }
-    constexpr std::size_t kMost = 3;
-    std::vector<Model> models;
-    const TrialGround ground(*experiment_, experiment_->allowance());
-    const Selection all = all_episodes(experiment_->dataset);
-    const Fit base = fit(d.rivals.front(), *experiment_, all, trial_fit_options(ground));
-    for (const Finding& f : d.findings) {
-      if (f.verdict != Verdict::kPossible || models.size() == kMost) continue;
-      options_.diagnose.tell("fitting " + f.effect);
-      try {
-        const Fit with =
-            fit_best(with_effect(base, f.effect, *experiment_, all, trial_extend_options(ground)),
-                     *experiment_, all, trial_fit_options(ground));
-        if (!with.converged) continue;
-        models.push_back(with.model);
-        result_.rivals.push_back(f.effect);
-      } catch (const Error&) {  // these presses cannot bear it after all
-      }
-    }
-    return models;
+    result_.why = "to test what no press so far could show: " + what;
+    std::vector<PressablePlace> places = places_by_spread(count());
+    if (places.empty()) places = finder().pressed_again(count());
+    press(places, turns);
   }
 
-  bool tell_apart(const Diagnosis& d) {
-    const std::vector<Model> models = suspects(d);
-    if (models.size() < 2) return false;
+  bool tell_apart() {
+    Suspects suspects = suspects_of(*result_.diagnosis, known_->experiment, options_.diagnose);
+    if (suspects.models.size() < 2) return false;
     PlanAsked asked;
-    asked.depth = depth();
+    asked.depth_at = full_depth();
     for (const PressablePlace& p : places_by_spread(kOffered)) asked.places.push_back(p.point);
-    MeasurementPlan plan = plan_presses(models, *experiment_, options_.presses, asked);
-    if (!(plan.separation >= kTellsApart)) {
-      result_.rivals.clear();
-      return false;
-    }
+    MeasurementPlan plan = plan_presses(suspects.models, known_->experiment, count(), asked);
+    if (!(plan.separation >= kTellsApart)) return false;
     result_.aim = Aim::kTellApart;
     result_.promise = plan.separation;
+    result_.rivals = std::move(suspects.names);
     std::string names;
     for (const std::string& name : result_.rivals) names += (names.empty() ? "" : " from ") + name;
     result_.why =
@@ -152,44 +135,59 @@ class Question {
     return true;
   }
 
-  // The parameter that is farthest from what is wanted. A pressed place tells little more of the
-  // stiffness than it did: the meshes err there as before. So only new ones are offered.
-  bool sharpen(const Diagnosis& d) {
+  // What is farthest from its goal; what is not known at all is farthest.
+  const GoalState* least_known() const {
     const GoalState* worst = nullptr;
+    const auto lacks = [](const GoalState& g) {
+      return std::isfinite(g.value) ? g.value / g.wanted : std::numeric_limits<double>::infinity();
+    };
     for (const GoalState& g : result_.goals)
-      if (!g.reached && std::isfinite(g.value) && g.name.find(' ') != std::string::npos &&
-          (worst == nullptr || g.value / g.wanted > worst->value / worst->wanted))
+      if (!g.reached && !g.unreachable && !g.determine.empty() &&
+          (worst == nullptr || lacks(g) > lacks(*worst)))
         worst = &g;
+    return worst;
+  }
+
+  // A pressed place tells little more of the stiffness than it did: the meshes err there as before.
+  // So only new ones are offered.
+  bool sharpen() {
+    const GoalState* worst = least_known();
     if (worst == nullptr) return false;
     PlanAsked asked;
-    asked.depth = depth();
-    asked.parameter = worst->name;
+    asked.depth_at = full_depth();
+    asked.parameter = worst->determine;
+    asked.region = worst->region;
     asked.pressed_places = false;
-    for (const PressablePlace& p : places_by_spread(std::max(kOffered, options_.presses)))
+    for (const PressablePlace& p : places_by_spread(std::max(kOffered, count())))
       asked.places.push_back(p.point);
     if (asked.places.empty()) return false;
-    MeasurementPlan plan = plan_presses({d.rivals.front()}, *experiment_, options_.presses, asked);
+    MeasurementPlan plan =
+        plan_presses({result_.diagnosis->rivals.front()}, known_->experiment, count(), asked);
     result_.aim = Aim::kSharpen;
     result_.promise = plan.separation;
-    result_.parameter = worst->name;
-    result_.why = fmt::format(
-        "to know {} better ({:.2g} %, wanted {:.2g} %): its standard error falls "
-        "to {:.0f} % of that",
-        worst->name, 100 * worst->value, 100 * worst->wanted, 100 * plan.separation);
+    result_.parameter = worst->determine;
+    const std::string now =
+        std::isfinite(worst->value)
+            ? fmt::format("{}, {:.2g} %, wanted {:.2g} %", worst->name, 100 * worst->value,
+                          100 * worst->wanted)
+            : fmt::format("{}, wanted {:.2g} %, is not known", worst->name, 100 * worst->wanted);
+    result_.why =
+        fmt::format("to know {} better ({}): its standard error falls to {:.0f} % of that",
+                    worst->determine, now, 100 * plan.separation);
     take(std::move(plan));
     return true;
   }
 
   void surround_lump() {
-    const Lump& lump = image_->lumps.front();
-    const std::vector<PressablePlace> places =
-        fitting([&](const std::vector<PressablePlace>& left, std::size_t count) {
-          return lump_places(left, seen_, lump, radius(), image_->error, count);
-        });
+    const Lump& lump = known_->image->lumps.front();
     result_.aim = Aim::kLump;
     result_.why = fmt::format("to know better where the lump near ({:.0f}, {:.0f}, {:.0f}) mm lies",
                               1e3 * lump.centre.x(), 1e3 * lump.centre.y(), 1e3 * lump.centre.z());
-    press(places);
+    press(finder().fresh(
+        [&](const std::vector<PressablePlace>& left, std::size_t n) {
+          return lump_places(left, seen_, lump, radius(), known_->image->error, n);
+        },
+        count()));
   }
 
   void spread() {
@@ -199,73 +197,70 @@ class Question {
             ? fmt::format(
                   "to see whether places differ: of fewer than {} presses nothing is settled",
                   kLeastPresses)
-        : image_
+        : known_->image
             ? "to find something inside: where the stiffness stands out, and where least is known"
             : "to see whether places differ: where the stiffness stands out, and where least is "
               "known";
-    press(places_by_spread(options_.presses));
+    press(places_by_spread(count()));
   }
 
-  void press(const std::vector<PressablePlace>& places) {
-    if (places.empty())
+  // `first`: turns that come before the usual ones.
+  void press(const std::vector<PressablePlace>& places, std::vector<std::size_t> first = {}) {
+    if (places.empty() && seen_.empty())
       fail_input("", "no place is left that the tool could be pressed at",
                  "allow steeper ones (--steepest), or take a smaller tool");
-    take(presses_in_turn(places, depth(), result_.presses, step()));
+    if (places.empty())
+      return end(
+          "no place is left that is a tool's radius away from those that were pressed: the goals "
+          "cannot be reached with this tool on this body");
+    for (std::size_t turn = result_.presses; first.size() < places.size(); ++turn)
+      first.push_back(turn);
+    take(presses_in_turn(places, first, full_depth(), step()));
   }
 
   void take(MeasurementPlan plan) {
     result_.plan = std::move(plan);
+    for (const PlannedPress& p : result_.plan.presses)
+      if (const std::string words = depths_.shallower_words(p.position); !words.empty())
+        result_.shallower.push_back(words);
     go_on_after(recording_, result_.plan);
   }
 
+  void end(const std::string& why) {
+    result_.ended = true;
+    result_.aim = Aim::kNone;
+    result_.why = why;
+  }
+
   std::vector<PressablePlace> places_by_spread(std::size_t count) {
-    return fitting([&](const std::vector<PressablePlace>& left,
-                       std::size_t n) { return spread_places(left, seen_, 2 * radius(), n); },
-                   count);
+    return finder().fresh(
+        [&](const std::vector<PressablePlace>& left, std::size_t n) {
+          return spread_places(left, seen_, 2 * radius(), n);
+        },
+        count);
   }
 
-  std::vector<PressablePlace> fitting(const PlaceChoice& choose, std::size_t count = 0) {
-    if (!setup_) prepare_nowhere();
-    std::vector<PressablePlace> places =
-        pressable_places(library_->surface(), radius(), options_.steepest);
-    if (window_.size() > 2)
-      std::erase_if(places,
-                    [&](const PressablePlace& p) { return !inside_window(window_, p.point); });
-    return fitting_places(std::move(places), count > 0 ? count : options_.presses, choose, setup_);
-  }
-
-  // Where the tool fits is found out by meshing, which the next round finds in the cache.
-  void prepare_nowhere() {
+  const PlaceFinder& finder() {
+    if (finder_) return *finder_;
     ExperimentOptions options = options_.experiment;
     if (!model_.parameters.empty()) set_poisson_range(model_, options);
-    ContactLibraryOptions library;
-    library.threads = options.threads;
-    library.cache = options.cache;
-    library.rim_edge = options.rim_edge;
-    library.draft = true;
-    library_ = std::make_shared<const ContactLibrary>(body_, radius(), library);
-    setup_ = [library = library_, low = options.nu_low,
-              high = options.nu_high](const std::vector<Vec3>& positions) {
-      return SetupPlaces::prepare(library, positions, low, high);
-    };
+    finder_.emplace(body_, window_, seen_, PlaceRules{radius(), options_.steepest, options});
+    return *finder_;
   }
 
+  // Of the next motion.
+  std::size_t count() const {
+    return std::min(options_.presses, options_.most_presses - result_.presses);
+  }
   double radius() const {
-    return experiment_ ? experiment_->dataset.recording.disc_radius() : recording_.disc_radius();
+    return known_ ? known_->experiment.dataset.recording.disc_radius() : recording_.disc_radius();
   }
   double step() const {
-    return experiment_ ? std::max(1e-4, summarise(experiment_->dataset, 1).sample_step) : kStep;
+    const double own = known_ ? summarise(known_->experiment.dataset, 1).sample_step : 0;
+    return own > 0 ? std::max(1e-4, own) : kStep;
   }
-  double depth() const {
-    if (options_.depth > 0) return options_.depth;
-    constexpr double kDeepest = 1.5;  // of press_paths()
-    double deepest = 0;
-    for (std::size_t row = 0; row < recording_.rows(); ++row)
-      if (!recording_.in_air(row)) deepest = std::max(deepest, recording_.u[row].norm());
-    if (deepest > 0) return deepest / kDeepest;
-    Eigen::AlignedBox3d box;
-    for (const Vec3& v : body_.nodes) box.extend(v);
-    return std::min(0.75 * recording_.tool_radius(), 0.1 * box.sizes().minCoeff());
+  DepthAt full_depth() const {
+    return [this](const Vec3& p, const Vec3& normal) { return depths_.full_at(p, normal); };
   }
 
   const TetMesh& body_;
@@ -273,31 +268,15 @@ class Question {
   const Model& model_;
   const Recording& recording_;
   const ExploreOptions& options_;
-  std::optional<Experiment> experiment_;
-  std::optional<Fit> fitted_;  // the model as it was given
-  std::optional<StiffnessImage> image_;
+  const SignedDistance surface_;
+  const PressDepths depths_;
+  std::optional<Judgement> known_;  // of kLeastPresses or more
   std::vector<SeenPlace> seen_;
-  std::shared_ptr<const ContactLibrary> library_;
-  std::function<std::shared_ptr<const SetupPlaces>(const std::vector<Vec3>&)> setup_;
+  std::optional<PlaceFinder> finder_;
   Exploration result_;
 };
 
 }  // namespace
-
-std::string aim_name(Aim aim) {
-  switch (aim) {
-    case Aim::kSpread:
-      return "spread";
-    case Aim::kTellApart:
-      return "tell apart";
-    case Aim::kSharpen:
-      return "sharpen";
-    case Aim::kLump:
-      return "lump";
-    default:
-      return "none";
-  }
-}
 
 Exploration explore(const TetMesh& body, const std::vector<Vec3>& window, const Model& model,
                     const Recording& recording, const ExploreOptions& options) {

@@ -12,6 +12,23 @@ nlohmann::json known(double value) {
 
 }  // namespace
 
+std::string aim_name(Aim aim) {
+  switch (aim) {
+    case Aim::kSpread:
+      return "spread";
+    case Aim::kTest:
+      return "test";
+    case Aim::kTellApart:
+      return "tell apart";
+    case Aim::kSharpen:
+      return "sharpen";
+    case Aim::kLump:
+      return "lump";
+    default:
+      return "none";
+  }
+}
+
 std::string explore_json(const Exploration& e) {
   nlohmann::json j;
   j["reached"] = e.reached;
@@ -24,7 +41,9 @@ std::string explore_json(const Exploration& e) {
                           {"said", g.said},
                           {"value", known(g.value)},
                           {"wanted", g.wanted},
-                          {"reached", g.reached}});
+                          {"reached", g.reached},
+                          {"unreachable", g.unreachable},
+                          {"note", g.note}});
   j["aim"] = aim_name(e.aim);
   j["why"] = e.why;
   j["promise"] = known(e.promise);
@@ -37,6 +56,12 @@ std::string explore_json(const Exploration& e) {
   if (e.diagnosis)
     for (const Finding& f : e.diagnosis->findings)
       if (f.verdict == Verdict::kMissing) j["missing"].push_back(f.effect);
+  j["untested"] = nlohmann::json::array();
+  for (const UntestedEffect& u : e.untested)
+    j["untested"].push_back({{"effect", u.effect}, {"lack", u.lack}});
+  j["no_times"] = e.no_times;
+  j["gap"] = known(e.gap);
+  j["shallower"] = e.shallower;
   j["lumps"] = nlohmann::json::array();
   for (const Lump& l : e.lumps)
     j["lumps"].push_back({{"centre", {l.centre.x(), l.centre.y(), l.centre.z()}},

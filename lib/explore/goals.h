@@ -1,10 +1,11 @@
 // What further presses are for, and whether it is reached.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "diagnose/diagnose.h"
+#include "explore/coverage.h"
 #include "imaging/stiffness_image.h"
 
 namespace hapsim {
@@ -23,8 +24,9 @@ struct Goals {
   bool of_forces() const { return verdict || !errors.empty(); }
 };
 
-// "verdict", "E=0.02" or "elastic.E=2%", "lump=2mm"; a parameter asks for the verdict too, for its
-// error is none of a model that lacks something. Error(kUsage) beginning with `option`.
+// "verdict", "E=0.02", "elastic.E=2%" (or "elastic E=2%"), "lump=2mm"; a parameter asks for the
+// verdict too, for its error is none of a model that lacks something. Error(kUsage) beginning with
+// `option`: no such goal, a parameter of no effect, two goals of one kind.
 Goals parse_goals(const std::vector<std::string>& words, const std::string& option);
 
 // One goal and how far it is. `value` is not finite where nothing is known yet.
@@ -33,15 +35,25 @@ struct GoalState {
   std::string said;              // of the verdict: what it is; of a lump: "seen" or "not seen"
   double value = 0, wanted = 0;  // relative error, or the widest half interval [m]; 0: of a verdict
   bool reached = false;
+  std::string note = {};       // what stands in the way; "": nothing but more presses
+  bool unreachable = false;    // no number of presses will do
+  std::string determine = {};  // the parameter to know better next, "elastic nu"; "": none
+  int region = 0;              // of that parameter
 };
 
-// Whether more presses need not change a verdict: it has a false-alarm rate (kLeastPresses), one
-// set of effects explains all, or nothing is missing.
-bool settles(const Diagnosis& diagnosis, std::size_t presses);
+// What stands in the way of calling a verdict final, in words; "": more presses need not change it.
+// It must have a false-alarm rate (kLeastPresses), places that were held out (kSettledPlaces), and
+// motions in which all effects could have shown; and one set of effects explains all, or nothing
+// is missing.
+std::string unsettled(const Diagnosis& diagnosis, const Coverage& coverage);
 
-GoalState verdict_state(const Diagnosis& diagnosis, std::size_t presses);
-// Error(kUsage): the model has no such free parameter.
-GoalState error_state(const WantedError& wanted, const Model& model);
+GoalState verdict_state(const Diagnosis& diagnosis, const Coverage& coverage);
+// Error(kUsage): the model has no such free parameter. `floor`: relative error that all positions
+// share (Allowance::floor), below which no modulus of the body is known. A parameter at its bound
+// is not known, nor is a modulus while Poisson's ratio is: its error is conditional on that.
+GoalState error_state(const WantedError& wanted, const Model& model, double floor);
+// The same before anything is known: of the body's modulus wanted better than `floor`, else none.
+std::optional<GoalState> hopeless(const WantedError& wanted, double floor);
 // The strongest lump.
 GoalState lump_state(double wanted, const StiffnessImage& image);
 

@@ -14,6 +14,7 @@ std::vector<PressablePlace> fitting_places(
     std::vector<PressablePlace> fit;
     std::vector<Vec3> points, unfit;
     for (const PressablePlace& place : wanted) points.push_back(place.point);
+    if (points.empty()) return fit;
     const std::shared_ptr<const SetupPlaces> there = prepare(points);
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (there->contacts()[k].unfit.empty())
@@ -28,13 +29,15 @@ std::vector<PressablePlace> fitting_places(
   }
 }
 
-MeasurementPlan presses_in_turn(const std::vector<PressablePlace>& places, double depth,
-                                std::size_t turn, double step) {
+MeasurementPlan presses_in_turn(const std::vector<PressablePlace>& places,
+                                const std::vector<std::size_t>& turns, const DepthAt& depth,
+                                double step) {
   MeasurementPlan plan;
-  const std::vector<PressPath> paths = press_paths(depth);
   double start = 0;
-  for (const PressablePlace& place : places) {
-    const PressPath& path = path_in_turn(paths, turn++);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const PressablePlace& place = places[k];
+    const std::vector<PressPath> paths = press_paths(depth(place.point, place.normal));
+    const PressPath& path = path_in_turn(paths, turns.at(k));
     plan.presses.push_back({path.name, place.point, 0});
     append_press(plan.motion, static_cast<int>(plan.presses.size()), start, step, place.point,
                  place.normal, path);

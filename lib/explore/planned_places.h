@@ -22,10 +22,14 @@ std::vector<PressablePlace> fitting_places(
     std::vector<PressablePlace> places, std::size_t count, const PlaceChoice& choose,
     const std::function<std::shared_ptr<const SetupPlaces>(const std::vector<Vec3>&)>& prepare);
 
-// Presses at these places, one after the other, each along the next path in turn (path_in_turn())
-// from the `turn`-th on; numbers from 1, times from 0.
-MeasurementPlan presses_in_turn(const std::vector<PressablePlace>& places, double depth,
-                                std::size_t turn, double step);
+// Of a full press at a place with that outward normal [m].
+using DepthAt = std::function<double(const Vec3& point, const Vec3& normal)>;
+
+// Presses at these places, one after the other, each along the path of its turn (path_in_turn());
+// numbers from 1, times from 0.
+MeasurementPlan presses_in_turn(const std::vector<PressablePlace>& places,
+                                const std::vector<std::size_t>& turns, const DepthAt& depth,
+                                double step);
 
 // Numbers and times that go on after a recording's last press.
 void go_on_after(const Recording& recording, MeasurementPlan& plan);

@@ -29,7 +29,8 @@ std::vector<SeenPlace> pressed_places(const Recording& recording) {
   std::vector<SeenPlace> seen;
   for (const Press& press : recording.presses()) {
     const Vec3& p = recording.position[static_cast<std::size_t>(press.rows.front())];
-    if (std::none_of(seen.begin(), seen.end(), [&](const SeenPlace& s) { return s.point == p; }))
+    if (std::none_of(seen.begin(), seen.end(),
+                     [&](const SeenPlace& s) { return (s.point - p).norm() <= kSamePlace; }))
       seen.push_back({p, std::numeric_limits<double>::quiet_NaN()});
   }
   return seen;

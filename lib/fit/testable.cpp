@@ -40,31 +40,8 @@ bool begins_anew(const Dataset& dataset) {
   return false;
 }
 
-bool moves_sideways(const PressView& view) {
-  double along = 0, across = 0;
-  for (std::size_t i = 0; i < view.size(); ++i) {
-    if (view.in_air[i]) continue;
-    along = std::max(along, -view.u[i].dot(view.normal));
-    across = std::max(across, (view.u[i] - view.u[i].dot(view.normal) * view.normal).norm());
-  }
-  return across > kSideways * along;
-}
-
 // Presses whose first samples tell as much as a way out.
 constexpr std::size_t kLeastStarts = 6;
-
-// Not where a press begins above the surface, or wavers there.
-bool comes_back(const PressView& view) {
-  constexpr double kIn = 0.1;  // of the largest depth
-  double most = 0, deepest = 0;
-  for (const Vec3& u : view.u) most = std::max(most, u.dot(view.direction));
-  for (const Vec3& u : view.u) {
-    const double depth = u.dot(view.direction);
-    if (deepest > kIn * most && depth < kReturn * deepest) return true;
-    deepest = std::max(deepest, depth);
-  }
-  return false;
-}
 
 // Whether the depth tells the time: all presses go one steady way in, without a hold, a return or
 // another pace. A cubic stands for steady ones of any kind. Of a body it is the time since it was
@@ -97,6 +74,28 @@ bool depth_is_time(const Dataset& dataset, bool of_sensor) {
 }
 
 }  // namespace
+
+bool moves_sideways(const PressView& view) {
+  double along = 0, across = 0;
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (view.in_air[i]) continue;
+    along = std::max(along, -view.u[i].dot(view.normal));
+    across = std::max(across, (view.u[i] - view.u[i].dot(view.normal) * view.normal).norm());
+  }
+  return across > kSideways * along;
+}
+
+bool comes_back(const PressView& view) {
+  constexpr double kIn = 0.1;  // of the largest depth
+  double most = 0, deepest = 0;
+  for (const Vec3& u : view.u) most = std::max(most, u.dot(view.direction));
+  for (const Vec3& u : view.u) {
+    const double depth = u.dot(view.direction);
+    if (deepest > kIn * most && depth < kReturn * deepest) return true;
+    deepest = std::max(deepest, depth);
+  }
+  return false;
+}
 
 std::string not_shared(const EffectCard& effect, const Dataset& dataset) {
   if (effect.one_body && dataset.bodies() > 1)

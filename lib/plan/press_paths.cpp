@@ -29,7 +29,7 @@ void append_row(Recording& r, int press, double t, const Vec3& position, const V
 std::vector<PressPath> press_paths(double deepest) {
   std::vector<PressPath> result;
   const auto down = [](double depth) { return Vec3(0, 0, depth); };
-  for (const double share : {0.3, 1.0, 1.5}) {
+  for (const double share : {0.3, 1.0, kDeepestPath}) {
     const double d = share * deepest;
     const std::string depth = fmt::format("{:.2g} mm deep", 1e3 * d);
     result.push_back({"slowly " + depth, {{down(d), kSlow}, {down(0), kSlow}}});

@@ -21,6 +21,9 @@ struct PressPath {
   std::vector<Leg> legs;
 };
 
+// Of the deepest path over a full press.
+constexpr double kDeepestPath = 1.5;
+
 // Shallow, as deep as `deepest` [m], and half as deep again; slowly, fast, and fast with a hold;
 // pushed sideways along two directions and their diagonal, to and fro.
 std::vector<PressPath> press_paths(double deepest);
@@ -29,6 +32,9 @@ std::vector<PressPath> press_paths(double deepest);
 // another of these paths, so that few presses see depths, rates, holds and both directions
 // sideways. The deepest comes first: what is pressed later goes no deeper.
 const PressPath& path_in_turn(const std::vector<PressPath>& paths, std::size_t turn);
+
+// The turns of paths that are held, or go sideways, slowly (path_in_turn()).
+constexpr std::size_t kHeldTurn = 0, kSidewaysTurn = 1, kSlowTurn = 2;
 
 // Appends one press along a path in steps of `step` [s], without forces, with a piece of air before
 // and after it. `start`: time of its first row [s]. The first tangent is the x axis laid into the

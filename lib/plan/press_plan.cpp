@@ -66,23 +66,33 @@ std::vector<ToolStand> stands_of(const SetupPlaces& places) {
   return stands;
 }
 
+// Of a full press at each place.
+std::vector<double> depths_at(const SetupPlaces& places, const std::vector<ToolStand>& stands,
+                              const PlanAsked& asked, double deepest_so_far) {
+  std::vector<double> depths(stands.size(), asked.depth > 0 ? asked.depth : deepest_so_far);
+  if (asked.depth_at)
+    for (std::size_t p = 0; p < depths.size(); ++p)
+      depths[p] = asked.depth_at(places.positions()[p], stands[p].normal);
+  return depths;
+}
+
 // Every path at every position, each as if it came right after the recording.
 Candidates make_candidates(const std::vector<Model>& models, const Experiment& e,
                            const PlanAsked& asked) {
   const Dataset& known = e.dataset;
   const DataSummary summary = summarise(known, 1);
-  const double depth = asked.depth > 0 ? asked.depth : summary.depth;
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   Candidates candidates;
   candidates.places = places_for(models, e, asked);
   const std::vector<Vec3>& positions = candidates.places->positions();
   const std::vector<ToolStand> stands = stands_of(*candidates.places);
+  const std::vector<double> depths = depths_at(*candidates.places, stands, asked, summary.depth);
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
   int press = 0;
   for (std::size_t p = 0; p < positions.size(); ++p)
-    for (const PressPath& path : press_paths(depth)) {
+    for (const PressPath& path : press_paths(depths[p])) {
       append_press(r, press++, 0, step, positions[p], stands[p].normal, path);
       candidates.names.push_back(path.name);
     }
@@ -146,6 +156,23 @@ Eigen::MatrixXd known_information(const Model& model, const Experiment& e) {
 // Chi-square by which the other model stays away, this one's parameters refitted.
 double separation(const Evidence& e, const Eigen::MatrixXd& known) {
   return e.difference - e.both.dot((known + e.information).ldlt().solve(e.both));
+}
+
+// The free parameter that a plan determines: the least certain of those that are asked for, of all
+// where none is.
+Eigen::Index asked_for(const Model& model, const Eigen::VectorXd& uncertain,
+                       const PlanAsked& asked) {
+  const std::vector<int> free = model.free_parameters();
+  Eigen::Index worst = -1, of_all = 0;
+  uncertain.maxCoeff(&of_all);
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    const Parameter& p = model.parameters[static_cast<std::size_t>(free[c])];
+    const auto k = static_cast<Eigen::Index>(c);
+    if (p.effect + " " + p.name != asked.parameter) continue;
+    if (asked.region >= 0 && p.region != asked.region) continue;
+    if (worst < 0 || uncertain[k] > uncertain[worst]) worst = k;
+  }
+  return worst < 0 ? of_all : worst;
 }
 
 // Greedy choice: `gain` of a set of candidates together, larger is better.
@@ -243,16 +270,12 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
       }
       return sd;
     };
-    Eigen::Index worst = 0;
     const Eigen::VectorXd uncertain = spread(known[0]);
-    uncertain.maxCoeff(&worst);
-    for (std::size_t c = 0; c < free.size(); ++c)
-      if (const Parameter& p = plain[0].parameters[free[c]];
-          p.effect + " " + p.name == asked.parameter)
-        worst = static_cast<Eigen::Index>(c);
+    const Eigen::Index worst = asked_for(plain[0], uncertain, asked);
     const double before = uncertain[worst];
     const Parameter& p = plain[0].parameters[free[static_cast<std::size_t>(worst)]];
     plan.parameter = p.effect + " " + p.name;
+    plan.region = p.region;
     const auto gain = [&](const std::vector<std::size_t>& set) {
       return -spread(known[0] + together(set, 0).information)[worst];
     };
@@ -265,14 +288,14 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
   const DataSummary summary = summarise(e.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   const std::vector<ToolStand> stands = stands_of(places);
-  const std::vector<PressPath> all_paths =
-      press_paths(asked.depth > 0 ? asked.depth : summary.depth);
+  const std::vector<double> depths = depths_at(places, stands, asked, summary.depth);
   double start = 0;
   for (const std::size_t k : chosen) {
     const auto position = static_cast<std::size_t>(candidates.dataset.episodes[k].position);
     const int number = static_cast<int>(plan.presses.size()) + 1;
+    const std::vector<PressPath> paths = press_paths(depths[position]);
     append_press(motion, number, start, step, places.positions()[position], stands[position].normal,
-                 all_paths[k % all_paths.size()]);
+                 paths[k % paths.size()]);
     start = motion.t.back() + kPauseBetweenPresses;
     double alone = std::numeric_limits<double>::infinity();
     if (plain.size() > 1)

@@ -1,6 +1,7 @@
 // Which presses to record next: those that tell rival effects apart, or that determine a parameter.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,17 @@ struct MeasurementPlan {
   // the standard error of its least certain parameter.
   double separation = 0;
   std::string parameter;  // the least certain one, or the one asked for; "" with rivals
+  int region = 0;         // of that parameter
 };
 
 // What is asked of a plan beyond the usual.
 struct PlanAsked {
   double depth = 0;  // that of a full press [m]; 0: of the deepest in the recording
-  std::string
-      parameter;  // "elastic E": what a plan for one model determines; "": the least certain
+  // By place and outward normal, where that is not the same everywhere; takes the place of `depth`.
+  std::function<double(const Vec3&, const Vec3&)> depth_at;
+  // "elastic E": what a plan for one model determines; "": the least certain.
+  std::string parameter;
+  int region = -1;             // of that parameter; -1: where it is the least certain
   std::vector<Vec3> places;    // further candidates, at which the tool is known to fit
   bool pressed_places = true;  // the recording's positions are candidates
 };

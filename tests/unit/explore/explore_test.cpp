@@ -94,17 +94,26 @@ TEST(Explore, AHiddenRelaxationIsNamedAndTheLoopEnds) {
   EXPECT_EQ(e.goals.front().said, "incomplete: viscoelastic");
   EXPECT_TRUE(e.reached);
   EXPECT_TRUE(e.done());
+  // What it could not have seen is said.
+  EXPECT_GT(e.gap, 0.004);
+  EXPECT_GT(e.inside.size(), 2u);
   EXPECT_TRUE(e.plan.presses.empty());
   EXPECT_EQ(e.plan.motion.rows(), 0u);
 
-  // A parameter that cannot be known so well is asked for at a new place, until there are too many.
-  ExploreOptions more = options_for({"E=0.1%"}, 1);
+  // A modulus is never known better than mesh and shape allow: said, and no more is asked for.
+  e = explore(body(), {}, {}, so_far, options_for({"E=0.1%"}, 1));
+  EXPECT_TRUE(e.ended);
+  EXPECT_TRUE(e.goals.back().unreachable);
+  EXPECT_TRUE(e.plan.presses.empty());
+
+  // Another parameter is asked for at a new place, until there are too many.
+  ExploreOptions more = options_for({"viscoelastic.E1=0.01%"}, 1);
   e = explore(body(), {}, {}, so_far, more);
   EXPECT_EQ(e.aim, Aim::kSharpen);
-  EXPECT_EQ(e.parameter, "elastic E");
+  EXPECT_EQ(e.parameter, "viscoelastic E1");
   EXPECT_LT(e.promise, 1);
   ASSERT_EQ(e.plan.presses.size(), 1u);
-  for (const Vec3& p : so_far.position) EXPECT_GT((e.plan.presses[0].position - p).norm(), 0.004);
+  for (const Vec3& p : so_far.position) EXPECT_GE((e.plan.presses[0].position - p).norm(), 0.004);
   more.most_presses = 6;
   e = explore(body(), {}, {}, so_far, more);
   EXPECT_TRUE(e.ended);
@@ -139,6 +148,84 @@ TEST(Explore, ALumpIsSeenAndSurrounded) {
                 1e3 * (x->lumps[0].centre - centre).norm(), 1e3 * x->goals[0].value);
   EXPECT_LT(after.goals[0].value, 0.5 * e.goals[0].value);
   EXPECT_LT((after.lumps[0].centre - centre).norm(), 0.004);
+}
+
+// Presses of one path at places of a grid.
+Recording grid_of(std::size_t path, int side, double apart, int presses) {
+  MeasurementPlan grid;
+  for (int k = 0; k < presses; ++k)
+    append_press(grid.motion, k + 1, 20.0 * k, 0.05,
+                 Vec3(0.03 + apart * (k % side), 0.03 + apart * (k / side), 0.04), Vec3::UnitZ(),
+                 press_paths(0.002)[path]);
+  grid.motion.metadata.set("tool_radius", "0.004");
+  return grid.motion;
+}
+
+TEST(Explore, SlowPressesAloneSettleNothing) {
+  Recording so_far = nothing();
+  execute(so_far, grid_of(3, 3, 0.01, 6), test::elastic(1.5e4, 0.42), 4);
+  const Exploration e = explore(body(), {}, {}, so_far, options_for({"verdict"}, 3));
+  ASSERT_TRUE(e.diagnosis.has_value());
+  EXPECT_FALSE(e.reached);
+  EXPECT_EQ(e.aim, Aim::kTest);
+  ASSERT_EQ(e.plan.presses.size(), 3u);
+  EXPECT_NE(e.plan.presses[0].motion.find("sideways"), std::string::npos);
+  EXPECT_NE(e.plan.presses[1].motion.find("held"), std::string::npos);
+}
+
+TEST(Explore, OnePlaceSettlesNothing) {
+  Recording so_far = nothing();
+  const Exploration first = explore(body(), {}, {}, so_far, options_for({"verdict"}, 6));
+  Recording motion = first.plan.motion;
+  motion.position.assign(motion.rows(), Vec3(0.04, 0.04, 0.04));
+  execute(so_far, motion, test::elastic(1.5e4, 0.42), 4);
+  const Exploration e = explore(body(), {}, {}, so_far, options_for({"verdict"}, 2));
+  EXPECT_EQ(e.places, 1u);
+  EXPECT_FALSE(e.reached);
+  EXPECT_FALSE(e.ended);
+  ASSERT_EQ(e.plan.presses.size(), 2u);
+  for (const PlannedPress& p : e.plan.presses)
+    EXPECT_GE((p.position - Vec3(0.04, 0.04, 0.04)).norm(), 0.004);
+}
+
+TEST(Explore, WithNoPlaceLeftTheLoopEnds) {
+  Recording so_far = nothing();
+  const Recording pressed = grid_of(3, 1, 0.01, 1);
+  execute(so_far, pressed, test::elastic(1.5e4, 0.42), 4);
+  so_far.metadata.set("tool_radius", "0.028");  // none fits that far away from the place
+  const Exploration e = explore(body(), {}, {}, so_far, options_for({"verdict"}, 2));
+  EXPECT_TRUE(e.ended);
+  EXPECT_FALSE(e.reached);
+  EXPECT_NE(e.why.find("no place is left"), std::string::npos) << e.why;
+}
+
+TEST(Explore, NoMotionHasMorePressesThanAreLeft) {
+  ExploreOptions options = options_for({"verdict"}, 6);
+  options.most_presses = 2;
+  EXPECT_EQ(explore(body(), {}, {}, nothing(), options).plan.presses.size(), 2u);
+}
+
+TEST(Explore, AContactOffTheBodyIsRefusedAtOnce) {
+  Recording so_far = grid_of(3, 1, 0.01, 1);
+  so_far.name = "data.csv";
+  so_far.f.assign(so_far.rows(), Vec3::Zero());
+  for (Vec3& p : so_far.position) p.z() += 0.05;
+  const std::string said =
+      error_of([&] { explore(body(), {}, {}, so_far, options_for({"verdict"}, 1)); });
+  EXPECT_NE(said.find("0.05 m off the body's surface"), said.npos) << said;
+}
+
+TEST(Explore, WithoutTimesAStepIsTheUsual) {
+  Recording so_far = nothing();
+  Recording motion = explore(body(), {}, {}, so_far, options_for({"verdict"}, 6)).plan.motion;
+  motion.position.assign(motion.rows(), Vec3(0.04, 0.04, 0.04));
+  execute(so_far, motion, test::elastic(1.5e4, 0.42), 3);
+  so_far.t.clear();
+  const Exploration e = explore(body(), {}, {}, so_far, options_for({"verdict"}, 1));
+  EXPECT_TRUE(e.no_times);
+  EXPECT_TRUE(e.diagnosis.has_value());
+  ASSERT_GT(e.plan.motion.rows(), 2u);
+  EXPECT_NEAR(e.plan.motion.t[1] - e.plan.motion.t[0], 0.02, 1e-9);
 }
 
 TEST(Explore, ABodyThatNowhereLooksUpIsRefused) {

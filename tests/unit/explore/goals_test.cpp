@@ -32,35 +32,108 @@ TEST(Goals, WordsThatAreNoneAreRefused) {
         << word;
 }
 
+TEST(Goals, NamesAreThoseOfEffectsAndAskedForOnce) {
+  EXPECT_EQ(parse_goals({"elastic E=2%"}, "--goal").errors[0].parameter, "elastic.E");
+  EXPECT_EQ(parse_goals({"verdict", "E=2%", "viscoelastic.E1=5%"}, "--goal").errors.size(), 2u);
+  const auto said = [](const std::vector<std::string>& words) {
+    return error_of([&] { parse_goals(words, "--goal"); }, ExitCode::kUsage);
+  };
+  for (const char* word : {"Ee=2%", "elastic.mu=2%", "nonsense.E=2%"})
+    EXPECT_NE(said({word}).find("no effect has"), std::string::npos) << word;
+  const std::vector<std::vector<std::string>> twice{{"E=2%", "E=3%"},
+                                                    {"E=2%", "elastic.E=3%"},
+                                                    {"elastic E=2%", "E=2%"},
+                                                    {"lump=2mm", "lump=3mm"},
+                                                    {"verdict", "verdict"}};
+  for (const auto& words : twice)
+    EXPECT_NE(said(words).find("asked for twice"), std::string::npos) << words[0];
+}
+
 TEST(Goals, AParameterIsReachedByItsWorstRegion) {
   Model model = test::elastic(1e4, 0.4);
   model.find("elastic", 0, "E")->std_error = 100;
-  EXPECT_TRUE(error_state({"E", 0.02}, model).reached);
-  EXPECT_EQ(error_state({"elastic.E", 0.02}, model).name, "elastic E");
+  EXPECT_TRUE(error_state({"E", 0.02}, model, 0.01).reached);
+  EXPECT_EQ(error_state({"elastic.E", 0.02}, model, 0.01).name, "elastic E");
   Parameter softer = *model.find("elastic", 0, "E");
   softer.region = 1;
   softer.std_error = 900;
   model.parameters.push_back(softer);
-  EXPECT_FALSE(error_state({"E", 0.02}, model).reached);
-  EXPECT_NEAR(error_state({"E", 0.02}, model).value, 0.09, 1e-12);
-  // One that was not estimated is not known.
+  EXPECT_FALSE(error_state({"E", 0.02}, model, 0.01).reached);
+  EXPECT_NEAR(error_state({"E", 0.02}, model, 0.01).value, 0.09, 1e-12);
+  EXPECT_EQ(error_state({"E", 0.02}, model, 0.01).region, 1);
+  // One that was not estimated is not known, whichever it is.
   model.parameters.back().std_error = std::nan("");
-  EXPECT_FALSE(error_state({"E", 0.02}, model).reached);
-  const std::string said = error_of([&] { error_state({"tau1", 0.1}, model); }, ExitCode::kUsage);
+  EXPECT_FALSE(error_state({"E", 0.02}, model, 0.01).reached);
+  EXPECT_EQ(error_state({"E", 0.02}, model, 0.01).region, 1);
+  std::swap(model.find("elastic", 0, "E")->std_error, model.parameters.back().std_error);
+  model.parameters.back().std_error = 10;
+  EXPECT_FALSE(error_state({"E", 0.02}, model, 0.01).reached);
+  EXPECT_EQ(error_state({"E", 0.02}, model, 0.01).region, 0);
+  const std::string said = error_of(
+      [&] {
+        error_state({"tau1", 0.1}, model, 0.01);
+      },
+      ExitCode::kUsage);
   EXPECT_NE(said.find("no free parameter tau1"), said.npos) << said;
+}
+
+TEST(Goals, AModulusIsNotKnownWhilePoissonsRatioIsAtItsBound) {
+  Model model = test::elastic(1e4, 0.4);
+  model.find("elastic", 0, "E")->std_error = 100;
+  Parameter& nu = *model.find("elastic", 0, "nu");
+  nu.std_error = 0.01;
+  EXPECT_TRUE(error_state({"E", 0.02}, model, 0.01).reached);
+  nu.value = nu.upper;
+  nu.std_error = std::nan("");  // as a fit leaves what ends at a bound
+  const GoalState state = error_state({"E", 0.02}, model, 0.01);
+  EXPECT_FALSE(state.reached);
+  EXPECT_FALSE(state.unreachable);
+  EXPECT_EQ(state.determine, "elastic nu");
+  EXPECT_NE(state.note.find("elastic nu is at its bound"), std::string::npos) << state.note;
+  nu.state = ParameterState::kFixed;  // known, then
+  EXPECT_TRUE(error_state({"E", 0.02}, model, 0.01).reached);
+}
+
+TEST(Goals, NoModulusIsKnownBetterThanAllPlacesErrAlike) {
+  Model model = test::elastic(1e4, 0.4);
+  model.find("elastic", 0, "E")->std_error = 100;
+  model.find("elastic", 0, "nu")->std_error = 0.001;
+  EXPECT_TRUE(error_state({"E", 0.005}, model, 0.01).unreachable);
+  EXPECT_FALSE(error_state({"E", 0.005}, model, 0.01).reached);
+  EXPECT_FALSE(error_state({"E", 0.02}, model, 0.01).unreachable);
+  EXPECT_FALSE(error_state({"nu", 0.005}, model, 0.01).unreachable);
+  // Said before anything is measured.
+  EXPECT_TRUE(hopeless({"E", 0.005}, 0.01).has_value());
+  EXPECT_TRUE(hopeless({"elastic.E", 0.005}, 0.01)->unreachable);
+  EXPECT_FALSE(hopeless({"E", 0.02}, 0.01).has_value());
+  EXPECT_FALSE(hopeless({"nu", 0.005}, 0.01).has_value());
 }
 
 TEST(Goals, FewPressesAndWhatIsLeftSettleNothing) {
   Diagnosis d;
   d.verdict = ModelVerdict::kComplete;
-  EXPECT_FALSE(settles(d, kLeastPresses - 1));
-  EXPECT_TRUE(settles(d, kLeastPresses));
+  const auto settles = [&](const Coverage& c) {
+    EXPECT_EQ(verdict_state(d, c).reached, unsettled(d, c).empty());
+    return unsettled(d, c).empty();
+  };
+  const Coverage enough{kLeastPresses, kSettledPlaces, {}};
+  EXPECT_FALSE(settles({kLeastPresses - 1, kSettledPlaces, {}}));
+  EXPECT_TRUE(settles(enough));
   d.verdict = ModelVerdict::kIncomplete;
-  EXPECT_TRUE(settles(d, kLeastPresses));
+  EXPECT_TRUE(settles(enough));
   d.left.strained = true;
-  EXPECT_FALSE(settles(d, kLeastPresses));
+  EXPECT_FALSE(settles(enough));
   d.verdict = ModelVerdict::kAmbiguous;
-  EXPECT_FALSE(settles(d, 100));
+  EXPECT_FALSE(settles({100, 100, {}}));
+}
+
+TEST(Goals, WhatWasNotAskedIsNotSettled) {
+  Diagnosis d;
+  for (const ModelVerdict verdict : {ModelVerdict::kComplete, ModelVerdict::kIncomplete}) {
+    d.verdict = verdict;
+    EXPECT_NE(unsettled(d, {30, kSettledPlaces - 1, {}}).find("5 places"), std::string::npos);
+    EXPECT_EQ(unsettled(d, {30, 10, {{"no press moves sideways", 1}}}), "no press moves sideways");
+  }
 }
 
 TEST(Goals, ALumpMustLieWithinItsWidestInterval) {

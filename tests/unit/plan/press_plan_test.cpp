@@ -7,6 +7,7 @@
 
 #include "effects/catalogue.h"
 #include "fit/fit.h"
+#include "plan/press_paths.h"
 #include "support/synthetic.h"
 
 namespace hapsim {
@@ -137,6 +138,37 @@ TEST(PlanLines, SayWhatTheMotionIsFor) {
   plan.separation = 0.25;
   EXPECT_EQ(plan_lines(plan, "next.csv")[0],
             "to know elastic nu better, record next.csv (its standard error falls to 25 %):");
+}
+
+TEST_F(Plan, OfAParameterOfRegionsTheLeastCertainOneIsDetermined) {
+  test::measure(w(), test::elastic(1.5e4, 0.42), 0.01, 3);
+  Model two = test::elastic(1.5e4, 0.42);
+  Parameter other = *two.find("elastic", 0, "E");
+  other.region = 1;
+  two.parameters.push_back(other);
+  // One of the six places is in region 0.
+  int key = 0;
+  for (const Vec3& p : w().dataset.positions) {
+    ++key;
+    for (const auto& [name, value] : {std::pair{"x", p.x()}, std::pair{"y", p.y()}})
+      two.parameters.push_back({"regions", key == 1 ? 0 : 1, name + std::to_string(key), value, "m",
+                                0, -1, 1, ParameterState::kFixed});
+  }
+  PlanAsked asked;
+  asked.parameter = "elastic E";
+  EXPECT_EQ(plan_presses({two}, w(), 1, asked).region, 0);
+  asked.region = 1;
+  EXPECT_EQ(plan_presses({two}, w(), 1, asked).region, 1);
+}
+
+TEST_F(Plan, NoPressGoesDeeperThanItsPlaceAllows) {
+  test::measure(w(), test::elastic(1.5e4, 0.42), 0.01, 3);
+  PlanAsked asked;
+  asked.depth_at = [](const Vec3& p, const Vec3&) { return p.x() < 0.03 ? 1e-4 : 2e-4; };
+  const MeasurementPlan plan = plan_presses({fitted(test::elastic(1.5e4, 0.42))}, w(), 6, asked);
+  const Recording& r = plan.motion;
+  for (std::size_t i = 0; i < r.rows(); ++i)
+    EXPECT_LE(-r.u[i].z(), kDeepestPath * asked.depth_at(r.position[i], {}) + 1e-12);
 }
 
 }  // namespace
