@@ -42,6 +42,7 @@ use() { # TOOL BODY
   hs-simulate) "$tool" motion.csv --body "$body" --model model.csv --rim-edge 0.5 -q -o made.csv ;;
   hs-identify) "$tool" data.csv --body "$body" --rim-edge 0.5 --folds 0 -q -o made.csv ;;
   hs-diagnose) "$tool" data.csv --body "$body" --model model.csv --rim-edge 0.5 -q -o made.csv ;;
+  hs-plan) "$tool" data.csv --body "$body" --rim-edge 0.5 -q -o made.csv ;;
   hs-cluster) "$tool" samples.csv --body "$body" --scan-points 400 --boundary made.csv -q -o none.csv ;;
   hs-export) "$tool" model.csv --body "$body" --format vtu -q -o made.vtu && mv made.vtu made.csv ;;
   hs-compare)
