@@ -23,7 +23,7 @@ grep -aq '^comment window ' p.ply && complain 'a body that was seen whole tells 
 # A stiffness that changes by place, quasi-static; the last place lies on the bonded bottom.
 awk -F, 'NR > 1 { for (k = 1; k <= 5; ++k) { d = .0002 * k
     f = 250 * d * (1 + .5 * sin(150 * $1) * cos(110 * $2))
-    printf "%d,%g,%g,%g,0,0,%g,0,0,%.6f\n", NR, $1, $2, $3, -d, f } }
+    printf "%d,%g,%g,%g,0,0,%g,%.6f,%.6f,%.6f\n", NR, $1, $2, $3, -d, .0005 * sin(7 * NR + 3 * k), .0005 * cos(5 * NR + 2 * k), f } }
   END { print "99,.01,.01,0,0,0,.0002,0,0,-.05" }' touched.csv |
   sed '1i # tool_radius: 0.002\n# force_noise: 0.0005\npress,x,y,z,ux,uy,uz,fx,fy,fz' >data.csv
 common=(data.csv --body body.ply --rim-edge 0.35 --fix nu=0.45)
