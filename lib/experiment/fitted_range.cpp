@@ -121,7 +121,8 @@ void record_range(const Dataset& dataset, Metadata& metadata) {
     reach = std::max(reach, *nine);
   }
   metadata.set("places", text);
-  if (covers > 0) metadata.set("covers", format_number(std::ceil(kPerMetre * covers) / kPerMetre));
+  if (covers > 0)
+    metadata.set("covers", format_number(std::ceil(kPerMetre * covers + 1) / kPerMetre));
   metadata.set("reach", format_number(std::ceil(kPerMetre * (reach + covers) + 1) / kPerMetre));
 }
 

@@ -1,6 +1,7 @@
 #include "fit/fit_record.h"
 
 #include "experiment/fitted_range.h"
+#include "experiment/unseen_band.h"
 #include "io/number.h"
 #include "model/model_edit.h"
 #include "model/search_state.h"
@@ -14,6 +15,7 @@ void record_fit(Fit& fitted, const Metadata& start, const Experiment& w) {
   for (const char* key : {"heldout", "until", "heldout_later", "constraints", "binding",
                           "torque_rmse", "torque_noise", "marker_rmse", "marker_noise"})
     model.metadata.remove(key);
+  record_band({}, model.metadata);
   std::string all, binding;
   for (const KeptConstraint& c : fitted.constraints) {
     all += (all.empty() ? "" : "; ") + c.text;

@@ -131,6 +131,9 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     fail_input(model.name, "the body has moved, which its own mesh does not know",
                "have the contacts solved finely: hs-simulate --live --contacts data.csv");
   const ModelRelaxation relaxation = relaxation_of(model, material);
+  if (options.large_strain && !relaxation.regional.empty())
+    fail_input(model.name, "regions that relax each in its own way remember the linear force alone",
+               "give all regions the Maxwell elements of region 0, or leave out --large-strain");
   terms_ = relaxation.common;
   const SampledMaterial solid = sampled(material);
   std::vector<KnownStiffness> known =
@@ -164,9 +167,6 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
                "the real-time loop takes up to " + std::to_string(kMostTerms));
   distance_ = std::make_unique<SignedDistance>(field_->surface(), "body");
   if (!options.large_strain) return;
-  if (is_regional())
-    fail_input(model.name, "regions that relax each in its own way remember the linear force alone",
-               "give all regions the Maxwell elements of region 0, or leave out --large-strain");
   LargeStrainOptions strain;
   strain.tool_radius = tool_radius_;
   strain.tolerance = options.tolerance;

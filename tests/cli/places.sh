@@ -39,13 +39,16 @@ awk -F, '!/^#/ && $4 == 1 { ++n } $4 == 0 && !($6 <= $5 && $5 <= $7) { bad = 1 }
   complain 'the table has every place, and bands'
 "$bin/hs-simulate" data.csv --body body.ply --rim-edge 0.35 --model m1.csv -o forces.csv 2>.err || complain 'it is simulated'
 grep -q '1 of 37 places are taken for their nearest neighbours' .err || complain 'what does not fit borrows'
-grep -q 'UNSEEN   1 of 37 places' .err || complain 'of the places one alone was not fitted to'
+grep -q 'UNSEEN   of 37 places 1 not among' .err || complain 'of the places one alone was not fitted to'
 awk -F, -v OFS=, '/^#/ || /^press/ { print; next } $1 == 1 { x = $2; y = $3; z = $4 } $1 == 2 { $2 = (x + $2) / 2; $3 = (y + $3) / 2
   $4 = (z + $4) / 2; print }' data.csv >between.csv
 "$bin/hs-simulate" between.csv --body body.ply --rim-edge 0.35 --model m1.csv -o between-forces.csv 2>.err ||
   complain 'it is simulated between places'
-tr -s '\n ' '  ' <.err | grep -q '1 of 1 place are not among those' || complain 'a place between others was not seen'
+tr -s '\n ' '  ' <.err | grep -q 'of 1 place 1 not among those' || complain 'a place between others was not seen'
 [[ $(value between-forces.csv unseen_band) == "$(value m1.csv unseen_band)" ]] || complain 'the recording says so'
+grep -v '^# unseen' m1.csv >mute.csv
+"$bin/hs-simulate" -q between-forces.csv --body body.ply --rim-edge 0.35 --model mute.csv -o mute-forces.csv || complain 'a model without a band'
+[[ -z $(value mute-forces.csv unseen_band) ]] || complain 'no band is left from another model'
 "$bin/hs-compare" -q data.csv --simulated forces.csv -o residuals.csv || complain 'every row has its force'
 sed -i '/learned-place,0,h7,/d' m1.csv
 expect 3 'lacks rows of its place 7' data.csv --body body.ply --model m1.csv -o no.csv

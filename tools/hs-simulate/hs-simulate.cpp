@@ -76,8 +76,8 @@ UnseenBand tell_unseen(const Model& model, const Recording& out, Summary& summar
       {"UNSEEN",
        "",
        "",
-       {fmt::format("{} of {} are not among those that the model was fitted to; {}", others.size(),
-                    counted(places.size(), "place", "places"), band_words(band))}});
+       {fmt::format("of {} {} not among those that the model was fitted to; {}",
+                    counted(places.size(), "place", "places"), others.size(), band_words(band))}});
   summary.values.push_back({"unseen_places", static_cast<double>(others.size()), "1"});
   summary.values.push_back({"unseen_band", band.share, "1"});
   summary.values.push_back({"unseen_chance", band.chance, "1"});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -42,6 +43,7 @@ TEST(FittedRange, IsWhatWasPressed) {
   ASSERT_EQ(one.places.size(), 1U);
   EXPECT_EQ(one.places[0], Vec3(0.1, -0.02, 0.04));
   EXPECT_NEAR(one.reach, 0.008, 2e-5);
+  EXPECT_EQ(one.covers, 0);  // all places are told
   EXPECT_TRUE(one.has_place({0.107, -0.02, 0.04}));
   EXPECT_FALSE(one.has_place({0.109, -0.02, 0.04}));
   EXPECT_TRUE(one.has_speed(one.speed) && !one.has_speed(0.0031));
@@ -60,6 +62,10 @@ TEST(FittedRange, ManyPlacesAreAsFarApartAsTheyLie) {
     EXPECT_TRUE(grid.has_place(Vec3(0.01 * (i % 14) + 0.005, 0.01 * (i / 14) + 0.005, 0)));
   EXPECT_FALSE(grid.has_place({0.3, 0.07, 0}));
   EXPECT_LT(grid.reach, 0.031);
+  for (const Vec3& p : places)
+    EXPECT_TRUE(std::any_of(grid.places.begin(), grid.places.end(), [&](const Vec3& q) {
+      return (p - q).norm() <= grid.covers;
+    })) << p.transpose();
 }
 
 TEST(FittedRange, WithoutWordsIsEndless) {

@@ -108,6 +108,8 @@ TEST(FitRecord, ForgetsWhatWasKnownOfTheStart) {
   Metadata start;
   for (const auto& [key, value] : {std::pair{"heldout", "1"},
                                    {"until", "2"},
+                                   {"unseen_band", "0.01"},
+                                   {"unseen_chance", "0.95"},
                                    {"note", "kept"},
                                    {"converged", "no"},
                                    {"rmse", "9"}})
@@ -121,7 +123,8 @@ TEST(FitRecord, ForgetsWhatWasKnownOfTheStart) {
   EXPECT_EQ(metadata.find("force_noise"), "0.01");
   EXPECT_EQ(metadata.find("tool_radius"), "0.004");
   EXPECT_EQ(metadata.find("note"), "kept");
-  for (const char* key : {"heldout", "until", "converged"}) EXPECT_FALSE(metadata.find(key)) << key;
+  for (const char* key : {"heldout", "until", "unseen_band", "unseen_chance", "converged"})
+    EXPECT_FALSE(metadata.find(key)) << key;
   const HistoryRow row = history_row("m.csv", fitted, 0.03, "positions", 0.01, 0.5);
   EXPECT_EQ(row.effects, "elastic");
   EXPECT_EQ(row.parameters, 2);

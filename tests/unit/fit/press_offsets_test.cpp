@@ -66,6 +66,17 @@ TEST_F(PressOffsets, OfUnseenPressesComeFromTheirOwnOtherStretches) {
   EXPECT_LT(held_out(with_offsets()), 1.2 * kNoise);
 }
 
+TEST_F(PressOffsets, OfPressesOfFewRowsComeFromTheOtherOnes) {
+  Dataset few;
+  few.episodes.resize(2);
+  few.episodes[0].rows = {0, 1};
+  few.episodes[1].rows = {2, 3, 4, 5, 6};
+  Eigen::VectorXd offsets(21);
+  offsets << Eigen::VectorXd::Constant(6, 3), Eigen::VectorXd::Constant(15, -5);
+  take_out_cross_means(few, {0, 1}, offsets);
+  EXPECT_LT(offsets.norm(), 1e-12);
+}
+
 TEST_F(PressOffsets, MeansComeOutOfColumns) {
   const Selection selection{1, 3};
   Eigen::MatrixXd columns = Eigen::MatrixXd::Random(

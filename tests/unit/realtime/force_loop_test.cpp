@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "expect_error.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
 #include "support/shared_cache.h"
@@ -177,6 +178,14 @@ Vec3 pressed(const PreparedBody& body, int steps, double hold) {
     f = loop.press(0.1 * share, share * Vec3(2e-4, 0, -2e-3));
   }
   return hold > 0 ? loop.press(0.1 + hold, Vec3(2e-4, 0, -2e-3)) : f;
+}
+
+TEST(ForceLoop, RegionsThatRelaxApartHaveNoLargeStrain) {
+  PreparedBodyOptions options = tool();
+  options.large_strain = true;
+  const Model model = regional_model({2e4, 1e4}, {{8e3, 0.05}, {4e3, 0.05}});
+  EXPECT_NE(error_of([&] { PreparedBody(body_mesh(), model, options); }).find("relax each"),
+            std::string::npos);
 }
 
 TEST(ForceLoop, RegionsOfTheSameRelaxationAreTheCommonOne) {

@@ -179,6 +179,21 @@ TEST(LargeStrain, GoesOnFromTheSamplesOfARunThatWasEnded) {
             second.force(second.at(place_at(again, kBetween)), u).f);
 }
 
+// No place was pulled beforehand.
+TEST(LargeStrain, SaysThatALargePullIsTheLinearForceAlone) {
+  const PreparedBody& body = test::strained_body();
+  const StepPlace at = place_at(body, kBetween);
+  const LargeStrain::Place place = body.large_strain()->at(at);
+  const double a = test::kStrainedRadius;
+  const LargeStrain::Force little = body.large_strain()->force(place, {0, 0, 0.05 * a}),
+                           much = body.large_strain()->force(place, {0, 0, 0.4 * a});
+  EXPECT_TRUE(little.within);
+  EXPECT_LT(little.doubt, 0.1);
+  EXPECT_FALSE(much.within);
+  EXPECT_GT(much.doubt, 0.3);
+  EXPECT_LT((much.f - at.contact.K * Vec3(0, 0, 0.4 * a)).norm(), 1e-12 * much.f.norm());
+}
+
 TEST(LargeStrain, IsOfModelsOfFiniteStrain) {
   const Model model = static_part(test::strained_model(8e3));
   EXPECT_FALSE(model.has("viscoelastic"));
