@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnose/held_out.h"
+#include "diagnose/measure.h"
 #include "diagnose/wording.h"
 #include "model/model_edit.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/departures.h"
+#include "diagnose/measure.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {

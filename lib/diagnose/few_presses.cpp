@@ -7,6 +7,7 @@
 
 #include "diagnose/effect_sets.h"
 #include "diagnose/foretold.h"
+#include "diagnose/measure.h"
 #include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/candidate.h"
 #include "diagnose/held_out.h"
+#include "diagnose/measure.h"
 
 namespace hapsim {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "compare/structure.h"
-#include "diagnose/candidate.h"
 #include "diagnose/gates.h"
+#include "diagnose/measure.h"
 #include "estimate/probability.h"
 
 namespace hapsim {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "diagnose/held_out.h"
+#include "diagnose/measure.h"
 #include "effects/catalogue.h"
 #include "fit/learned_field.h"
 #include "model/model_edit.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "diagnose/measure.h"
 #include "effects/catalogue.h"
 #include "model/model_edit.h"
 

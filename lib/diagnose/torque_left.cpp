@@ -7,6 +7,7 @@
 #include "compare/torque_comparison.h"
 #include "diagnose/gates.h"
 #include "diagnose/held_out.h"
+#include "diagnose/measure.h"
 #include "fit/press_offsets.h"
 #include "fit/torque_rows.h"
 #include "recording/torque_columns.h"

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "diagnose/departures.h"
 #include "diagnose/held_out.h"
+#include "diagnose/measure.h"
 #include "diagnose/screens.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "diagnose/candidate.h"
 #include "diagnose/improve.h"
+#include "diagnose/measure.h"
 
 namespace hapsim {
 
