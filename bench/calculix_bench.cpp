@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
   fmt::print("{:>8} {:>5} {:>6} {:<28} {:>8} {:>6} {:>10} {:>6}\n", "tets", "order", "patch",
              "program", "s", "MB", "force N", "ratio");
   for (const auto& body :
-       {std::pair<std::size_t, int>{20000, 1}, {100000, 1}, {6000, 2}, {20000, 2}}) {
+       {std::pair<std::size_t, int>{20000, 1}, {100000, 1}, {6000, 2}, {20000, 2}, {84000, 2}}) {
     const std::size_t tets = body.first;
     const int order = body.second;
     if (argc > 3 && std::atoi(argv[3]) != order) continue;
@@ -107,8 +107,11 @@ int main(int argc, char** argv) {
                  r.seconds / ours, r.done ? "" : "  FAILED");
       std::fflush(stdout);
     };
+    // Direct solutions of that many second-order elements take minutes and many GB.
+    const bool large = order == 2 && tets > 50000;
     double ours = 0;
     for (const char* solver : {"by-size", "direct", "iterative"}) {
+      if (large && std::string(solver) == "direct") continue;
       const bench::Run r =
           bench::run_whole(folder,
                            {tool, "motion.csv", "--body", "body.ply", "--model", "model.csv",
@@ -118,6 +121,7 @@ int main(int argc, char** argv) {
       row(fmt::format("hs-simulate {}", solver).c_str(), r, our_force(folder / "forces.csv"), ours);
     }
     for (const char* solver : {"SPOOLES", "ITERATIVE CHOLESKY", "ITERATIVE SCALING"}) {
+      if (large && std::string(solver) == "SPOOLES") continue;
       bench::write_calculix(folder / "run.inp", mesh, patch, kModulus, kNu, {0, 0, -kDepth},
                             solver);
       const bool slow = order == 2 && tets > 10000 && std::string(solver) == "SPOOLES";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 // The same source for processors with and without fused multiplication of four numbers at once;
 // chosen when the program starts. The thread sanitizer is not yet there then, and would be called.
@@ -109,7 +110,7 @@ HAPSIM_INLINE void apply_inverse_blocks(const BlockSparse<B, float>& l, double* 
 
 // In place: the inverse of the lower Cholesky factor, row after row, zeros above.
 template <int B>
-bool invert_pivot(double* a) {
+bool invert_pivot(float* a) {
   constexpr double kLeast = 1e-3;
   double l[B * B] = {};
   for (int j = 0; j < B; ++j)
@@ -124,22 +125,22 @@ bool invert_pivot(double* a) {
       if (!(sum > kLeast)) return false;
       l[B * j + j] = std::sqrt(sum);
     }
-  std::fill(a, a + B * B, 0.0);
+  std::fill(a, a + B * B, 0.0F);
   for (int j = 0; j < B; ++j)
     for (int i = j; i < B; ++i) {
       double sum = i == j ? 1 : 0;
       for (int k = j; k < i; ++k) sum -= l[B * i + k] * a[B * k + j];
-      a[B * i + j] = sum / l[B * i + i];
+      a[B * i + j] = static_cast<float>(sum / l[B * i + i]);
     }
   return true;
 }
 
 // c -= a b', or c = a b' when it is to be replaced.
 template <int B>
-void subtract_product(const double* a, const double* b, double* c) {
+void subtract_product(const float* a, const float* b, float* c) {
   for (int i = 0; i < B; ++i)
     for (int j = 0; j < B; ++j) {
-      double sum = 0;
+      float sum = 0;
       for (int k = 0; k < B; ++k) sum += a[B * i + k] * b[B * j + k];
       c[B * i + j] -= sum;
     }
@@ -166,29 +167,35 @@ BlockSparse<B, double> reordered_blocks(const SymmetricSparse& matrix,
   const int size = from.size();
   std::vector<int> place(order.size());
   for (int k = 0; k < size; ++k) place[order[k]] = k;
-  // (row, where it was) by new column.
-  std::vector<std::vector<std::array<int, 3>>> column(static_cast<std::size_t>(size));
+  BlockSparse<B, double> result;
+  std::vector<int>& start = result.pattern.start;
+  start.assign(static_cast<std::size_t>(size) + 1, 0);
+  for (int c = 0; c < size; ++c)
+    for (int k = from.start[c]; k < from.start[c + 1]; ++k)
+      ++start[std::min(place[c], place[from.row[k]]) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  // (row, where it was), by new column.
+  std::vector<std::array<int, 3>> moved(from.row.size());
+  std::vector<int> next(start.begin(), start.end() - 1);
   for (int c = 0; c < size; ++c)
     for (int k = from.start[c]; k < from.start[c + 1]; ++k) {
       const auto [low, high] = std::minmax(place[c], place[from.row[k]]);
-      column[low].push_back({high, c, k - from.start[c]});
+      moved[next[low]++] = {high, c, k - from.start[c]};
     }
-  BlockSparse<B, double> result;
-  result.pattern.start.reserve(static_cast<std::size_t>(size) + 1);
   result.pattern.row.reserve(from.row.size());
   result.value.assign(from.row.size() * B * B, 0.0);
-  result.pattern.start.push_back(0);
   double* out = result.value.data();
   for (int c = 0; c < size; ++c) {
-    std::sort(column[c].begin(), column[c].end());
-    for (const auto& [row, old_column, at] : column[c]) {
+    std::sort(moved.begin() + start[c], moved.begin() + start[c + 1]);
+    for (int k = start[c]; k < start[c + 1]; ++k) {
+      const auto& [row, old_column, at] = moved[k];
       result.pattern.row.push_back(row);
       // Whether the block is the other way round in the new order.
       const bool turned = place[old_column] != c;
       for (int j = 0; j < B; ++j) {
         // The first block of a column is the diagonal's lower triangle, B - j high.
-        const int start = matrix.column_start[B * old_column + j];
-        const double* value = matrix.value.data() + start + (at == 0 ? 0 : B * at - j);
+        const double* value = matrix.value.data() + matrix.column_start[B * old_column + j] +
+                              (at == 0 ? 0 : B * at - j);
         for (int i = at == 0 ? j : 0; i < B; ++i, ++value) {
           if (turned || at == 0) out[B * j + i] = *value;
           if (!turned || at == 0) out[B * i + j] = *value;
@@ -196,8 +203,6 @@ BlockSparse<B, double> reordered_blocks(const SymmetricSparse& matrix,
       }
       out += B * B;
     }
-    result.pattern.start.push_back(static_cast<int>(result.pattern.row.size()));
-    column[c] = {};
   }
   return result;
 }
@@ -206,16 +211,16 @@ template <int B>
 bool incomplete_cholesky(const BlockSparse<B, double>& a, double shift, BlockSparse<B, float>& l) {
   const std::vector<int>& start = a.pattern.start;
   const std::vector<int>& row = a.pattern.row;
-  std::vector<double> value = a.value;
-  const auto block = [&](int k) { return value.data() + static_cast<std::ptrdiff_t>(B * B) * k; };
+  l.value.assign(a.value.begin(), a.value.end());
+  const auto block = [&](int k) { return l.value.data() + static_cast<std::ptrdiff_t>(B * B) * k; };
   const int size = a.pattern.size();
   for (int c = 0; c < size; ++c) {
     const int begin = start[c], end = start[c + 1];
-    double* pivot = block(begin);
-    for (int i = 0; i < B; ++i) pivot[B * i + i] += shift;
+    float* pivot = block(begin);
+    for (int i = 0; i < B; ++i) pivot[B * i + i] += static_cast<float>(shift);
     if (!invert_pivot<B>(pivot)) return false;
     for (int k = begin + 1; k < end; ++k) {
-      double scaled[B * B] = {};  // A_rc L_cc^-T
+      float scaled[B * B] = {};  // A_rc L_cc^-T
       subtract_product<B>(block(k), pivot, scaled);
       for (int i = 0; i < B * B; ++i) block(k)[i] = -scaled[i];
     }
@@ -231,7 +236,6 @@ bool incomplete_cholesky(const BlockSparse<B, double>& a, double shift, BlockSpa
     }
   }
   l.pattern = a.pattern;
-  l.value.assign(value.begin(), value.end());
   return true;
 }
 

@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "linalg/block_sparse.h"
 #include "linalg/counts.h"
+#include "linalg/midpoint_grid.h"
 
 namespace hapsim {
 namespace {
@@ -37,13 +39,19 @@ void extend(const Lanes& a, const Vector& x, Vector& y) {
 struct ConjugateGradients::Impl {
   virtual ~Impl() = default;
   mutable std::atomic<int> most{0};  // iterations(); several threads may solve at once
-  virtual bool prepare(const SymmetricSparse& matrix) = 0;
+  virtual bool prepare(SymmetricSparse matrix, const BlockEnds& ends) = 0;
   virtual void multiply_by_matrix(const Vector& x, Vector& y) const = 0;
-  virtual void precondition(Vector& z) const = 0;
+  virtual void apply_factor(Vector& z) const = 0;
   virtual std::size_t held_bytes() const = 0;
+  void precondition(const Vector& r, Vector& z) const {
+    z = r;
+    apply_factor(z);
+    if (coarse) coarse->add_correction(scale, r, z);
+  }
   std::vector<int> order;  // of the unknowns
   Eigen::VectorXd scale;   // 1 / sqrt(diagonal), in that order
   double shift = 0;
+  std::unique_ptr<MidpointGrid> coarse;
 };
 
 namespace {
@@ -53,13 +61,19 @@ struct Blocked : Base {
   BlockSparse<B, double> a;  // scaled
   BlockSparse<B, float> l;
 
-  bool prepare(const SymmetricSparse& matrix) override {
+  bool prepare(SymmetricSparse matrix, const BlockEnds& ends) override {
     const std::vector<int> blocks = cuthill_mckee_order(block_pattern(matrix, B));
     a = reordered_blocks<B>(matrix, blocks);
+    if (!ends.empty()) {
+      this->coarse = std::make_unique<MidpointGrid>();
+      this->coarse->assemble(matrix, ends, blocks);
+    }
+    this->scale.resize(matrix.size);
+    matrix = {};  // before factors need as much
+    if (this->coarse && !this->coarse->factorise()) return false;
     this->order.clear();
     for (const int b : blocks)
       for (int i = 0; i < B; ++i) this->order.push_back(B * b + i);
-    this->scale.resize(matrix.size);
     const LowerPattern& p = a.pattern;
     for (int c = 0; c < p.size(); ++c)
       for (int i = 0; i < B; ++i) {
@@ -80,11 +94,11 @@ struct Blocked : Base {
   void multiply_by_matrix(const Vector& x, Vector& y) const override {
     multiply(a, x.data(), y.data());
   }
-  void precondition(Vector& z) const override { apply_inverse(l, z.data()); }
+  void apply_factor(Vector& z) const override { apply_inverse(l, z.data()); }
   std::size_t held_bytes() const override {
     using hapsim::held_bytes;
     return sizeof *this + held_bytes(a) + held_bytes(l) + held_bytes(this->order) +
-           held_bytes(this->scale);
+           held_bytes(this->scale) + held_bytes(this->coarse);
   }
 };
 
@@ -95,9 +109,10 @@ ConjugateGradients::~ConjugateGradients() = default;
 ConjugateGradients::ConjugateGradients(ConjugateGradients&&) noexcept = default;
 ConjugateGradients& ConjugateGradients::operator=(ConjugateGradients&&) noexcept = default;
 
-bool ConjugateGradients::prepare(const SymmetricSparse& matrix, int block) {
+bool ConjugateGradients::prepare(SymmetricSparse matrix, int block, const BlockEnds& ends) {
   ++solver_counts.factorisations;
   assert((block == 1 || block == 3) && matrix.size % block == 0);
+  assert(ends.empty() || (block == 3 && 3 * ends.size() == static_cast<std::size_t>(matrix.size)));
   for (int c = 0; c < matrix.size; ++c)
     if (matrix.column_start[c] == matrix.column_start[c + 1] ||
         matrix.row[matrix.column_start[c]] != c)
@@ -106,7 +121,7 @@ bool ConjugateGradients::prepare(const SymmetricSparse& matrix, int block) {
     impl_ = std::make_unique<Blocked<3, Impl>>();
   else
     impl_ = std::make_unique<Blocked<1, Impl>>();
-  return impl_->prepare(matrix);
+  return impl_->prepare(std::move(matrix), ends);
 }
 
 IterationReport ConjugateGradients::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x,
@@ -149,16 +164,21 @@ IterationReport ConjugateGradients::solve(const Eigen::MatrixXd& b, Eigen::Matri
       if (norm[l] == 0)
         for (Eigen::Index i = 0; i < size; ++i) y[kLanes * i + l] = 0;
     true_residual();
-    Lanes rho{};
+    Lanes rho{}, last{};  // last: the step along p
     int steps = 0;
     for (; steps < limit; ++steps) {
       const Lanes left = residuals(r);
       if (*std::max_element(left.begin(), left.end()) <= tolerance) break;
-      z = r;
-      impl_->precondition(z);
+      impl_->precondition(r, z);
       const Lanes next = dots(r, z);
       Lanes beta{}, step{}, back{};
       for (int l = 0; l < kLanes; ++l) beta[l] = rho[l] > 0 ? next[l] / rho[l] : 0;
+      // A coarse grid solved roughly is not the same operator at each step: what the residual has
+      // changed by, -step q, is made orthogonal instead of the residual.
+      if (impl_->coarse && steps > 0) {
+        const Lanes across = dots(q, z);
+        for (int l = 0; l < kLanes; ++l) beta[l] = rho[l] > 0 ? -last[l] * across[l] / rho[l] : 0;
+      }
       if (steps == 0)
         p = z;
       else
@@ -174,6 +194,7 @@ IterationReport ConjugateGradients::solve(const Eigen::MatrixXd& b, Eigen::Matri
         moves = moves || step[l] != 0;
       }
       if (!moves) break;
+      last = step;
       add(step, p, y);
       add(back, q, r);
     }

@@ -21,10 +21,10 @@ struct SolverChoice {
 };
 
 // kBySize: the one that takes less time for this many right-hand sides of a body of tetrahedra, by
-// measured costs (bench/results/sizes-growth.txt); another wish is kept. `unknowns`; entries of
-// the lower triangle.
+// measured costs (bench/results/sizes-growth.txt, calculix.txt); another wish is kept. `unknowns`;
+// entries of the lower triangle; order of the elements.
 SolverChoice choose_solver(SolverKind wished, int unknowns, std::size_t entries,
-                           int right_hand_sides);
+                           int right_hand_sides, int order = 1);
 
 // A symmetric positive definite system of displacements (three unknowns a node).
 class StiffnessSolver {
@@ -33,6 +33,9 @@ class StiffnessSolver {
   StiffnessSolver(const SymmetricSparse& pattern, SolverKind kind, std::vector<int> order = {});
   // False when the matrix is not positive definite.
   bool factorise(const SymmetricSparse& matrix);
+  // The same of a matrix that an iterative solver gives back while it makes ready. `ends` of the
+  // nodes (ConjugateGradients) may be empty.
+  bool factorise(SymmetricSparse&& matrix, const BlockEnds& ends);
   // A X = B. Error(kNoConvergence) when the iteration stops above a relative residual of 2e-9.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
   // In which blocks of three unknowns are eliminated; empty when iterative.

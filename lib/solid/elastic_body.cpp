@@ -1,6 +1,7 @@
 #include "solid/elastic_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 #include "base/error.h"
@@ -27,6 +28,17 @@ std::vector<char> free_nodes(const std::vector<int>& handle) {
   return free;
 }
 
+// Of each node the two that it lies between on an edge, itself twice when it is a corner.
+std::vector<std::array<int, 2>> edge_ends(const TetMesh& mesh) {
+  std::vector<std::array<int, 2>> ends(mesh.nodes.size());
+  for (std::size_t n = 0; n < ends.size(); ++n)
+    ends[n] = {static_cast<int>(n), static_cast<int>(n)};
+  for (const auto& tet : mesh.tets)
+    for (std::size_t e = 0; e < 6; ++e)
+      ends[tet[4 + e]] = {tet[kTetEdges[e][0]], tet[kTetEdges[e][1]]};
+  return ends;
+}
+
 }  // namespace
 
 ElasticBody::ElasticBody(const TetMesh& mesh, const std::vector<int>& handle, Dilatation dilatation,
@@ -37,8 +49,10 @@ ElasticBody::ElasticBody(const TetMesh& mesh, const std::vector<int>& handle, Di
       system_(free_nodes(handle_), element_cliques(mesh)) {
   assert(dilatation != Dilatation::kPatch);
   for (const int h : handle_) handles_ = std::max(handles_, h + 1);
-  choice_ = choose_solver(solver, system_.unknowns(), system_.matrix().row.size(), 3 * handles_);
+  choice_ = choose_solver(solver, system_.unknowns(), system_.matrix().row.size(), 3 * handles_,
+                          mesh.order);
   system_.use(choice_.kind);
+  if (mesh.order == 2) system_.lie_between(edge_ends(mesh));
 }
 
 void ElasticBody::factorise(const std::vector<Lame>& lame_of_tet) {

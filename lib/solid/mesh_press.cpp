@@ -61,7 +61,7 @@ MeshPress::MeshPress(const TetMesh& mesh, std::vector<MeshPatch> patches, Solver
   if (patches_.size() > 1) {
     shared_ = std::make_unique<NodeSystem>(not_bonded(mesh), element_cliques(mesh));
     choice_ = choose_solver(solver, shared_->unknowns(), shared_->matrix().row.size(),
-                            4 * static_cast<int>(patches_.size()));
+                            4 * static_cast<int>(patches_.size()), mesh.order);
     std::size_t nodes = 0;
     for (const MeshPatch& p : patches_) nodes += p.nodes.size();
     if (nodes <= kMostShared && choice_.kind == SolverKind::kDirect) {

@@ -83,10 +83,11 @@ void NodeSystem::build_pattern() {
 std::size_t NodeSystem::held_bytes() const {
   using hapsim::held_bytes;
   return held_bytes(cliques_) + held_bytes(block_) + held_bytes(matrix_) + held_bytes(place_) +
-         held_bytes(place_start_) + held_bytes(solver_);
+         held_bytes(place_start_) + held_bytes(ends_) + held_bytes(solver_);
 }
 
 void NodeSystem::clear() {
+  if (matrix_.size > 0 && matrix_.row.empty()) build_pattern();
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
 }
 
@@ -111,10 +112,22 @@ void NodeSystem::add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>
     }
 }
 
+void NodeSystem::lie_between(const std::vector<std::array<int, 2>>& ends) {
+  ends_.resize(static_cast<std::size_t>(matrix_.size / 3));
+  for (std::size_t n = 0; n < block_.size(); ++n)
+    if (block_[n] >= 0) ends_[block_[n]] = {block_[ends[n][0]], block_[ends[n][1]]};
+}
+
 bool NodeSystem::factorise() {
   if (matrix_.size == 0) return true;
   if (!solver_) solver_ = std::make_unique<StiffnessSolver>(matrix_, kind_, std::move(order_));
-  return solver_->factorise(matrix_);
+  if (kind_ == SolverKind::kDirect) return solver_->factorise(matrix_);
+  place_ = {};
+  place_start_ = {};
+  const int size = matrix_.size;
+  const bool done = solver_->factorise(std::move(matrix_), ends_);
+  matrix_ = {.size = size, .column_start = {}, .row = {}, .value = {}};
+  return done;
 }
 
 Eigen::MatrixXd NodeSystem::solve(const Eigen::MatrixXd& load) const {

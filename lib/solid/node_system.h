@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -37,10 +38,13 @@ class NodeSystem {
   void add(std::size_t clique, const Eigen::Ref<const Eigen::MatrixXd>& dense);
   // Before the first factorise(); direct otherwise.
   void use(SolverKind kind) { kind_ = kind; }
+  // For an iterative solver: the two nodes in whose middle each lies, itself twice: in none.
+  void lie_between(const std::vector<std::array<int, 2>>& ends);
   // Before the first factorise(): the order() of a system of the same cliques and free nodes.
   void eliminate_in(std::vector<int> order) { order_ = std::move(order); }
   std::vector<int> order() const { return solver_ ? solver_->order() : order_; }
-  // False when the matrix is not positive definite. True when nothing is free.
+  // False when the matrix is not positive definite. True when nothing is free. An iterative solver
+  // takes the matrix; clear() makes it anew.
   bool factorise();
   // Rows of the free nodes of `load` (3 nodes x m) solved for; rows of the others are zero.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& load) const;
@@ -60,6 +64,7 @@ class NodeSystem {
   std::vector<std::size_t> place_start_;
   SolverKind kind_ = SolverKind::kDirect;
   std::vector<int> order_;
+  BlockEnds ends_;
   std::unique_ptr<StiffnessSolver> solver_;
 };
 

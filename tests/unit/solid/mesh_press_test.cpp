@@ -93,6 +93,27 @@ TEST(MeshPress, NewValuesNeedNoNewAnalysis) {
   EXPECT_EQ(solver_counts.factorisations, factorisations + 2);  // one for both positions
 }
 
+TEST(MeshPress, IteratesOnSecondOrderInFewStepsHoweverFine) {
+  int coarser = 0;
+  for (const int n : {5, 10}) {
+    const TetMesh mesh = test::block_mesh(kSize, n, n, n, 2, 0.15);
+    const MeshPatch patch = patch_under_tool(mesh, kMiddle, 0.011);
+    MeshPress direct(mesh, {patch}, SolverKind::kDirect);
+    MeshPress iterated(mesh, {patch}, SolverKind::kIterative);
+    // The matrix is given back while the factor is made, and made anew.
+    for (const double nu : {0.3, 0.45}) {
+      const std::vector<Lame> moduli(mesh.tets.size(), lame(1e4, nu));
+      const Eigen::Matrix3d K = direct.solve(moduli)[0].K;
+      EXPECT_LT((iterated.solve(moduli)[0].K - K).norm(), 1e-8 * K.norm());
+    }
+    std::printf("%zu tetrahedra: %d steps\n", mesh.tets.size(), iterated.iterations());
+    if (n == 5) coarser = iterated.iterations();
+    // Without a coarse grid twice as many where the edges are half as long.
+    if (n == 10) EXPECT_LE(iterated.iterations(), 1.3 * coarser);
+  }
+  EXPECT_LE(coarser, 50);
+}
+
 TEST(SolverChoice, TurnsToIterationWithSizeAndBackWithColumns) {
   const auto kind = [](int unknowns, int columns) {
     return choose_solver(SolverKind::kBySize, unknowns, 21 * static_cast<std::size_t>(unknowns),
