@@ -9,7 +9,7 @@
 #include "explore/judgement.h"
 #include "explore/lump_places.h"
 #include "explore/place_finder.h"
-#include "explore/press_depths.h"
+#include "plan/press_depths.h"
 #include "explore/suspects.h"
 #include "model/model_edit.h"
 

@@ -13,6 +13,7 @@
 #include "effects/catalogue.h"
 #include "experiment/weights.h"
 #include "io/number.h"
+#include "plan/press_depths.h"
 #include "plan/press_paths.h"
 #include "plan/unpressed_places.h"
 
@@ -66,13 +67,18 @@ std::vector<ToolStand> stands_of(const SetupPlaces& places) {
   return stands;
 }
 
-// Of a full press at each place.
+// Of a full press at each place: as asked, or as any so far went into the surface, which the
+// deepest of the paths goes beyond.
 std::vector<double> depths_at(const SetupPlaces& places, const std::vector<ToolStand>& stands,
-                              const PlanAsked& asked, double deepest_so_far) {
-  std::vector<double> depths(stands.size(), asked.depth > 0 ? asked.depth : deepest_so_far);
-  if (asked.depth_at)
-    for (std::size_t p = 0; p < depths.size(); ++p)
-      depths[p] = asked.depth_at(places.positions()[p], stands[p].normal);
+                              const PlanAsked& asked, const Recording& so_far) {
+  const SignedDistance surface(places.surface());
+  const PressDepths known(surface, so_far, kDeepestPath * deepest_so_far(surface, so_far));
+  std::vector<double> depths;
+  for (std::size_t p = 0; p < stands.size(); ++p) {
+    const Vec3& at = places.positions()[p];
+    depths.push_back(asked.depth_at ? asked.depth_at(at, stands[p].normal)
+                                    : known.full_at(at, stands[p].normal));
+  }
   return depths;
 }
 
@@ -86,7 +92,7 @@ Candidates make_candidates(const std::vector<Model>& models, const Experiment& e
   candidates.places = places_for(models, e, asked);
   const std::vector<Vec3>& positions = candidates.places->positions();
   const std::vector<ToolStand> stands = stands_of(*candidates.places);
-  const std::vector<double> depths = depths_at(*candidates.places, stands, asked, summary.depth);
+  const std::vector<double> depths = depths_at(*candidates.places, stands, asked, known.recording);
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
@@ -288,7 +294,7 @@ MeasurementPlan plan_presses(const std::vector<Model>& models, const Experiment&
   const DataSummary summary = summarise(e.dataset, 1);
   const double step = summary.sample_step > 0 ? summary.sample_step : 0.02;
   const std::vector<ToolStand> stands = stands_of(places);
-  const std::vector<double> depths = depths_at(places, stands, asked, summary.depth);
+  const std::vector<double> depths = depths_at(places, stands, asked, e.dataset.recording);
   double start = 0;
   for (const std::size_t k : chosen) {
     const auto position = static_cast<std::size_t>(candidates.dataset.episodes[k].position);

@@ -31,8 +31,8 @@ struct MeasurementPlan {
 
 // What is asked of a plan beyond the usual.
 struct PlanAsked {
-  double depth = 0;  // that of a full press [m]; 0: of the deepest in the recording
-  // By place and outward normal, where that is not the same everywhere; takes the place of `depth`.
+  // Depth of a full press by place and outward normal [m]; empty: as any so far went into the
+  // surface, while the deepest path stays above half of the way through.
   std::function<double(const Vec3&, const Vec3&)> depth_at;
   // "elastic E": what a plan for one model determines; "": the least certain.
   std::string parameter;

@@ -7,6 +7,7 @@
 
 #include "effects/catalogue.h"
 #include "fit/fit.h"
+#include "plan/press_depths.h"
 #include "plan/press_paths.h"
 #include "support/synthetic.h"
 
@@ -163,6 +164,12 @@ TEST_F(Plan, OfAParameterOfRegionsTheLeastCertainOneIsDetermined) {
 
 TEST_F(Plan, NoPressGoesDeeperThanItsPlaceAllows) {
   test::measure(w(), test::elastic(1.5e4, 0.42), 0.01, 3);
+  const SignedDistance surface(boundary_surface(test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1)));
+  const double so_far = deepest_so_far(surface, w().dataset.recording);
+  const Recording unasked = plan_presses({fitted(test::elastic(1.5e4, 0.42))}, w(), 6).motion;
+  for (std::size_t i = 0; i < unasked.rows(); ++i)
+    EXPECT_LE(-unasked.u[i].dot(surface.at(unasked.position[i]).normal),
+              kDeepestPath * so_far + 1e-12);
   PlanAsked asked;
   asked.depth_at = [](const Vec3& p, const Vec3&) { return p.x() < 0.03 ? 1e-4 : 2e-4; };
   const MeasurementPlan plan = plan_presses({fitted(test::elastic(1.5e4, 0.42))}, w(), 6, asked);

@@ -1,5 +1,5 @@
 // How deep planned presses go: by what went into the surface before, and by how thick the body is.
-#include "explore/press_depths.h"
+#include "plan/press_depths.h"
 
 #include <gtest/gtest.h>
 

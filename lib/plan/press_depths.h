@@ -12,10 +12,14 @@ namespace hapsim {
 // tool (of 1 cm at least), which no tool that fits could be pressed at.
 void require_on_body(const SignedDistance& surface, const Recording& recording);
 
+// How far presses so far went into the surface, along its normals [m]; 0: none did. Sideways and in
+// the air is no depth.
+double deepest_so_far(const SignedDistance& surface, const Recording& so_far);
+
 // The deepest that a press of a plan goes: as asked for, no more than half of the way through the
 // body where it is pressed; otherwise as deep as presses so far went into the surface, at first
 // 1.125 radii of the tool and 0.15 of the body's least extent at most, and no more than a third of
-// the way. Sideways and in the air is no depth.
+// the way.
 class PressDepths {
  public:
   // `asked` [m]; 0: not. Keeps `surface`.

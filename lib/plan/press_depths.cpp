@@ -1,4 +1,4 @@
-#include "explore/press_depths.h"
+#include "plan/press_depths.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +15,14 @@ namespace {
 constexpr double kUnknownShare = 1.0 / 3;  // of the way through a body that nobody knows yet
 constexpr double kOffRadii = 3, kLeastOff = 0.01;  // [radii], [m]: as where a contact is meshed
 
+double first_depth(const Surface& surface, double tool_radius) {
+  Eigen::AlignedBox3d box;
+  for (const Vec3& v : surface.vertices) box.extend(v);
+  return kDeepestPath * std::min(0.75 * tool_radius, 0.1 * box.sizes().minCoeff());
+}
+
+}  // namespace
+
 double deepest_so_far(const SignedDistance& surface, const Recording& r) {
   double deepest = 0;
   Vec3 normal = Vec3::Zero();
@@ -25,14 +33,6 @@ double deepest_so_far(const SignedDistance& surface, const Recording& r) {
   }
   return deepest;
 }
-
-double first_depth(const Surface& surface, double tool_radius) {
-  Eigen::AlignedBox3d box;
-  for (const Vec3& v : surface.vertices) box.extend(v);
-  return kDeepestPath * std::min(0.75 * tool_radius, 0.1 * box.sizes().minCoeff());
-}
-
-}  // namespace
 
 void require_on_body(const SignedDistance& surface, const Recording& r) {
   const double most = std::max(kOffRadii * r.disc_radius(), kLeastOff);
