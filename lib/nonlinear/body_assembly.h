@@ -6,6 +6,7 @@
 
 #include "material/material_law.h"
 #include "mesh/tetmesh.h"
+#include "nonlinear/stress_response.h"
 #include "solid/dilatation.h"
 #include "solid/foundation.h"
 #include "solid/node_system.h"
@@ -43,6 +44,7 @@ struct BodyModel {
 struct PointStresses {
   std::vector<Voigt> S;
   std::vector<double> pressure;
+  Eigen::VectorXd numbers() const;  // as StressResponse has them
 };
 
 // For pictures, one a tetrahedron, means over its undeformed volume.
@@ -72,6 +74,11 @@ class BodyAssembly {
   void set_added(PointStresses added) { added_ = std::move(added); }
   // The laws' own stresses at the state, their factors included.
   PointStresses elastic_stresses() const;
+  // With how they and the strains change along fields (3 nodes x m).
+  StressResponse stress_response(const Eigen::MatrixXd& fields) const;
+  // Nodal forces of such stresses alone (StressResponse's numbers) at the displacements u: straight
+  // in the stresses, of second degree in u at most.
+  Eigen::VectorXd forces_of(const Eigen::VectorXd& stress, const Eigen::VectorXd& u) const;
   // The law of each quadrature point and of each group, in their order.
   void laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const;
   ElementFields element_fields() const;
@@ -114,6 +121,11 @@ class BodyAssembly {
   Derivatives derivative_pass(const Eigen::MatrixXd& fields, bool by_scale) const;
   template <int N>
   void stress_pass(PointStresses& stresses) const;
+  template <int N>
+  void load_pass(const Eigen::VectorXd& stress, const Eigen::VectorXd& u,
+                 Eigen::VectorXd& force) const;
+  template <int N>
+  void response_pass(const Eigen::MatrixXd& fields, StressResponse& response) const;
   template <int N>
   void field_pass(ElementFields& fields) const;
   template <int N>

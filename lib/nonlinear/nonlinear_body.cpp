@@ -170,6 +170,26 @@ VectorXd NonlinearBody::reaction() const {
   return impl_->gather(impl_->assembly.forces());
 }
 
+StressResponse NonlinearBody::stress_response(const MatrixXd& fields, const MatrixXd& modes) const {
+  const Impl& body = *impl_;
+  StressResponse result = body.assembly.stress_response(fields);
+  if (modes.cols() == 0) return result;
+  MatrixXd y(body.u.size(), modes.cols());
+  for (Index c = 0; c < modes.cols(); ++c)
+    y.col(c) = body.system.solve(-body.assembly.forces_of(modes.col(c), body.u));
+  result.coupling.assign(static_cast<std::size_t>(fields.cols()),
+                         MatrixXd::Zero(modes.cols(), modes.cols()));
+  for (Index c = 0; c < y.cols(); ++c)
+    for (Index b = 0; b < modes.cols(); ++b) {
+      // Exact for forces of second degree.
+      const VectorXd more = body.assembly.forces_of(modes.col(b), body.u + y.col(c)),
+                     less = body.assembly.forces_of(modes.col(b), body.u - y.col(c));
+      for (Index j = 0; j < fields.cols(); ++j)
+        result.coupling[static_cast<std::size_t>(j)](b, c) = fields.col(j).dot(more - less) / 2;
+    }
+  return result;
+}
+
 void NonlinearBody::laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const {
   impl_->assembly.laws_of_stresses(of_point, of_group);
 }

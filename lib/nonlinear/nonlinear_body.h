@@ -102,6 +102,9 @@ class NonlinearBody {
     Eigen::MatrixXd by_scale;                   // 3 handles x tetrahedra [N]; empty unless asked
   };
   Linearisation linearise(bool by_scale = false);
+  // At the present equilibrium, by directions of handles: after linearise(), of whose `fields`
+  // these are some. `modes`: stresses whose coupling is asked for, a column each, or none.
+  StressResponse stress_response(const Eigen::MatrixXd& fields, const Eigen::MatrixXd& modes) const;
 
  private:
   struct Impl;

@@ -56,6 +56,9 @@ class ToolBody {
   // Minus d force / d motion at the last step, of a bonded tool [N/m], the other tools held: of
   // what relaxes as stiff as in that step. Nothing where the tangent is not positive definite.
   std::optional<Eigen::Matrix3d> stiffness(int tool);
+  // At the last step, by the three directions of a bonded tool, of a body that does not relax.
+  // Nothing as above. `modes`: as NonlinearBody::stress_response().
+  std::optional<StressResponse> stress_response(int tool, const Eigen::MatrixXd& modes);
 
   // All that the next step starts from.
   struct State {

@@ -14,6 +14,11 @@ namespace {
 // the side they stiffen with depth, so that the force is off by 7.5 % where it is worst.
 constexpr LawRange kLinearLaw{1.6, 0.5};
 
+// How much of the second order (strain_memory.h) is taken: the stresses that are remembered stiffen
+// the inside against it.
+constexpr double kSecondOrder = 0.6;
+constexpr double kSecondDoubt = 0.4;  // standard, over what is taken
+
 template <class Steps>
 LawRange law_of(const Steps& steps, double radius) {
   LawRange law = kLinearLaw;
@@ -43,8 +48,8 @@ std::vector<ForceLoop::Running> ForceLoop::steps_of(const PreparedBody& body,
     const Stage stage = i.effect->card().stage;
     if (stage == Stage::kSensor && !options.sensor) continue;
     if (body.is_regional() && relaxes(i)) continue;  // the elements stand for all that relaxes
-    // Sampled elements stand for the law of finite strain.
-    if (body.large_strain() != nullptr && is_finite_strain(i)) continue;
+    // Sampled elements stand for the law of finite strain, and for what relaxes beside it.
+    if (body.large_strain() != nullptr && (is_finite_strain(i) || relaxes(i))) continue;
     std::unique_ptr<EffectStep> step = i.effect->step(i.values, context);
     if (!step) continue;
     const std::size_t needed = step->memory();
@@ -66,7 +71,10 @@ ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options,
   state_.h.fill(Vec3::Zero());
   state_.driver.fill(Vec3::Zero());
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
-  if (!steps_.empty()) state_.memory.resize(steps_.back().memory + steps_.back().step->memory(), 0);
+  if (!steps_.empty()) strain_memory_ = steps_.back().memory + steps_.back().step->memory();
+  const bool remembers = body.large_strain() != nullptr && body.large_strain()->remembers();
+  const std::size_t strain = remembers ? (1 + body.terms().size()) * kMemoryTerms : 0;
+  state_.memory.resize(strain_memory_ + strain, 0);
 }
 
 ForceLoopState ForceLoop::state() const {
@@ -80,11 +88,12 @@ void ForceLoop::restore(const ForceLoopState& state) noexcept {
   restore_tool(state.tool);
   set_quality(state_.uncertainty, state_.sampled);
   if (!state_.placed) return;
-  if (body_.large_strain() != nullptr) strain_ = body_.large_strain()->at(state_.place);
+  if (body_.large_strain() != nullptr) take_strain(state_.place.normal);
   for (const Running& s : steps_) s.step->take_place(state_.place);
 }
 
 void ForceLoop::take_place(const Place& place) noexcept {
+  const Vec3 before = state_.placed ? state_.place.normal : Vec3(Vec3::Zero());
   state_.place = body_.facts().at(place.face, place.point, place.normal);
   state_.placed = true;
   const StiffnessField& field = body_.field();
@@ -93,15 +102,25 @@ void ForceLoop::take_place(const Place& place) noexcept {
   state_.sampled = entry.sampled;
   set_quality(state_.uncertainty, state_.sampled);
   if (body_.is_regional()) body_.maxwell_at(place.face, place.point, state_.maxwell.data());
-  if (body_.large_strain() != nullptr) strain_ = body_.large_strain()->at(state_.place);
+  if (body_.large_strain() != nullptr) take_strain(before);
   for (const Running& s : steps_) s.step->take_place(state_.place);
+}
+
+// `before`: the normal that the axes of what is remembered are of; zero: there is none.
+void ForceLoop::take_strain(const Vec3& before) noexcept {
+  strain_ = body_.large_strain()->at(state_.place);
+  if (!body_.large_strain()->remembers()) return;
+  remembered_.frame = state_.frame;
+  body_.large_strain()->remember(strain_, before, remembered_);
+  state_.frame = remembered_.frame;
 }
 
 // `doubt`: what sampled elements leave of it, relative.
 Vec3 ForceLoop::body_force(const StepSample& sample, const Vec3& u, double& doubt) noexcept {
   Vec3 f = -(state_.place.contact.K * u);
   if (body_.large_strain() != nullptr) {
-    const LargeStrain::Force strained = body_.large_strain()->force(strain_, u);
+    LargeStrain::Force strained = body_.large_strain()->force(strain_, u);
+    if (body_.large_strain()->remembers()) strain_memory(sample, u, strained);
     f = -strained.f;
     doubt = strained.doubt;
     if (!strained.within) mark_beyond_law();
@@ -149,6 +168,40 @@ Vec3 ForceLoop::regional_memory(const StepSample& sample, const Vec3& u) noexcep
     force += moduli_ * h;
   }
   return force;
+}
+
+// Memories of the monomials that stand for the stresses of the body.
+void ForceLoop::strain_memory(const StepSample& sample, const Vec3& u,
+                              LargeStrain::Force& f) noexcept {
+  const MemoryPoint at = body_.large_strain()->memory_point(strain_, remembered_, u);
+  double* memory = state_.memory.data() + strain_memory_;
+  Eigen::Map<MemoryVector> before(memory);
+  MemoryVector all = MemoryVector::Zero();
+  double shares = 0;
+  for (const MaxwellTerm& term : body_.terms()) {
+    memory += kMemoryTerms;
+    Eigen::Map<MemoryVector> h(memory);
+    if (sample.first) {
+      h = at.m;  // relaxed until now, then a jump
+    } else {
+      const MemoryStep s = memory_step(sample.dt, times_ * term.tau);
+      h = s.a * h + s.c * (at.m - before);
+    }
+    all += moduli_ * term.share * h;
+    shares += moduli_ * term.share;
+  }
+  before = at.m;
+  const Vec3 first = at.gradient * (remembered_.at.C * all),
+             second = kSecondOrder / (1 + shares) *
+                      second_force(remembered_.at.Q, at, all.head<3>() - shares * at.m.head<3>());
+  const Vec3 linear = remembered_.at.C.topLeftCorner<3, 3>() * all.head<3>();
+  // Of parts of the force, which may be far larger than what is left of it.
+  const double size =
+      std::hypot(f.doubt * f.f.norm(), strain_.memory * first.norm(),
+                 std::hypot(strain_.doubt * (first - linear).norm(), kSecondDoubt * second.norm()));
+  f.f += remembered_.frame.transpose() * (first + second);
+  f.beyond += remembered_.frame.transpose() * (first - linear + second);
+  f.doubt = f.f.isZero(0) ? 0 : size / f.f.norm();
 }
 
 Vec3 ForceLoop::advance(double t, const Vec3& u, bool in_air) noexcept {

@@ -26,7 +26,9 @@ struct ForceLoopState {
   // of and what it remembers [N], and their stiffnesses there [N/m].
   std::array<Vec3, PreparedBody::kMostTerms> driver = {}, h = {};
   std::array<Eigen::Matrix3d, PreparedBody::kMostTerms> maxwell = {};
-  std::vector<double> memory;  // of the effects' steps
+  std::vector<double> memory;  // of the effects' steps, then of large strain
+  // Of large strain: the axes in which that is [1].
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
 };
 
 // The batch mode (experiment/forces.h) sample by sample: the motion effects, f = -K u, then the
@@ -64,12 +66,16 @@ class ForceLoop : public ToolLoop {
   Vec3 body_force(const StepSample& sample, const Vec3& u, double& doubt) noexcept;
   StepSample next_sample(double t, const Vec3& u, bool in_air) noexcept;
   Vec3 regional_memory(const StepSample& sample, const Vec3& u) noexcept;
+  void strain_memory(const StepSample& sample, const Vec3& u, LargeStrain::Force& f) noexcept;
+  void take_strain(const Vec3& before) noexcept;
   Vec3 advance(double t, const Vec3& u, bool in_air) noexcept;
 
   const PreparedBody& body_;
   std::vector<Running> steps_;
   ForceLoopState state_;
-  LargeStrain::Place strain_;  // of state_.place
+  LargeStrain::Place strain_;       // of state_.place
+  LargeStrain::Memory remembered_;  // where the body relaxes too
+  std::size_t strain_memory_ = 0;   // where its own begins in state_.memory
   double stiffness_ = 1, moduli_ = 1, times_ = 1;
 };
 

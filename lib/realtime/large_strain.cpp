@@ -192,11 +192,12 @@ void LargeStrain::add(std::vector<StepPlace> places) {
     const std::string path =
         options_.cache.empty() ? "" : options_.cache + "/" + key.hex() + ".strain";
     found[i] = load_sample(path);
+    if (found[i] && options_.memory && !found[i]->memory) found[i].reset();
     if (!found[i]) {
       const double through = way_through(surface_, place.point, -place.normal);
       const double into = std::min(kDeepest, kStrainThrough * through / options_.tool_radius);
       found[i] = solve_strain_sample(body_, base_, model_, place.point, options_.tool_radius, into,
-                                     why[i]);
+                                     options_.memory, why[i]);
       if (found[i]) store_sample(path, *found[i]);
     }
     if (options_.sampled) options_.sampled();

@@ -19,6 +19,7 @@ struct LargeStrainOptions {
   double tolerance = 0.02;        // of samples left out, relative error of the force, rms
   std::size_t most_samples = 96;  // the tolerance may then not be reached
   std::vector<Vec3> near;         // places within kNear radii of these alone; empty: anywhere
+  bool memory = false;            // samples have what bodies that relax ask for
   int threads = 0;                // 0: as many as the machine has
   std::string cache;              // directory of samples, "" for none
   std::function<void()> sampled;  // called at each (from any thread)
@@ -60,16 +61,29 @@ class LargeStrain {
     double into = 0;       // depth to which the forces hold [m]
     double doubt = 0;      // standard, of what is beyond the linear force, over that
     double fit = 0;        // standard, of the force, over that
+    double memory = 0;     // standard, of what is remembered at first order, over that
   };
   struct Force {
-    Vec3 f = Vec3::Zero();  // that moves the tool [N]
-    double doubt = 0;       // standard relative uncertainty of it, beside that of K
-    bool within = true;     // false: beyond what was solved, along the tangent from there
+    Vec3 f = Vec3::Zero();       // that moves the tool [N]
+    Vec3 beyond = Vec3::Zero();  // of that what is not the linear force
+    double doubt = 0;            // standard relative uncertainty of it, beside that of K
+    bool within = true;          // false: beyond what was solved, along the tangent from there
+  };
+  // What a body that relaxes has beside at a place: m'(u)' C h is the force that moves a tool at u
+  // for what the body's Maxwell elements remember, h being their memories of m (strain_memory.h),
+  // in axes that stay the loop's.
+  struct Memory {
+    Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();  // rows: into the surface, and along it
+    StrainMemory at;                                      // [N] for gradients by u over the radius
   };
   // Allocate and throw nothing.
   Place at(const StepPlace& place) const noexcept;
   Force force(const Place& place, const Vec3& u) const noexcept;
   double energy(const Place& place, const Vec3& u) const noexcept;  // [J]; where it is within
+  // Samples have it. `memory.frame`: as it was, for the normal `before`; turned to the place's.
+  bool remembers() const { return options_.memory; }
+  void remember(const Place& place, const Vec3& before, Memory& memory) const noexcept;
+  MemoryPoint memory_point(const Place& place, const Memory& memory, const Vec3& u) const noexcept;
 
   std::size_t samples() const { return samples_.size(); }
   // Relative error of the force at samples left out (floor 5 % of the largest), rms.
@@ -84,6 +98,12 @@ class LargeStrain {
   Eigen::Matrix<double, 9, 1> coordinates(const StepPlace& place) const noexcept;
   double covariance(const Eigen::Matrix<double, 9, 1>& a,
                     const Eigen::Matrix<double, 9, 1>& b) const noexcept;
+  // u as what was solved and what goes on from there along the tangent.
+  struct Held {
+    Vec3 held, rest;
+    double depth, into, side, most;
+  };
+  Held hold(const Place& place, const Vec3& u) const noexcept;
   void neighbours(const double* weight, const StepPlace& at, Place& place) const noexcept;
   void add(std::vector<StepPlace> places);
   void relate();

@@ -1,11 +1,11 @@
 // What samples of large strain say of each other, and of the places between them.
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "estimate/kriging.h"
 #include "realtime/large_strain.h"
+#include "realtime/least_turn.h"
 
 namespace hapsim {
 namespace {
@@ -15,14 +15,6 @@ using Coordinates = Eigen::Matrix<double, 9, 1>;
 constexpr double kOtherWay = 0.2;  // normals of less cosine have nothing in common
 // Of what is beyond the linear force: what its meshes leave (solve_strain_sample()).
 constexpr double kStrainMesh = 0.0075;
-
-// Takes unit vector a to b; not for opposite ones.
-Eigen::Matrix3d turn(const Vec3& a, const Vec3& b) noexcept {
-  const Vec3 v = a.cross(b);
-  Eigen::Matrix3d cross;
-  cross << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0;
-  return Eigen::Matrix3d::Identity() + cross + cross * cross / (1 + a.dot(b));
-}
 
 // Displacements at which places are compared, (d, p, q) over the radius, up to a depth.
 std::vector<Vec3> probes(double into) {
@@ -173,12 +165,13 @@ void LargeStrain::neighbours(const double* weight, const StepPlace& at,
   }
   if (!(std::abs(sum) > 0.1)) place.count = 0;  // nothing is known: the linear law
   place.into = place.count > 0 ? kDeepest : 0;
-  place.fit = 0;
+  place.fit = place.memory = 0;
   for (int k = 0; k < place.count; ++k) {
     place.weight[k] /= sum;
     const Known& known = samples_[static_cast<std::size_t>(place.sample[k])];
-    place.A[k] = known.sample.frame * turn(at.normal, known.normal) / options_.tool_radius;
+    place.A[k] = known.sample.frame * least_turn(at.normal, known.normal) / options_.tool_radius;
     place.fit += std::abs(place.weight[k]) * known.sample.fit;
+    place.memory += std::abs(place.weight[k]) * known.sample.memory_fit;
     if (std::abs(place.weight[k]) > 0.05) place.into = std::min(place.into, known.sample.into);
   }
   place.into *= options_.tool_radius;
@@ -204,13 +197,19 @@ LargeStrain::Place LargeStrain::at(const StepPlace& at) const noexcept {
   return place;
 }
 
-LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const noexcept {
+LargeStrain::Held LargeStrain::hold(const Place& place, const Vec3& u) const noexcept {
   const double a = options_.tool_radius, d = -u.dot(place.normal);
   const double into = std::clamp(d, 0.0, place.into);
   const Vec3 along = u + d * place.normal;
   const double side = along.norm(), most = a * strain_side(into / a);
   const Vec3 near = side > most ? Vec3(along * (most / side)) : along;
-  const Vec3 held = near - into * place.normal, rest = u - held;
+  const Vec3 held = near - into * place.normal;
+  return {held, u - held, d, into, side, most};
+}
+
+LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const noexcept {
+  const double a = options_.tool_radius;
+  const auto [held, rest, d, into, side, most] = hold(place, u);
   Force result;
   // Pulls were not sampled: the linear force holds for small ones.
   result.within =
@@ -226,6 +225,7 @@ LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const n
   }
   beyond *= place.stiffness * a * a;
   result.f = linear + beyond;
+  result.beyond = beyond;
   const double size = result.f.norm();
   if (size > 0) result.doubt = std::hypot(place.fit, place.doubt * beyond.norm() / size);
   if (size > 0 && (d < 0 || !result.within)) {  // the tangent may be off by all of what it adds

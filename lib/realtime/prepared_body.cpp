@@ -172,6 +172,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
   strain.tolerance = options.tolerance;
   strain.most_samples = options.most_strain_samples;
   for (const KnownStiffness& k : known) strain.near.push_back(k.point);
+  strain.memory = !terms_.empty();
   strain.threads = options.threads;
   strain.cache = options.cache;
   if (options.strain_progress) strain.sampled = options.strain_progress();

@@ -20,7 +20,7 @@ constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
 constexpr double kStrainFloor = 0.05;    // of the largest force: below, errors are over that
 constexpr double kStrainRidge = 1e-7;    // of the columns' squares
 constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
-constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '1'};
+constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '2'};
 
 struct Powers {
   int i, j, k;
@@ -78,6 +78,25 @@ void fit(const Solved& solved, double radius, StrainSample& sample) {
   sample.c = x.cwiseProduct(scale);
 }
 
+// From the states that were visited.
+void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
+              const std::vector<ToolBody::State>& states, StrainSample& sample) {
+  std::vector<Eigen::VectorXd> stresses;
+  for (const ToolBody::State& state : states) {
+    press.restore(state);
+    stresses.push_back(press.stresses());
+  }
+  const Eigen::MatrixXd modes = stress_modes(visited, stresses);
+  const Eigen::Matrix3d inside = sample.frame * sample.K * sample.frame.transpose();
+  StressStates all(sample.frame, radius, inside(0, 0) * radius * radius);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    press.restore(states[i]);
+    if (const auto response = press.stress_response(modes)) all.add(visited[i], *response);
+  }
+  sample.memory = all.fit(sample.memory_fit);
+  sample.memory->C.topLeftCorner<3, 3>() -= inside / inside(0, 0);
+}
+
 }  // namespace
 
 Eigen::Matrix<double, 3, kStrainTerms> strain_gradients(const Vec3& v) noexcept {
@@ -125,6 +144,11 @@ std::string StrainSample::bytes() const {
   numbers.push_back(into);
   numbers.push_back(fit);
   numbers.insert(numbers.end(), c.data(), c.data() + kStrainTerms);
+  if (memory) {
+    numbers.push_back(memory_fit);
+    numbers.insert(numbers.end(), memory->C.data(), memory->C.data() + memory->C.size());
+    numbers.insert(numbers.end(), memory->Q.data(), memory->Q.data() + memory->Q.size());
+  }
   std::string text(kStrainMagic, sizeof kStrainMagic);
   text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
   ContentHash sum;
@@ -133,16 +157,19 @@ std::string StrainSample::bytes() const {
 }
 
 std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
-  constexpr std::size_t kNumbersOf = 3 + 9 + 9 + 2 + kStrainTerms, kSum = 32;
-  constexpr std::size_t kBody = sizeof kStrainMagic + kNumbersOf * sizeof(double);
-  if (bytes.size() != kBody + kSum) return std::nullopt;
+  constexpr std::size_t kStatic = 3 + 9 + 9 + 2 + kStrainTerms, kSum = 32;
+  constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms + 27 * kSecondTerms;
+  const auto size = [](std::size_t count) { return sizeof kStrainMagic + count * sizeof(double); };
+  const bool remembers = bytes.size() == size(kWhole) + kSum;
+  if (!remembers && bytes.size() != size(kStatic) + kSum) return std::nullopt;
+  const std::size_t end = bytes.size() - kSum;
   ContentHash sum;
-  sum.add(bytes.substr(0, kBody));
-  if (sum.hex() != bytes.substr(kBody) ||
+  sum.add(bytes.substr(0, end));
+  if (sum.hex() != bytes.substr(end) ||
       std::memcmp(bytes.data(), kStrainMagic, sizeof kStrainMagic) != 0)
     return std::nullopt;
-  std::array<double, kNumbersOf> numbers;
-  std::memcpy(numbers.data(), bytes.data() + sizeof kStrainMagic, sizeof numbers);
+  std::vector<double> numbers((end - sizeof kStrainMagic) / sizeof(double));
+  std::memcpy(numbers.data(), bytes.data() + sizeof kStrainMagic, end - sizeof kStrainMagic);
   StrainSample s;
   s.point = Eigen::Map<const Vec3>(numbers.data());
   s.frame = Eigen::Map<const Eigen::Matrix3d>(numbers.data() + 3);
@@ -150,12 +177,20 @@ std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   s.into = numbers[21];
   s.fit = numbers[22];
   s.c = Eigen::Map<const StrainCoefficients>(numbers.data() + 23);
+  if (remembers) {
+    s.memory_fit = numbers[kStatic];
+    s.memory.emplace();
+    s.memory->C = Eigen::Map<const MemoryMatrix>(numbers.data() + kStatic + 1);
+    s.memory->Q =
+        Eigen::Map<const SecondMatrix>(numbers.data() + numbers.size() - 27 * kSecondTerms);
+  }
   return s;
 }
 
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
                                                 const Model& model, const Vec3& point,
-                                                double tool_radius, double into, std::string& why) {
+                                                double tool_radius, double into, bool memory,
+                                                std::string& why) {
   FullOptions options;
   options.rim_edge = kStrainRim;
   options.growth = kStrainGrowth;
@@ -173,6 +208,14 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
     if (!K) return std::nullopt;
     sample.K = *K;
     sample.into = into;
+    std::vector<Vec3> visited;
+    std::vector<ToolBody::State> states;
+    const auto keep = [&](const Vec3& v) {
+      if (!memory) return;
+      visited.push_back(v);
+      states.push_back(press.state());
+    };
+    keep(Vec3::Zero());
     const auto way = [&](double angle, double share, int steps) {
       press.reset();
       double reached = 0;
@@ -183,6 +226,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
           const Vec3 f = press.step(tool_radius * sample.frame.transpose() * v, 0);
           solved.v.push_back(v);
           solved.f.push_back(-sample.frame * f);
+          keep(v);
           reached = d;
         }
       } catch (const Error& error) {
@@ -195,6 +239,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
       way(k * std::numbers::pi / 3, 1, kSideways);
       way((k + 0.5) * std::numbers::pi / 3, 0.5, kSideways);
     }
+    if (memory) remember(press, tool_radius, visited, states, sample);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
     why = error.what();

@@ -9,6 +9,7 @@
 
 #include "contact/contact_stiffness.h"
 #include "model/model.h"
+#include "realtime/strain_memory.h"
 
 namespace hapsim {
 
@@ -38,6 +39,11 @@ struct StrainSample {
   double fit = 0;                               // relative error of the forces solved, rms
   StrainCoefficients
       c;  // force that moves the tool: K u + k a P'(frame u / a), k = frame0.K frame0
+  // What bodies that relax have beside (strain_memory.h), C over the same k a^2 less the linear
+  // stiffness (which leaves what springs of the support bear, as these do not relax), and the
+  // relative error of its forces; nothing where it was not asked for.
+  std::optional<StrainMemory> memory;
+  double memory_fit = 0;
 
   std::string bytes() const;
   static std::optional<StrainSample> read(const std::string& bytes);  // nothing: damaged
@@ -50,9 +56,11 @@ struct StrainSample {
 // those of edges a third as long as far as these converge (one place of a block, s = 0.2), while
 // with quarter points (FullOptions) they are 4 to 7 % off. A way that does not converge ends there,
 // and the sample with the shortest. `model`: body and support effects alone, static. Nothing where
-// the model or the place is refused, as `why` then says, or nothing converges.
+// the model or the place is refused, as `why` then says, or nothing converges. `memory`: with what
+// stresses of one state do at another, which takes some half as long again.
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
                                                 const Model& model, const Vec3& point,
-                                                double tool_radius, double into, std::string& why);
+                                                double tool_radius, double into, bool memory,
+                                                std::string& why);
 
 }  // namespace hapsim

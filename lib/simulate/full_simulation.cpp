@@ -376,5 +376,17 @@ const Vec3& FullPress::normal() const {
 std::optional<Eigen::Matrix3d> FullPress::stiffness() {
   return impl_->simulation.session().body->stiffness(0);
 }
+std::optional<StressResponse> FullPress::stress_response(const Eigen::MatrixXd& modes) {
+  return impl_->simulation.session().body->stress_response(0, modes);
+}
+Eigen::VectorXd FullPress::stresses() const {
+  return impl_->simulation.session().body->body().elastic_stresses().numbers();
+}
+const ToolBody::State& FullPress::state() const {
+  return impl_->simulation.session().body->state();
+}
+void FullPress::restore(const ToolBody::State& state) {
+  impl_->simulation.session().body->restore(state);
+}
 
 }  // namespace hapsim

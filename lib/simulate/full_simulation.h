@@ -9,7 +9,7 @@
 
 #include "contact/contact_stiffness.h"
 #include "model/model.h"
-#include "nonlinear/nonlinear_body.h"
+#include "nonlinear/tool_body.h"
 #include "recording/recording.h"
 
 namespace hapsim {
@@ -72,6 +72,12 @@ class FullPress {
   // Of the bonded tool where it stands, as the mesh has it.
   const Vec3& normal() const;                  // outward, unit
   std::optional<Eigen::Matrix3d> stiffness();  // ToolBody::stiffness() [N/m]
+  // Of a body without memory (ToolBody::stress_response()), and its stresses in the same numbers.
+  std::optional<StressResponse> stress_response(const Eigen::MatrixXd& modes = {});
+  Eigen::VectorXd stresses() const;
+  // All that the next step starts from.
+  const ToolBody::State& state() const;
+  void restore(const ToolBody::State& state);
 
  private:
   struct Impl;

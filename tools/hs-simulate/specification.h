@@ -70,11 +70,13 @@ inline ToolSpec simulate_specification() {
       "interpolated until those left out are foretold within --accuracy, or 96 were pressed (it "
       "says what was reached). That takes some 3 to 7 s of a processor a place, by --threads at "
       "once; each place is kept in the cache when it is done, so a start that was ended goes on. "
-      "With --contacts the places lie within three radii of those alone. Relaxation, friction, the "
-      "sensor and all else act on that force as on the linear one; what elements that relax at "
-      "large strain do otherwise, above all while the tool leaves, is in no uncertainty. Farther "
-      "than was pressed the "
-      "force goes on along its tangent, with 32 in beyond.",
+      "With --contacts the places lie within three radii of those alone. A body that relaxes "
+      "(viscoelastic, fractional) remembers its stresses, as elements of finite strain do, not the "
+      "force: each place then has what the stresses of every state do at every other, too (half as "
+      "long again a place), so that the force is theirs to first order, and a part of second order, "
+      "in what the inside does otherwise. Friction, the sensor and all else act on that force as on "
+      "the linear one. Farther than was pressed the force goes on along its tangent, with 32 in "
+      "beyond.",
       "With --hand the forces go through the last layer before a hand: within the limits they are "
       "what they were; where no motion comes for --hold, lines go out of their own until the force "
       "is zero, and an end after that has exit code 5; so where the loop itself does not answer. "

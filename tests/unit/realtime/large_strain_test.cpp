@@ -137,7 +137,7 @@ TEST(LargeStrain, ATurnedBodyHasTurnedForces) {
   const auto sample = [&](const TetMesh& body, const Vec3& at) {
     std::string why;
     return solve_strain_sample(body, make_contact_base(body), model, at, test::kStrainedRadius, 1.5,
-                               why);
+                               false, why);
   };
   const auto a = sample(mesh, kBetween), b = sample(turned, R * kBetween);
   ASSERT_TRUE(a && b);

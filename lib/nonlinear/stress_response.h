@@ -1,0 +1,29 @@
+// What the stresses of one state do at another: how bodies that remember their stresses are
+// condensed.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hapsim {
+
+// Of a state of a body: stresses as vectors of six numbers a quadrature point (the second
+// Piola-Kirchhoff stress, as Voigt) and one a dilatation group (its pressure), and with each the
+// change of strain that it does work by, so that of stresses s made at one state and the work w of
+// another
+//   w' s = integral of S : dE + p dtheta   [N]
+// is the force that holds a handle at that other state where the body bears these stresses alone,
+// but for what it then moves inside; of one and the same state exactly that of the laws.
+// n numbers each (n: 6 points + groups), a column a handle's direction.
+struct StressResponse {
+  Eigen::VectorXd stress;   // of the laws [Pa]
+  Eigen::MatrixXd changes;  // n x directions: d stress / d motion of the handle [Pa/m]
+  Eigen::MatrixXd work;     // n x directions: volume times d strain / d motion [m^2]
+  Eigen::VectorXd strain;   // n: volume times strain (Green's, theta - 1) [m^3]
+  // Of given stresses s_b (m of them), beside the laws': what they move inside by y_c = -K^-1 r_c,
+  // r_c the forces of s_c on the free nodes, changes the force on the handle by what the s_b then
+  // do otherwise. A direction each: m x m, of s_b and y_c [N].
+  std::vector<Eigen::MatrixXd> coupling;
+};
+
+}  // namespace hapsim
