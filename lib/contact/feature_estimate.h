@@ -8,6 +8,7 @@
 #include "contact/share_tree.h"
 #include "material/body_features.h"
 #include "mesh/surface_tree.h"
+#include "solid/body_regions.h"
 #include "solid/element_moments.h"
 #include "tetmesh/contact_mesh.h"
 
@@ -34,6 +35,8 @@ class FeatureEstimate {
     std::vector<Eigen::Matrix3d> by_value;  // over the value's unit
   };
   Change at(const BodyFeature& feature) const;
+  // Shares of the homogeneous body's energy in regions 0 to `count` - 1, a mean over directions.
+  std::vector<double> shares(const BodyRegions& labels, std::size_t count) const;
   std::size_t held_bytes() const {  // the mesh with it
     return hapsim::held_bytes(contact_) + hapsim::held_bytes(tree_) + hapsim::held_bytes(shallow_) +
            hapsim::held_bytes(base_);

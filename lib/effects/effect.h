@@ -158,6 +158,7 @@ struct MaterialSpec {
   int nu_column = -1;
   std::vector<double> modulus;  // E [Pa] by region
   std::vector<int> modulus_column;
+  std::vector<int> given;       // regions that have a modulus of their own
   std::vector<Vec3> key_point;  // region of a point: that of its nearest key point, in plan view
   std::vector<int> key_region;
   // A contact feels the modulus at its own place alone, as if the whole body had it: that of its

@@ -17,7 +17,10 @@ class Elastic : public Effect {
         .source = "Hooke's law; Zienkiewicz and Taylor, The Finite Element Method, vol. 1",
         .assumptions =
             "small strains, isotropic, one Poisson's ratio for the whole body; with "
-            "relaxation, E is the modulus after all of it",
+            "relaxation, E is the modulus after all of it; E of regions 1, 2, ... lies where the "
+            "key "
+            "points of regions are or, without any, where the body's tetrahedra have that number "
+            "(hs-tetmesh --region)",
         .parameters = {{"E", "Pa", "Young's modulus (one row a region)", 0, 1e4, 1, 1e12, 1e4,
                         true},
                        {"nu", "1", "Poisson's ratio", 0, 0.4, 0, 0.499, 0.1, false, 0.5}},
@@ -41,6 +44,7 @@ class Elastic : public Effect {
           material.modulus_column.resize(region + 1, -1);
         }
         material.modulus[region] = v.value;
+        material.given.push_back(v.region);
         material.modulus_column[region] = v.column;
       }
     }

@@ -1,0 +1,44 @@
+// Which groups of a material the elements of a mesh are of.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "contact/contact_stiffness.h"
+#include "mesh/tetmesh.h"
+
+namespace hapsim {
+
+// Shares of each element's volume by group, which sum to 1: one group each unless the material's
+// groups are the body's labels, of which an element at a boundary has several.
+class ElementGroups {
+ public:
+  ElementGroups(const TetMesh& mesh, const Material& material);
+
+  struct Part {
+    std::size_t group = 0;
+    double share = 1;
+  };
+  // Calls visit(group, share) for each group of an element.
+  template <class Visit>
+  void for_each(std::size_t tet, const Visit& visit) const {
+    for (std::size_t i = first_[tet]; i < first_[tet + 1]; ++i)
+      visit(parts_[i].group, parts_[i].share);
+  }
+  // The modulus of the mixture in parallel (Voigt, 1889), which tends to sharp boundaries as the
+  // mesh is refined [Pa].
+  double modulus(std::size_t tet, const std::vector<double>& of_group) const {
+    double sum = 0;
+    for_each(tet, [&](std::size_t group, double share) { sum += share * of_group[group]; });
+    return sum;
+  }
+  // The group of the largest share.
+  std::size_t main_group(std::size_t tet) const;
+  std::size_t held_bytes() const { return hapsim::held_bytes(first_) + hapsim::held_bytes(parts_); }
+
+ private:
+  std::vector<std::size_t> first_{0};  // of parts_, by element, and the end
+  std::vector<Part> parts_;
+};
+
+}  // namespace hapsim

@@ -1,0 +1,126 @@
+// The numbered tetrahedra of a body as regions: which region a point is of, and how much of an
+// element of another mesh.
+#include "solid/body_regions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "support/block_mesh.h"
+
+namespace hapsim {
+namespace {
+
+const Vec3 kSize(0.06, 0.05, 0.03);
+
+// Numbered by what `region_of` says of each centre.
+template <class RegionOf>
+TetMesh numbered(TetMesh mesh, const RegionOf& region_of) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    Vec3 centre = Vec3::Zero();
+    for (int k = 0; k < 4; ++k) centre += mesh.nodes[mesh.tets[t][k]] / 4;
+    mesh.region[t] = region_of(centre);
+  }
+  return mesh;
+}
+
+std::map<int, double> volumes(const BodyRegions& regions, const TetMesh& mesh) {
+  std::map<int, double> volume;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    double sum = 0;
+    for (const BodyRegions::Part& p : regions.parts(mesh, t)) {
+      EXPECT_GT(p.share, 0);
+      sum += p.share;
+      volume[p.region] += p.share * tet_volume(mesh, t);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+  }
+  return volume;
+}
+
+std::map<int, double> own_volumes(const TetMesh& mesh) {
+  std::map<int, double> volume;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) volume[mesh.region[t]] += tet_volume(mesh, t);
+  return volume;
+}
+
+TEST(BodyRegions, NoneWhereAllAreOfRegionZero) {
+  TetMesh mesh = test::block_mesh(kSize, 3, 3, 3, 1);
+  EXPECT_EQ(BodyRegions::of(mesh), nullptr);
+  mesh.region.clear();
+  EXPECT_EQ(BodyRegions::of(mesh), nullptr);
+}
+
+TEST(BodyRegions, AllOfOneNumberIsNoBoundary) {
+  TetMesh mesh = test::block_mesh(kSize, 3, 3, 3, 1);
+  mesh.region.assign(mesh.tets.size(), 4);
+  const auto regions = BodyRegions::of(mesh);
+  ASSERT_NE(regions, nullptr);
+  EXPECT_EQ(regions->numbers(), std::vector<int>{4});
+  EXPECT_EQ(regions->at({0.01, 0.01, 0.01}), 4);
+  EXPECT_EQ(regions->at({0.2, 0, 0}), 4);
+  EXPECT_NEAR(volumes(*regions, test::block_mesh(kSize, 4, 5, 4, 1))[4], kSize.prod(), 1e-15);
+  EXPECT_GT(regions->level(0)({0.01, 0.01, 0.01}).value, 1);
+  EXPECT_LT(regions->level(4)({0.01, 0.01, 0.01}).value, -1);
+}
+
+TEST(BodyRegions, APointIsOfItsTetrahedron) {
+  const TetMesh mesh = numbered(test::block_mesh(kSize, 6, 5, 4, 1, 0.3),
+                                [](const Vec3& p) { return p.x() > 0.03; });
+  const BodyRegions regions(mesh);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const Vec3 p = 0.4 * mesh.nodes[mesh.tets[t][0]] + 0.3 * mesh.nodes[mesh.tets[t][1]] +
+                   0.2 * mesh.nodes[mesh.tets[t][2]] + 0.1 * mesh.nodes[mesh.tets[t][3]];
+    EXPECT_EQ(regions.at(p), mesh.region[t]);
+    EXPECT_EQ(regions.level(1)(p).value < 0, mesh.region[t] == 1);
+  }
+  // Outside: that of the nearest face.
+  EXPECT_EQ(regions.at({0.07, 0.02, 0.01}), 1);
+  EXPECT_EQ(regions.at({0.01, 0.02, 0.04}), 0);
+}
+
+// A plane through another mesh cuts its elements exactly; so do planes that meet.
+TEST(BodyRegions, SharesOfFlatBoundariesAreExact) {
+  const TetMesh mesh = numbered(test::block_mesh(kSize, 6, 5, 3, 1),
+                                [](const Vec3& p) { return p.x() > 0.03 ? 2 : 0; });
+  const auto volume = volumes(BodyRegions(mesh), test::block_mesh(kSize, 7, 8, 5, 1, 0.3));
+  EXPECT_NEAR(volume.at(2) / kSize.prod(), 0.5, 1e-12);
+  EXPECT_NEAR(volume.at(0) / kSize.prod(), 0.5, 1e-12);
+}
+
+// Three regions that touch, one of them at the surface and one inside another: their volumes on
+// finer meshes tend to their own.
+TEST(BodyRegions, SharesTendToTheRegionsVolumes) {
+  const TetMesh mesh = numbered(test::block_mesh(kSize, 6, 5, 6, 1), [](const Vec3& p) {
+    if (std::abs(p.x() - 0.03) < 0.01 && std::abs(p.y() - 0.025) < 0.015 && p.z() > 0.01)
+      return p.x() < 0.03 ? 1 : 2;  // both to the top
+    return std::abs(p.x() - 0.03) < 0.02 && std::abs(p.y() - 0.025) < 0.02 ? 3 : 0;
+  });
+  const BodyRegions regions(mesh);
+  const auto own = own_volumes(mesh);
+  double coarse = 0;
+  for (const int n : {7, 14}) {
+    double worst = 0;
+    for (const auto& [region, volume] :
+         volumes(regions, test::block_mesh(kSize, n, n - 1, n - 2, 1, 0.2)))
+      worst = std::max(worst, std::abs(volume / own.at(region) - 1));
+    EXPECT_LT(worst, n == 7 ? 0.02 : 0.005);
+    if (n == 14) {
+      EXPECT_LT(worst, coarse / 2);
+    }
+    coarse = worst;
+  }
+}
+
+// A mesh that reaches a little beyond the body has nothing else there.
+TEST(BodyRegions, TheBodysSurfaceIsNoBoundary) {
+  const TetMesh mesh = numbered(test::block_mesh(kSize, 6, 5, 3, 1),
+                                [](const Vec3& p) { return p.z() > 0.02 ? 1 : 0; });
+  TetMesh higher = test::block_mesh({kSize.x(), kSize.y(), 1.1 * kSize.z()}, 6, 5, 6, 1);
+  const auto volume = volumes(BodyRegions(mesh), higher);
+  EXPECT_NEAR(volume.at(1) / (kSize.x() * kSize.y()), 0.013, 1e-12);
+}
+
+}  // namespace
+}  // namespace hapsim
