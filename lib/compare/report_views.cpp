@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/median.h"
+#include "contact/element_groups.h"
 #include "contact/feature_zone.h"
 #include "effects/place_field.h"
 #include "experiment/forces.h"
@@ -133,8 +134,11 @@ void add_slices(const Surface& surface, const Model& model, const BodyRegions* l
     if (is_zone(f.feature.kind))
       zones.emplace_back(zone_level(f.feature, skin), f.feature.value.back());
   if (material.modulus.size() < 2 && zones.empty()) return;
+  std::vector<BodyFeature> features;
+  for (const FeatureSpec& f : material.features) features.push_back(f.feature);
+  const std::vector<BodyRegions::Growth> growths = growths_of(features);
   const auto modulus_at = [&](const Vec3& p) {
-    const int region = labels != nullptr ? labels->at(p) : region_at(material, p);
+    const int region = labels != nullptr ? labels->at(p, growths) : region_at(material, p);
     double modulus = material.modulus[static_cast<std::size_t>(region)];
     for (const auto& [level, factor] : zones)
       if (level(p).value < 0) modulus *= factor;

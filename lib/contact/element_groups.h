@@ -9,6 +9,9 @@
 
 namespace hapsim {
 
+// Of a material's features those that grow a region of its labels, in their order.
+std::vector<BodyRegions::Growth> growths_of(const std::vector<BodyFeature>& features);
+
 // Shares of each element's volume by group, which sum to 1: one group each unless the material's
 // groups are the body's labels, of which an element at a boundary has several.
 class ElementGroups {
@@ -18,6 +21,8 @@ class ElementGroups {
   struct Part {
     std::size_t group = 0;
     double share = 1;
+    std::vector<double> by_growth;  // its derivative by each growth of the material's labels [1/m]
+    std::size_t held_bytes() const { return hapsim::held_bytes(by_growth); }
   };
   // Calls visit(group, share) for each group of an element.
   template <class Visit>
@@ -30,6 +35,15 @@ class ElementGroups {
   double modulus(std::size_t tet, const std::vector<double>& of_group) const {
     double sum = 0;
     for_each(tet, [&](std::size_t group, double share) { sum += share * of_group[group]; });
+    return sum;
+  }
+  // Its derivative by a growth, numbered as such features stand in the material [Pa/m].
+  double modulus_by_growth(std::size_t tet, const std::vector<double>& of_group,
+                           std::size_t growth) const {
+    double sum = 0;
+    for (std::size_t i = first_[tet]; i < first_[tet + 1]; ++i)
+      if (growth < parts_[i].by_growth.size())
+        sum += parts_[i].by_growth[growth] * of_group[parts_[i].group];
     return sum;
   }
   // The group of the largest share.

@@ -185,6 +185,8 @@ FeatureEstimate::Change FeatureEstimate::at(const BodyFeature& feature) const {
       return of_law(feature);
     case Feature::kTension:
       return {Eigen::Matrix3d::Identity() + feature.value[0] * tension_, {tension_}};
+    case Feature::kGrowth:
+      return {Eigen::Matrix3d::Identity(), {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()}};
     default:
       return of_support(feature);
   }

@@ -21,6 +21,7 @@ namespace hapsim {
 //   L^-1 k L^-T over its elements): the geometric mean lies between the bounds of Voigt and Reuss;
 // - transverse isotropy: the energy of the unit fields under the new law (Voigt's bound);
 // - tension of the surface: its energy in the same fields (a bound of that kind);
+// - growth of a region of the body's labels: none;
 // - support: each bonded face gives in series with a column of the body as long as the contact is
 //   high above the base.
 class FeatureEstimate {

@@ -89,9 +89,10 @@ void FeaturedBody::forget_system() {
 
 // What labels cut of a mesh is dear, and they never change.
 std::shared_ptr<const ElementGroups> FeaturedBody::groups(const Material& material) {
-  if (groups_ && material.labels && labels_ == material.labels) return groups_;
+  const bool grows = find_feature(material, Feature::kGrowth) != nullptr;
+  if (groups_ && material.labels && labels_ == material.labels && !grows) return groups_;
   auto made = std::make_shared<const ElementGroups>(contact_.mesh, material);
-  if (material.labels) {
+  if (material.labels && !grows) {
     groups_ = made;
     labels_ = material.labels;
   }
@@ -107,9 +108,18 @@ FeaturedBody::Moduli FeaturedBody::moduli(const Material& material,
     m.modulus.push_back(groups.modulus(t, material.modulus));
   m.of_group = m.modulus;
   std::vector<std::vector<double>> factors;
+  std::size_t growths = 0;
   for (const BodyFeature& f : material.features) {
     m.by_feature.emplace_back();
     factors.emplace_back();
+    if (f.kind == Feature::kGrowth) {
+      Eigen::MatrixXd& by = m.by_feature.back();
+      by.setZero(count, 2);
+      for (Eigen::Index t = 0; t < count; ++t)
+        by(t, 1) = groups.modulus_by_growth(static_cast<std::size_t>(t), material.modulus, growths);
+      ++growths;
+      factors.back() = m.of_group;
+    }
     if (!is_zone(f.kind)) continue;
     const double ratio = f.value.back();
     const InsideShares inside = inside_shares(mesh, zone_level(f, free_surface_));

@@ -44,6 +44,8 @@ struct EffectCard {
   std::string source;
   std::string assumptions;
   std::vector<ParameterCard> parameters;
+  // What rows of a region above 0 may have besides; never there unless a model's file has it.
+  std::vector<ParameterCard> of_region = {};
   bool terms = false;              // may be repeated: E1, tau1, E2, tau2, ...
   bool needs_time = false;         // not testable without a t column
   bool needs_session = false;      // not testable if the time begins anew with each press

@@ -24,6 +24,10 @@ class Elastic : public Effect {
         .parameters = {{"E", "Pa", "Young's modulus (one row a region)", 0, 1e4, 1, 1e12, 1e4,
                         true},
                        {"nu", "1", "Poisson's ratio", 0, 0.4, 0, 0.499, 0.1, false, 0.5}},
+        .of_region = {{"growth", "m",
+                       "by how much the region's boundary lies outside of that of the body's "
+                       "tetrahedra with its number",
+                       0, 0, -0.02, 0.02, 1e-3, false}},
         .modulus = "E",
         .poissons_ratio = "nu",
         .signature = "no body at all",
@@ -37,6 +41,9 @@ class Elastic : public Effect {
       if (v.name == "nu") {
         material.nu = v.value;
         material.nu_column = v.column;
+      } else if (v.name == "growth") {
+        material.features.push_back(
+            {{Feature::kGrowth, {static_cast<double>(v.region), v.value}}, {-1, v.column}});
       } else {
         const std::size_t region = static_cast<std::size_t>(v.region);
         if (material.modulus.size() <= region) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "effects/catalogue.h"
@@ -25,14 +26,26 @@ void require_modulus(const MaterialSpec& material, int region) {
 
 std::shared_ptr<const BodyRegions> acting_labels(const MaterialSpec& material,
                                                  const std::shared_ptr<const BodyRegions>& labels) {
-  if (!labels || !is_by_label(material)) return nullptr;
+  const bool acts = labels && is_by_label(material);
+  for (const FeatureSpec& f : material.features) {
+    if (f.feature.kind != Feature::kGrowth) continue;
+    const int region = static_cast<int>(std::lround(f.feature.value[0]));
+    if (acts && std::binary_search(labels->numbers().begin(), labels->numbers().end(), region))
+      continue;
+    fail_input("",
+               fmt::format("the model lets region {} grow, and no tetrahedron of the body is of a "
+                           "region of that number",
+                           region),
+               "take the row out, or give a body that is numbered (hs-tetmesh --region)");
+  }
+  if (!acts) return nullptr;
   for (const int region : labels->numbers()) require_modulus(material, region);
   return labels;
 }
 
 std::shared_ptr<const BodyRegions> acting_labels(const MaterialSpec& material,
                                                  const TetMesh& body) {
-  if (!is_by_label(material)) return nullptr;
+  if (!is_by_label(material)) return acting_labels(material, nullptr);
   return acting_labels(material, BodyRegions::of(body));
 }
 

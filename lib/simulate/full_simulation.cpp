@@ -236,12 +236,17 @@ class Simulation {
   // On a mesh of its own an element at the boundary of a label is of the mixture of its moduli.
   void place_regions(const TetMesh& mesh, BodyModel& model) const {
     if (&mesh == &body_ || !labels_) {
+      for (const FeatureSpec& f : material_.features)
+        if (f.feature.kind == Feature::kGrowth)
+          fail_input("", "a region that has grown is not that of the body's own mesh",
+                     "take its growth out, or press with one tool and without --own-mesh");
       for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         model.law_of_tet.push_back(region_of_tet(material_, mesh, t));
       return;
     }
     Material by_label;
     by_label.labels = labels_;
+    for (const FeatureSpec& f : material_.features) by_label.features.push_back(f.feature);
     const ElementGroups groups(mesh, by_label);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
       const std::size_t group = groups.main_group(t);

@@ -36,15 +36,6 @@ std::vector<TetFace> all_faces(const TetMesh& body) {
   return faces;
 }
 
-void add_to(std::vector<BodyRegions::Part>& parts, int region, double share) {
-  for (BodyRegions::Part& p : parts)
-    if (p.region == region) {
-      p.share += share;
-      return;
-    }
-  parts.push_back({region, share});
-}
-
 }  // namespace
 
 struct BodyRegions::Corner {
@@ -101,6 +92,20 @@ int BodyRegions::at(const Vec3& p) const {
   return region_of_face_[static_cast<std::size_t>(outside_->nearest(p).face)];
 }
 
+int BodyRegions::at(const Vec3& p, const std::vector<Growth>& growth) const {
+  const Corner c = corner(p);
+  if (c.face < 0) return c.region;
+  int shrunk = c.region;
+  for (const Growth& g : growth) {
+    const double level = distance(c, g.region) - g.by;
+    if (level < 0) return g.region;
+    if (g.region != c.region) continue;
+    const auto& [a, b] = sides_[static_cast<std::size_t>(c.face)];
+    shrunk = a == c.region ? b : a;
+  }
+  return shrunk;
+}
+
 BodyRegions::Corner BodyRegions::corner(const Vec3& p) const {
   const SurfacePoint nearest = between_->nearest(p);
   return {p, at(p), nearest.distance, nearest.face};
@@ -125,61 +130,133 @@ LevelSet BodyRegions::level(int region) const {
   };
 }
 
+struct BodyRegions::Cut {
+  const std::vector<Growth>& growth;
+  double most = 0;  // of the growths, either way [m]
+  std::vector<Part> parts;
+
+  Part& of(int region) {
+    for (Part& p : parts)
+      if (p.region == region) return p;
+    parts.push_back({region, 0, std::vector<double>(growth.size(), 0)});
+    return parts.back();
+  }
+};
+
 void BodyRegions::add_part(const std::array<const Corner*, 4>& x, int subdivisions, double weight,
-                           std::vector<Part>& parts) const {
+                           Cut& cut) const {
   double longest = 0;
   for (std::size_t i = 1; i < 4; ++i) longest = std::max(longest, (x[i]->at - x[0]->at).norm());
-  if (x[0]->distance > longest) return add_to(parts, x[0]->region, weight);
-  if (subdivisions > 0) {
-    const auto mid = [&](int i, int j) {
-      return corner(0.5 *
-                    (x[static_cast<std::size_t>(i)]->at + x[static_cast<std::size_t>(j)]->at));
-    };
-    const Corner a = mid(0, 1), b = mid(0, 2), c = mid(0, 3), d = mid(1, 2), e = mid(1, 3),
-                 f = mid(2, 3);
-    // Eight of equal volume: four at the corners, four of the octahedron between (Bey, 1995).
-    const std::array<const Corner*, 4> eighths[] = {
-        {x[0], &a, &b, &c}, {&a, x[1], &d, &e}, {&b, &d, x[2], &f}, {&c, &e, &f, x[3]},
-        {&a, &b, &c, &e},   {&a, &b, &d, &e},   {&b, &c, &e, &f},   {&b, &d, &e, &f}};
-    for (const auto& part : eighths) add_part(part, subdivisions - 1, weight / 8, parts);
+  if (x[0]->distance > longest + cut.most) {
+    cut.of(x[0]->region).share += weight;
     return;
   }
-  // Of the regions that may be here, each by itself.
-  std::vector<Part> here;
-  double sum = 0;
-  const auto add = [&](int region) {
-    for (const Part& p : here)
-      if (p.region == region) return;
-    const double share = cut_share({distance(*x[0], region), distance(*x[1], region),
-                                    distance(*x[2], region), distance(*x[3], region)})
-                             .share;
-    here.push_back({region, share});
-    sum += share;
+  if (subdivisions == 0) return add_leaf(x, weight, cut);
+  const auto mid = [&](std::size_t i, std::size_t j) {
+    return corner(0.5 * (x[i]->at + x[j]->at));
   };
-  for (const Corner* c : x) {
-    add(c->region);
-    add(sides_[static_cast<std::size_t>(c->face)].first);
-    add(sides_[static_cast<std::size_t>(c->face)].second);
-  }
-  if (!(sum > 0)) return add_to(parts, x[0]->region, weight);
-  for (const Part& p : here)
-    if (p.share > 0) add_to(parts, p.region, weight * p.share / sum);
+  const Corner a = mid(0, 1), b = mid(0, 2), c = mid(0, 3), d = mid(1, 2), e = mid(1, 3),
+               f = mid(2, 3);
+  // Eight of equal volume: four at the corners, four of the octahedron between (Bey, 1995).
+  const std::array<const Corner*, 4> eighths[] = {
+      {x[0], &a, &b, &c}, {&a, x[1], &d, &e}, {&b, &d, x[2], &f}, {&c, &e, &f, x[3]},
+      {&a, &b, &c, &e},   {&a, &b, &d, &e},   {&b, &c, &e, &f},   {&b, &d, &e, &f}};
+  for (const auto& part : eighths) add_part(part, subdivisions - 1, weight / 8, cut);
 }
 
-std::vector<BodyRegions::Part> BodyRegions::parts(const TetMesh& mesh, std::size_t t) const {
+// Of the regions that may be here, each by itself: first what grows, of what that leaves the others
+// as they share it without.
+void BodyRegions::add_leaf(const std::array<const Corner*, 4>& x, double weight, Cut& cut) const {
+  std::vector<int> here;
+  for (const Corner* c : x)
+    for (const int region : {c->region, sides_[static_cast<std::size_t>(c->face)].first,
+                             sides_[static_cast<std::size_t>(c->face)].second})
+      if (std::find(here.begin(), here.end(), region) == here.end()) here.push_back(region);
+  for (const Growth& g : cut.growth)
+    if (std::find(here.begin(), here.end(), g.region) == here.end()) here.push_back(g.region);
+  std::sort(here.rbegin(), here.rend());
+  const auto share_of = [&](int region, double growth) {
+    return cut_share({distance(*x[0], region) - growth, distance(*x[1], region) - growth,
+                      distance(*x[2], region) - growth, distance(*x[3], region) - growth});
+  };
+  double left = 1, sum = 0;
+  std::vector<double> left_by(cut.growth.size(), 0);
+  std::vector<std::pair<int, double>> rest;
+  for (const int region : here) {
+    const auto grown = std::find_if(cut.growth.begin(), cut.growth.end(),
+                                    [&](const Growth& g) { return g.region == region; });
+    if (grown == cut.growth.end()) {
+      rest.emplace_back(region, share_of(region, 0).share);
+      sum += rest.back().second;
+      continue;
+    }
+    const CutShare own = share_of(region, grown->by);
+    Part& part = cut.of(region);
+    if (own.share >= left) {  // the higher numbers have the other part
+      part.share += weight * left;
+      for (std::size_t k = 0; k < left_by.size(); ++k) {
+        part.by_growth[k] += weight * left_by[k];
+        left_by[k] = 0;
+      }
+      left = 0;
+      continue;
+    }
+    double by = 0;
+    for (const double v : own.by_value) by -= v;
+    const auto k = static_cast<std::size_t>(grown - cut.growth.begin());
+    part.share += weight * own.share;
+    part.by_growth[k] += weight * by;
+    left -= own.share;
+    left_by[k] -= by;
+  }
+  if (rest.empty()) {  // what has shrunk leaves room to what has grown most
+    const auto most =
+        std::max_element(cut.growth.begin(), cut.growth.end(),
+                         [](const Growth& a, const Growth& b) { return a.by < b.by; });
+    rest.emplace_back(most->region, sum = 1);
+  }
+  // Where what has shrunk was, none of the others is: the first of them goes on there.
+  if (!(sum > 0)) {
+    rest.front().second = sum = 1;
+    for (const auto& [region, share] : rest) {
+      const auto& [a, b] = sides_[static_cast<std::size_t>(x[0]->face)];
+      if (region != a && region != b) continue;
+      for (auto& one : rest) one.second = one.first == region ? 1 : 0;
+      break;
+    }
+  }
+  for (const auto& [region, share] : rest) {
+    if (share <= 0) continue;
+    Part& part = cut.of(region);
+    part.share += weight * left * share / sum;
+    for (std::size_t k = 0; k < left_by.size(); ++k)
+      part.by_growth[k] += weight * left_by[k] * share / sum;
+  }
+}
+
+std::vector<BodyRegions::Part> BodyRegions::parts(const TetMesh& mesh, std::size_t t,
+                                                  const std::vector<Growth>& growth) const {
   const auto& n = mesh.tets[t];
   const std::array<Vec3, 4> p{mesh.nodes[n[0]], mesh.nodes[n[1]], mesh.nodes[n[2]],
                               mesh.nodes[n[3]]};
   const Vec3 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-  double reach = 0;
-  for (const Vec3& c : p) reach = std::max(reach, (c - centre).norm());
-  if (!(between_->nearest(centre).distance <= reach)) return {{at(centre), 1.0}};
+  Cut cut{growth, 0, {}};
+  for (const Growth& g : growth) cut.most = std::max(cut.most, std::abs(g.by));
+  double reach = cut.most;
+  for (const Vec3& c : p) reach = std::max(reach, cut.most + (c - centre).norm());
+  if (!(between_->nearest(centre).distance <= reach)) {
+    cut.of(at(centre)).share = 1;
+    return cut.parts;
+  }
   const std::array<Corner, 4> x{corner(p[0]), corner(p[1]), corner(p[2]), corner(p[3])};
-  std::vector<Part> parts;
-  add_part({&x[0], &x[1], &x[2], &x[3]}, kCuts, 1, parts);
-  std::sort(parts.begin(), parts.end(),
+  add_part({&x[0], &x[1], &x[2], &x[3]}, kCuts, 1, cut);
+  std::erase_if(cut.parts, [](const Part& part) {
+    return part.share <= 0 && std::all_of(part.by_growth.begin(), part.by_growth.end(),
+                                          [](double by) { return by == 0; });
+  });
+  std::sort(cut.parts.begin(), cut.parts.end(),
             [](const Part& a, const Part& b) { return a.region < b.region; });
-  return parts;
+  return cut.parts;
 }
 
 }  // namespace hapsim

@@ -104,6 +104,31 @@ TEST(LabelledBody, ABallOfLabelsIsAnInclusion) {
   }
 }
 
+// The derivative by a growth beside those by the moduli, with another feature.
+TEST(LabelledBody, GrowthHasItsDerivative) {
+  Material material = labelled(labelled_block(), {1e4, 3e4, 5e3});
+  material.features = {{Feature::kGrowth, {1, 0.0007}},
+                       {Feature::kLayer, {0.002, 1.5}},
+                       {Feature::kGrowth, {2, -0.0004}}};
+  const FeaturedBody::Solution s = solve(material);
+  for (const std::size_t f : {0, 2}) {
+    auto up = material, down = material;
+    up.features[f].value[1] += 2e-6;
+    down.features[f].value[1] -= 2e-6;
+    const Eigen::Matrix3d difference = (solve(up).K - solve(down).K) / 4e-6;
+    EXPECT_LT((s.by_feature[f][1] - difference).norm(), 0.02 * difference.norm()) << f;
+    EXPECT_EQ(s.by_feature[f][0].norm(), 0);
+    EXPECT_GT(difference.norm() * 0.001, 1e-3 * s.K.norm()) << f;
+  }
+  const Eigen::Matrix3d by_modulus = [&] {
+    auto up = material, down = material;
+    up.modulus[1] += 3;
+    down.modulus[1] -= 3;
+    return Eigen::Matrix3d((solve(up).K - solve(down).K) / 6);
+  }();
+  EXPECT_LT((s.by_modulus[1] - by_modulus).norm(), 1e-5 * by_modulus.norm());
+}
+
 // What torques and marked points come from is the same body.
 TEST(LabelledBody, TorquesAndPointsHaveTheRegions) {
   const Material material = labelled(labelled_block(), {1e4, 3e4, 5e3});

@@ -113,6 +113,62 @@ TEST(BodyRegions, SharesTendToTheRegionsVolumes) {
   }
 }
 
+// What grows takes of its neighbours as a larger region would have, and its derivatives are those
+// of differences; a region that touches two others, one of which grows as well.
+TEST(BodyRegions, GrowthMovesTheBoundary) {
+  const auto boxes = [](double more) {
+    return numbered(test::block_mesh(kSize, 30, 25, 15, 1), [&](const Vec3& p) {
+      const Vec3 q = (p - Vec3(0.03, 0.024, 0.014)).cwiseAbs();
+      return q.x() < 0.01 + more && q.y() < 0.008 + more && q.z() < 0.006 + more ? 1 : 0;
+    });
+  };
+  const BodyRegions small(boxes(0)), large(boxes(0.002));
+  const TetMesh mesh = test::block_mesh(kSize, 13, 12, 9, 1, 0.2);
+  const double wanted = volumes(large, mesh).at(1);
+  double grown = 0;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const BodyRegions::Part& p : small.parts(mesh, t, {{1, 0.002}}))
+      if (p.region == 1) grown += p.share * tet_volume(mesh, t);
+  EXPECT_NEAR(grown / wanted, 1, 0.03);  // rounded at its edges
+  EXPECT_EQ(small.at({0.0415, 0.024, 0.014}), 0);
+  EXPECT_EQ(small.at({0.0415, 0.024, 0.014}, {{1, 0.002}}), 1);
+  EXPECT_EQ(small.at({0.0385, 0.024, 0.014}, {{1, -0.002}}), 0);
+
+  const BodyRegions three(numbered(test::block_mesh(kSize, 6, 5, 6, 1), [](const Vec3& p) {
+    return p.z() > 0.02 ? 3 : p.x() > 0.03 && p.y() > 0.02 ? 1 : 0;
+  }));
+  const TetMesh coarse = test::block_mesh(kSize, 9, 8, 6, 1, 0.2);
+  for (const auto& growth : std::vector<std::vector<BodyRegions::Growth>>{
+           {{1, 0.0013}}, {{1, -0.0017}}, {{1, 0.0008}, {3, -0.0011}}}) {
+    for (std::size_t k = 0; k < growth.size(); ++k) {
+      const auto moved = [&](double step) {
+        auto other = growth;
+        other[k].by += step;
+        std::map<int, double> volume;
+        for (std::size_t t = 0; t < coarse.tets.size(); ++t) {
+          double sum = 0;
+          for (const BodyRegions::Part& p : three.parts(coarse, t, other)) {
+            volume[p.region] += p.share * tet_volume(coarse, t);
+            sum += p.share;
+          }
+          EXPECT_NEAR(sum, 1, 1e-12);
+        }
+        return volume;
+      };
+      std::map<int, double> slope;
+      for (std::size_t t = 0; t < coarse.tets.size(); ++t)
+        for (const BodyRegions::Part& p : three.parts(coarse, t, growth))
+          slope[p.region] += p.by_growth[k] * tet_volume(coarse, t);
+      auto up = moved(1e-6), down = moved(-1e-6);
+      double area = 0;
+      for (const auto& [region, by] : slope) area = std::max(area, std::abs(by));
+      EXPECT_GT(area, 1e-4);
+      for (const auto& [region, by] : slope)
+        EXPECT_NEAR((up[region] - down[region]) / 2e-6, by, 2e-3 * area) << region << ' ' << k;
+    }
+  }
+}
+
 // A mesh that reaches a little beyond the body has nothing else there.
 TEST(BodyRegions, TheBodysSurfaceIsNoBoundary) {
   const TetMesh mesh = numbered(test::block_mesh(kSize, 6, 5, 3, 1),
