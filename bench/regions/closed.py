@@ -27,9 +27,8 @@ class Ball:
     def inside(self, p):
         return np.linalg.norm((p - self.middle) / self.stretch, axis=1) < self.radius
 
-    def distance(self, p):
-        d = np.linalg.norm((p - self.middle) / self.stretch)
-        return abs(d - self.radius) * self.stretch.min()
+    def smaller(self, by):
+        return Ball(*self.middle, self.radius - by)
 
     def shape(self, number):
         return ("Sphere(%d) = {0, 0, 0, %g};\nDilate{ {0, 0, 0}, {%g, %g, %g} }{ Volume{%d}; }\n"
@@ -42,6 +41,9 @@ class Box:
 
     def inside(self, p):
         return np.all((p > self.low) & (p < self.high), axis=1)
+
+    def smaller(self, by):
+        return Box(self.low + by, self.high - by)
 
     def shape(self, number):
         return "Box(%d) = {%g, %g, %g, %g, %g, %g};\n" % (number, *self.low, *(self.high - self.low))
@@ -57,9 +59,11 @@ class Lump:
         return np.any([part.inside(p) for part in self.parts], axis=0)
 
     def shape(self, number):
-        numbers = [number] + [number + 50 + k for k in range(len(self.parts) - 1)]
+        numbers = [10 * number + 500 + k for k in range(len(self.parts))]
         text = "".join(part.shape(n) for part, n in zip(self.parts, numbers))
-        return text + "BooleanUnion{ Volume{%d}; Delete; }{ Volume{%s}; Delete; }\n" % (numbers[0], ", ".join(map(str, numbers[1:])))
+        return text + "BooleanUnion(%d) = { Volume{%d}; Delete; }{ Volume{%s}; Delete; };\n" % (
+            number, numbers[0], ", ".join(map(str, numbers[1:])))
+
 
 
 # name: body, regions as (shape, modulus over the body's, edge length [mm]), directions or points in plan view pressed
@@ -201,9 +205,11 @@ def solve(out, name, k, place):
     print("%s %d: %d elements, %.0f s" % (name, k, len(mesh.tets), time.time() - began), flush=True)
 
 
-def write_surfaces(out, name):
+def write_surfaces(out, name, smaller=0.0):
+    """Of each region; `smaller`: of what lies by so much [mm] inside of it, OUT/closed/CASE-small-N.stl."""
     for k, (shape, _, edge) in enumerate(CASES[name][1]):
-        target = pathlib.Path(out) / "closed" / ("%s-%d.stl" % (name, k + 1))
+        target = pathlib.Path(out) / "closed" / ("%s%s-%d.stl" % (name, "-small" if smaller else "", k + 1))
+        shape = shape.smaller(smaller) if smaller else shape
         if target.exists():
             continue
         script = target.with_suffix(".geo")

@@ -55,4 +55,15 @@ for name in "${names[@]}"; do
   awk -F, 'NR == FNR { if ($3 == "E") e[$2] = $4; next }
     $3 == "E" { printf "two           found: E of region %d %.0f +- %.0f Pa of %.0f, %.1f %% off, %.1f standard errors\n",
       $2, $4, $6, e[$2], 100 * ($4 / e[$2] - 1), ($4 - e[$2]) / $6 }' "$of.csv" "$of-found.csv"
+  # Regions that were drawn 1.5 mm too small all around: moduli and growth together.
+  if [[ ! -e $of-small.ply ]]; then
+    /usr/bin/python3 -c "import closed; closed.write_surfaces('$out', '$name', 1.5)"
+    "$bin/hs-tetmesh" -q "$out/$body.stl" --region "$of-small-1.stl" --region "$of-small-2.stl" -o "$of-small.ply"
+  fi
+  { sed 's/^\(elastic,[12],E\),[^,]*/\1,20000/' "$of.csv"
+    echo "elastic,1,growth,0,free"; echo "elastic,2,growth,0,free"; } >"$of-small.csv"
+  "$bin/hs-identify" -q "$of-data.csv" --body "$of-small.ply" --model "$of-small.csv" --folds 0 -o "$of-grown.csv"
+  awk -F, '$1 == "elastic" && $2 > 0 { e = $3 == "E" ? ($2 == 1 ? 80000 : 8000) : 0.0015
+    printf "two           drawn 1.5 mm too small: %s of region %d %.4g +- %.2g of %g, %.1f standard errors\n",
+      $3, $2, $4, $6, e, ($4 - e) / $6 }' "$of-grown.csv"
 done

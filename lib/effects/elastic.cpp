@@ -42,8 +42,10 @@ class Elastic : public Effect {
         material.nu = v.value;
         material.nu_column = v.column;
       } else if (v.name == "growth") {
-        material.features.push_back(
-            {{Feature::kGrowth, {static_cast<double>(v.region), v.value}}, {-1, v.column}});
+        FeatureSpec spec{{Feature::kGrowth, {}}, {}};
+        spec.feature.value = {static_cast<double>(v.region), v.value};
+        spec.column = {-1, v.column};
+        material.features.push_back(std::move(spec));
       } else {
         const std::size_t region = static_cast<std::size_t>(v.region);
         if (material.modulus.size() <= region) {

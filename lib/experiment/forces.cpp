@@ -16,8 +16,7 @@ namespace {
 // What contact laws need to know of the body at one position.
 ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& material,
                             const Vec3& position, int label, bool derivatives) {
-  const int region = is_by_label(material) ? label : region_at(material, position);
-  LocalModulus modulus{0, {{region, 1.0}}};
+  LocalModulus modulus{0, {{is_by_label(material) ? label : region_at(material, position), 1.0}}};
   if (material.local) modulus = local_modulus(material, position);
   const auto at = [&](int region) { return material.modulus[static_cast<std::size_t>(region)]; };
   ContactStiffness contact;

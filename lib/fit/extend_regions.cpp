@@ -100,6 +100,9 @@ Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
 Model with_regions(const Fit& base, const Experiment& experiment, const Selection& selection,
                    const ExtendOptions& options) {
   if (options.regions == kByLabel) return with_body_labels(base, experiment);
+  if (experiment.places.has_labels(material_of(base.model)))
+    fail_usage("the model has regions that are the body's own, beside which none in plan view act",
+               "take E of all regions but 0 out of the model first");
   constexpr int kMost = 8;  // groups tried; the criterion decides how many there are
   const auto samples = merged_places(location_samples(base.model, experiment, base.about, selection,
                                                       {options.noise, options.floor}));

@@ -346,7 +346,8 @@ inline ToolSpec identify_specification() {
        "Learns from the first 4 s of each press and predicts the rest."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
        "Gives each pressed position its own stiffness."},
-      {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions labels -o m.csv",
+      {"hs-identify data.csv --body parts.ply --fix nu=0.45 --add regions --regions labels -o "
+       "m.csv",
        "Finds the modulus of each closed region that hs-tetmesh --region has put into the body."},
       {"hs-simulate motion.csv --body body.ply --model m.csv | hs-identify - --body body.ply "
        "--acfm "
