@@ -1,6 +1,7 @@
 // Which groups of a material the elements of a mesh are of.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -30,21 +31,25 @@ class ElementGroups {
     for (std::size_t i = first_[tet]; i < first_[tet + 1]; ++i)
       visit(parts_[i].group, parts_[i].share);
   }
-  // The modulus of the mixture in parallel (Voigt, 1889), which tends to sharp boundaries as the
-  // mesh is refined [Pa].
+  // The modulus of the mixture [Pa], which tends to sharp boundaries as the mesh is refined: the
+  // geometric mean by volume (Lichtenecker, Phys. Z. 27, 1926), between those in parallel and in
+  // series. Of one group it is that group's own.
   double modulus(std::size_t tet, const std::vector<double>& of_group) const {
+    if (first_[tet + 1] == first_[tet] + 1) return of_group[parts_[first_[tet]].group];
     double sum = 0;
-    for_each(tet, [&](std::size_t group, double share) { sum += share * of_group[group]; });
-    return sum;
+    for_each(tet,
+             [&](std::size_t group, double share) { sum += share * std::log(of_group[group]); });
+    return std::exp(sum);
   }
-  // Its derivative by a growth, numbered as such features stand in the material [Pa/m].
+  // Its derivative by the logarithm of a group's modulus is the share; by a growth, numbered as
+  // such features stand in the material [Pa/m]:
   double modulus_by_growth(std::size_t tet, const std::vector<double>& of_group,
                            std::size_t growth) const {
     double sum = 0;
     for (std::size_t i = first_[tet]; i < first_[tet + 1]; ++i)
       if (growth < parts_[i].by_growth.size())
-        sum += parts_[i].by_growth[growth] * of_group[parts_[i].group];
-    return sum;
+        sum += parts_[i].by_growth[growth] * std::log(of_group[parts_[i].group]);
+    return sum * modulus(tet, of_group);
   }
   // The group of the largest share.
   std::size_t main_group(std::size_t tet) const;

@@ -206,7 +206,9 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
     const Eigen::Matrix3d k = moments.energy(law.D, law.kappa);
     all.add(m.modulus[t], moments);
     group->for_each(t, [&](std::size_t g, double share) {
-      s.by_modulus[g] += share * (m.modulus[t] / m.of_group[t]) * k;
+      // Zones multiply it; of one group its own modulus drops out exactly.
+      s.by_modulus[g] +=
+          share * (m.modulus[t] / m.of_group[t]) * (m.of_group[t] / material.modulus[g]) * k;
     });
     s.K += m.modulus[t] * k;
     for (std::size_t f = 0; f < m.by_feature.size(); ++f)

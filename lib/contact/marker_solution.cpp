@@ -68,7 +68,8 @@ MarkerSolution solve_markers(const ContactMesh& contact, const Material& materia
     add_change(mesh, t, {modulus * by_nu.lambda, modulus * by_nu.mu}, fields, 0, load);
     if (!apart) continue;
     element.for_each(t, [&](std::size_t g, double share) {
-      add_change(mesh, t, {share * unit.lambda, share * unit.mu}, fields,
+      const double by = share * (modulus / material.modulus[g]);
+      add_change(mesh, t, {by * unit.lambda, by * unit.mu}, fields,
                  3 + 3 * static_cast<Eigen::Index>(g), load);
     });
   }

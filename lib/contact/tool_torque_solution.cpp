@@ -85,7 +85,9 @@ TorqueSolution solve_torque(const ContactMesh& contact, const Material& material
     const SixEnergies e = six_energies(mesh, t, fields);
     const double modulus = groups.modulus(t, material.modulus);
     const Matrix6 k = unit.lambda * e.volumetric + unit.mu * e.deviatoric;
-    groups.for_each(t, [&](std::size_t g, double share) { by_group[g] += share * k; });
+    groups.for_each(t, [&](std::size_t g, double share) {
+      by_group[g] += share * (modulus / material.modulus[g]) * k;
+    });
     all += modulus * k;
     slope += modulus * (by_nu.lambda * e.volumetric + by_nu.mu * e.deviatoric);
   }
