@@ -69,6 +69,9 @@ int main() {
       std::printf(".TP\n%s [%s]\n%s; from %g to %g%s.\n", p.name.c_str(), p.unit.c_str(),
                   escaped(p.meaning).c_str(), p.lower, p.upper,
                   card.terms ? ", one for every term" : "");
+    for (const hapsim::ParameterCard& p : card.of_region)
+      std::printf(".TP\n%s [%s]\n%s; from %g to %g, of a region above 0.\n", p.name.c_str(),
+                  p.unit.c_str(), escaped(p.meaning).c_str(), p.lower, p.upper);
     item("Needs", joined(needs(card)));
     item("When it is missing", card.signature);
     if (card.form_error > 0)

@@ -71,6 +71,13 @@ inline Model load_model(const Arguments& arguments, const std::string& tool) {
   return load_model(arguments, tool, input);
 }
 
+// What of a model acts nowhere on this body.
+inline void say_idle(const Arguments& arguments, const std::string& tool, const Model& model,
+                     const TetMesh& body) {
+  for (const std::string& words : doubts_of(model, std::span(&body, 1)))
+    say(arguments, tool, words);
+}
+
 // With progress on a terminal while positions are prepared.
 inline ExperimentOptions experiment_options(const Arguments& arguments,
                                             std::shared_ptr<Progress>& progress) {

@@ -181,6 +181,7 @@ int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-diagnose");
   std::vector<Vec3> window;
   const TetMesh body = load_body(arguments, &window);
+  say_idle(arguments, "hs-diagnose", model, body);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
   std::vector<Recording> recording =

@@ -212,6 +212,7 @@ int run(const Arguments& arguments) {
   const Model model = load_model(arguments, "hs-export", model_input);
   const std::string input_name = model_input.name();
   const TetMesh body = load_body(arguments);
+  say_idle(arguments, "hs-export", model, body);
   const bool solved = format == "calculix" || format == "febio" || format == "sofa";
   if (arguments[flag::match] && !(solved && arguments.given(flag::data)))
     fail_usage("--match is of a press that a program solves",

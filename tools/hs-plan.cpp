@@ -215,6 +215,7 @@ int run(const Arguments& arguments) {
   const Recording recording = load_so_far(arguments);
   std::vector<Vec3> window;
   const TetMesh body = load_body(arguments, &window);
+  say_idle(arguments, "hs-plan", model, body);
   options.experiment = preparation_options(arguments);
   options.diagnose.seed = static_cast<std::uint64_t>(arguments[flag::seed]);
   auto progress = std::make_unique<Progress>(arguments, "", 0);

@@ -55,6 +55,7 @@ hs_status hs_diagnose(const hs_body* body, const hs_model* model, const hs_recor
     const auto say = asked.say();
     const auto end_if_stopped = asked.end_if_stopped();
     for (const std::string& words : doubts_of(model->model)) say(words);
+    for (const std::string& words : doubts_of(model->model, std::span(&body->mesh, 1))) say(words);
     Experiment w = draft_experiment(body->mesh, body->window, model->model,
                                     as_asked(arguments, recording->recording, true, say),
                                     preparation_options(arguments));

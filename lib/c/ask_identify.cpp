@@ -133,6 +133,7 @@ hs_status hs_identify(const hs_body* const* bodies, size_t body_count,
     ExperimentOptions prepared = preparation_options(asked.arguments());
     set_poisson_range(request.fit, prepared);
     prepared.windows = all.windows;
+    for (const std::string& words : doubts_of(request.fit.start, all.bodies)) say(words);
     const Experiment w = make_experiment(all.bodies, std::move(all.dataset), prepared);
     for (const std::string& words : left_out_words(w)) say(words);
     Identification found = identify(request, all.bodies.front(), w, prepared);

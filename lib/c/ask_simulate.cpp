@@ -19,6 +19,7 @@ hs_status hs_simulate(const hs_body* body, const hs_model* model, const hs_recor
     const Arguments& arguments = asked.arguments();
     const auto say = asked.say();
     for (const std::string& words : doubts_of(model->model)) say(words);
+    for (const std::string& words : doubts_of(model->model, std::span(&body->mesh, 1))) say(words);
     Recording result =
         simulate(body->mesh, model->model, as_asked(arguments, motion->recording, false, say),
                  preparation_options(arguments), say)

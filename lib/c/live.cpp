@@ -82,6 +82,7 @@ hs_status hs_prepare(const hs_body* body, const hs_model* model, const hs_record
     const Arguments& arguments = asked.arguments();
     const auto say = asked.say();
     for (const std::string& words : doubts_of(model->model)) say(words);
+    for (const std::string& words : doubts_of(model->model, std::span(&body->mesh, 1))) say(words);
     ExperimentOptions places = preparation_options(arguments);
     PreparedBodyOptions prepare;
     prepare.tool_radius = contact_radius(model->model, radius_of(arguments, contacts));

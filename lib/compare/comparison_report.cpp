@@ -9,6 +9,8 @@
 #include "compare/report_body.h"
 #include "compare/report_tables.h"
 #include "compare/wording.h"
+#include "experiment/forces.h"
+#include "experiment/labels.h"
 
 namespace hapsim {
 namespace {
@@ -98,7 +100,9 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
   add_next(measured, c, extras, report);
   add_numbers(c, simulated.metadata, report);
   if (extras.model) add_parameters(*extras.model, report);
-  add_body(c, map, extras.model ? &*extras.model : nullptr, report);
+  const auto labels =
+      extras.model ? acting_labels(material_of(*extras.model), extras.labels) : nullptr;
+  add_body(c, map, extras.model ? &*extras.model : nullptr, labels.get(), report);
   if (versions.size() > 1)
     add_body_before(compare(measured, versions.front().recording), map, report);
   add_presses(measured, versions, c, report);
@@ -106,7 +110,7 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
   if (extras.model) {
     add_learned_curves(*extras.model, report);
     add_learned_places(*extras.model, report);
-    add_slices(map.surface, *extras.model, report);
+    add_slices(map.surface, *extras.model, labels.get(), report);
   }
   add_tables(c, report);
   add_chances(report);

@@ -1,6 +1,7 @@
 // A whole comparison as a report.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "io/csv.h"
 #include "model/model.h"
 #include "report/report.h"
+#include "solid/body_regions.h"
 
 namespace hapsim {
 
@@ -23,6 +25,7 @@ struct ReportExtras {
   std::vector<std::pair<std::string, CsvTable>>
       diagnoses;  // model version ("": the only one), its diagnosis
   std::optional<Model> model;
+  std::shared_ptr<const BodyRegions> labels;               // of the body, where it has any
   std::string program;                                     // that made the report: its version
   std::vector<std::pair<std::string, std::string>> files;  // kind and name of each
   FlagMeanings flags;                                      // of columns of live forces

@@ -36,17 +36,22 @@ BodyLayer stiffness_layer(const Comparison& c, const ErrorMap& map) {
 }
 
 // The model's regions in plan view, where it has several.
-BodyLayer region_layer(const Comparison& c, const ErrorMap& map, const Model& model) {
+BodyLayer region_layer(const Comparison& c, const ErrorMap& map, const Model& model,
+                       const BodyRegions* labels) {
   const MaterialSpec material = material_of(model);
+  const auto region_of = [&](const Vec3& p) {
+    return labels != nullptr ? labels->at(p) : region_at(material, p);
+  };
   BodyLayer layer{.name = "regions",
                   .title = "region",
-                  .note = "Regions of the model, seen from above.",
+                  .note = labels != nullptr ? "Regions of the model where they reach the surface."
+                                            : "Regions of the model, seen from above.",
                   .scale = BodyLayer::Scale::kKinds,
                   .top = static_cast<double>(material.modulus.size()) - 1,
                   .local = false};
-  for (const Vec3& v : map.surface.vertices) layer.value.push_back(region_at(material, v));
+  for (const Vec3& v : map.surface.vertices) layer.value.push_back(region_of(v));
   for (const Vec3& p : c.facts.positions) {
-    const int region = region_at(material, p);
+    const int region = region_of(p);
     layer.at_position.push_back(region);
     layer.at_position_text.push_back(fmt::format(
         "region {}, E {:.3g} Pa", region, material.modulus[static_cast<std::size_t>(region)]));
@@ -86,7 +91,8 @@ BodyLayer error_layer(const Comparison& c, const ErrorMap& map) {
   return layer;
 }
 
-void add_body(const Comparison& c, const ErrorMap& map, const Model* model, Report& report) {
+void add_body(const Comparison& c, const ErrorMap& map, const Model* model,
+              const BodyRegions* labels, Report& report) {
   report.body.vertices = map.surface.vertices;
   report.body.faces = map.surface.faces;
   report.body.distance = map.distance;
@@ -96,7 +102,7 @@ void add_body(const Comparison& c, const ErrorMap& map, const Model* model, Repo
   if (map.surface.faces.empty()) return;
   report.body.layers.push_back(stiffness_layer(c, map));
   if (model != nullptr && material_of(*model).modulus.size() > 1)
-    report.body.layers.push_back(region_layer(c, map, *model));
+    report.body.layers.push_back(region_layer(c, map, *model, labels));
 }
 
 void add_body_before(const Comparison& before, const ErrorMap& map, Report& report) {

@@ -5,6 +5,7 @@
 #include "compare/error_map.h"
 #include "model/model.h"
 #include "report/report.h"
+#include "solid/body_regions.h"
 
 namespace hapsim {
 
@@ -20,10 +21,11 @@ double top_error(const Comparison& comparison);
 BodyLayer error_layer(const Comparison& comparison, const ErrorMap& map);
 
 // What the body's surface is coloured by: the error, how much stiffer than the model the body is,
-// and the regions of a model that has several (null: none). A map without a surface: only the
+// and the regions of a model that has several (null: none); `labels` where these are the body's
+// own, else null, and shown where they reach the surface. A map without a surface: only the
 // positions, by error.
 void add_body(const Comparison& comparison, const ErrorMap& map, const Model* model,
-              Report& report);
+              const BodyRegions* labels, Report& report);
 
 // The error of an earlier version, on the same scale as that of the compared one.
 void add_body_before(const Comparison& before, const ErrorMap& map, Report& report);

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "base/median.h"
+#include "contact/element_groups.h"
 #include "contact/feature_zone.h"
 #include "effects/place_field.h"
 #include "experiment/forces.h"
@@ -122,7 +123,8 @@ void add_learned_places(const Model& model, Report& report) {
   }
 }
 
-void add_slices(const Surface& surface, const Model& model, Report& report) {
+void add_slices(const Surface& surface, const Model& model, const BodyRegions* labels,
+                Report& report) {
   constexpr int kCells = 64;  // along the longest side
   const MaterialSpec material = material_of(model);
   std::vector<std::pair<LevelSet, double>> zones;  // and the factor inside
@@ -132,8 +134,12 @@ void add_slices(const Surface& surface, const Model& model, Report& report) {
     if (is_zone(f.feature.kind))
       zones.emplace_back(zone_level(f.feature, skin), f.feature.value.back());
   if (material.modulus.size() < 2 && zones.empty()) return;
+  std::vector<BodyFeature> features;
+  for (const FeatureSpec& f : material.features) features.push_back(f.feature);
+  const std::vector<BodyRegions::Growth> growths = growths_of(features);
   const auto modulus_at = [&](const Vec3& p) {
-    double modulus = material.modulus[static_cast<std::size_t>(region_at(material, p))];
+    const int region = labels != nullptr ? labels->at(p, growths) : region_at(material, p);
+    double modulus = material.modulus[static_cast<std::size_t>(region)];
     for (const auto& [level, factor] : zones)
       if (level(p).value < 0) modulus *= factor;
     return modulus;

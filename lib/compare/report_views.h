@@ -11,6 +11,7 @@
 #include "model/model.h"
 #include "recording/recording.h"
 #include "report/report.h"
+#include "solid/body_regions.h"
 
 namespace hapsim {
 
@@ -21,8 +22,10 @@ void add_learned_curves(const Model& model, Report& report);
 void add_learned_places(const Model& model, Report& report);
 
 // Three cuts through what differs most from the rest of the body, with the modulus of its regions,
-// inclusions and layers; none of a body that has one alone.
-void add_slices(const Surface& surface, const Model& model, Report& report);
+// inclusions and layers; none of a body that has one alone. `labels`: of the body, where they are
+// the model's regions, else null.
+void add_slices(const Surface& surface, const Model& model, const BodyRegions* labels,
+                Report& report);
 
 // The chance of a false alarm of each effect that the last diagnosis tried, the smallest first.
 void add_chances(Report& report);

@@ -67,9 +67,21 @@ std::vector<double> poisson_nodes(double nu_low, double nu_high) {
   return nus;
 }
 
+std::string labels_key(const TetMesh& body) {
+  ContentHash hash;
+  for (std::size_t t = 0; t < body.tets.size(); ++t) {
+    hash.add(body.region.empty() ? 0.0 : static_cast<double>(body.region[t]));
+    for (std::size_t k = 0; k < 4; ++k)
+      hash.add(body.nodes[static_cast<std::size_t>(body.tets[t][k])].data(), 3 * sizeof(double));
+  }
+  return hash.hex();
+}
+
 ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
                                const ContactLibraryOptions& options)
     : boundary_(body_boundary(body)),
+      labels_(BodyRegions::of(body)),
+      labels_key_(labels_ ? hapsim::labels_key(body) : ""),
       radius_(tool_radius),
       options_(options),
       cache_(options.cache) {

@@ -59,6 +59,9 @@ struct ContactLibraryOptions {
   std::function<void()> step;  // called once a position is ready (from any thread)
 };
 
+// Of the body's numbered tetrahedra, for the description of a material with labels.
+std::string labels_key(const TetMesh& body);
+
 // Poisson's ratios at which a UnitStiffness of the range is solved: one where the ends are equal.
 std::vector<double> poisson_nodes(double nu_low, double nu_high);
 
@@ -73,7 +76,8 @@ class ContactLibrary {
                                        double nu_high) const;
   // One solution a position for an inhomogeneous material or one with features; a draft is
   // corrected to the homogeneous stiffnesses of `contacts` (of the same positions). `description`
-  // must determine `material.group_of` (it names the cache entry). None may be unfit.
+  // must determine `material.group_of` and `material.labels` (it names the cache entry). None may
+  // be unfit.
   std::vector<StiffnessSolution> solve(const std::vector<Vec3>& positions,
                                        const std::vector<PreparedContact>& contacts,
                                        const Material& material,
@@ -111,6 +115,9 @@ class ContactLibrary {
   // Made when first asked for: where all contacts are found in the cache nobody does.
   const ContactBase& base() const;
   Memo& memo() const { return *options_.memo; }
+  // The body's regions as its tetrahedra are numbered; null where all have 0.
+  const std::shared_ptr<const BodyRegions>& labels() const { return labels_; }
+  const std::string& labels_key() const { return labels_key_; }  // of their content
   // Of all that solutions depend on beside positions and material.
   const ContentHash& content() const { return content_; }
 
@@ -132,6 +139,8 @@ class ContactLibrary {
   std::string bodies_key(const Vec3& position) const;
 
   ClassedSurface boundary_;
+  std::shared_ptr<const BodyRegions> labels_;
+  std::string labels_key_;
   double radius_;
   ContactLibraryOptions options_;
   ContactCache cache_;

@@ -177,7 +177,7 @@ SampledContact ContactBodies::sample(const Material& material, ContactLevel whic
   const int k = static_cast<int>(which);
   Level& own = level(k);
   SampledContact result{own.contact.point, own.contact.normal, Eigen::Matrix3d::Zero()};
-  if (material.group_of || !material.features.empty()) {
+  if (material.has_groups() || !material.features.empty()) {
     result.K = featured(k).solve(material).K;
     return result;
   }

@@ -10,18 +10,27 @@
 
 #include "material/body_features.h"
 #include "mesh/surface_tree.h"
+#include "solid/body_regions.h"
 #include "solid/elasticity.h"
 #include "tetmesh/contact_mesh.h"
 
 namespace hapsim {
 
 // A body's material: one Poisson's ratio, Young's modulus by group of elements, and features. A
-// homogeneous body has one group, no `group_of` and no features.
+// homogeneous body has one group, neither `group_of` nor `labels`, and no features.
 struct Material {
   double nu = 0.3;
   std::vector<double> modulus{1.0};          // [Pa], one a group
   std::function<int(const Vec3&)> group_of;  // group of an element by its centroid [m]
   std::vector<BodyFeature> features;
+  // Groups are the body's own regions, of which a cut element has its shares (BodyRegions::parts);
+  // null: by `group_of`.
+  std::shared_ptr<const BodyRegions> labels = nullptr;
+  bool has_groups() const { return group_of || labels; }
+  // At a point; 0 without groups.
+  std::size_t group_at(const Vec3& p) const {
+    return static_cast<std::size_t>(labels ? labels->at(p) : group_of ? group_of(p) : 0);
+  }
 };
 
 // A regular grid over the body in plan view, on which the share of the energy is kept.

@@ -185,9 +185,22 @@ FeatureEstimate::Change FeatureEstimate::at(const BodyFeature& feature) const {
       return of_law(feature);
     case Feature::kTension:
       return {Eigen::Matrix3d::Identity() + feature.value[0] * tension_, {tension_}};
+    case Feature::kGrowth:
+      return {Eigen::Matrix3d::Identity(), {Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero()}};
     default:
       return of_support(feature);
   }
+}
+
+std::vector<double> FeatureEstimate::shares(const BodyRegions& labels, std::size_t count) const {
+  std::vector<double> share(count, 0);
+  for (const int region : labels.numbers())
+    share[static_cast<std::size_t>(region)] =
+        tree_.inside(labels.level(region), 0).share.trace() / 3;
+  double sum = 0;  // what elements at a boundary have of several need not be 1
+  for (const double s : share) sum += s;
+  for (double& s : share) s /= sum;
+  return share;
 }
 
 FeatureEstimate::Change FeatureEstimate::of_zone(const Eigen::Matrix3d& share,

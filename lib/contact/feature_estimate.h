@@ -8,6 +8,7 @@
 #include "contact/share_tree.h"
 #include "material/body_features.h"
 #include "mesh/surface_tree.h"
+#include "solid/body_regions.h"
 #include "solid/element_moments.h"
 #include "tetmesh/contact_mesh.h"
 
@@ -20,6 +21,7 @@ namespace hapsim {
 //   L^-1 k L^-T over its elements): the geometric mean lies between the bounds of Voigt and Reuss;
 // - transverse isotropy: the energy of the unit fields under the new law (Voigt's bound);
 // - tension of the surface: its energy in the same fields (a bound of that kind);
+// - growth of a region of the body's labels: none;
 // - support: each bonded face gives in series with a column of the body as long as the contact is
 //   high above the base.
 class FeatureEstimate {
@@ -34,6 +36,8 @@ class FeatureEstimate {
     std::vector<Eigen::Matrix3d> by_value;  // over the value's unit
   };
   Change at(const BodyFeature& feature) const;
+  // Shares of the homogeneous body's energy in regions 0 to `count` - 1, a mean over directions.
+  std::vector<double> shares(const BodyRegions& labels, std::size_t count) const;
   std::size_t held_bytes() const {  // the mesh with it
     return hapsim::held_bytes(contact_) + hapsim::held_bytes(tree_) + hapsim::held_bytes(shallow_) +
            hapsim::held_bytes(base_);

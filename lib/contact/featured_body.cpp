@@ -70,8 +70,8 @@ std::vector<FaceTerm> face_terms(const Material& material, const TetMesh& mesh) 
 }  // namespace
 
 struct FeaturedBody::Moduli {
-  std::vector<int> group;
-  std::vector<double> modulus;  // one a tetrahedron [Pa]
+  std::vector<double> modulus;   // one a tetrahedron [Pa]
+  std::vector<double> of_group;  // without zones [Pa]
   // By the values of each feature (tetrahedra x values); no rows where it is no zone.
   std::vector<Eigen::MatrixXd> by_feature;
 };
@@ -87,20 +87,39 @@ void FeaturedBody::forget_system() {
   system_.reset();
 }
 
-FeaturedBody::Moduli FeaturedBody::moduli(const Material& material) const {
+// What labels cut of a mesh is dear, and they never change.
+std::shared_ptr<const ElementGroups> FeaturedBody::groups(const Material& material) {
+  const bool grows = find_feature(material, Feature::kGrowth) != nullptr;
+  if (groups_ && material.labels && labels_ == material.labels && !grows) return groups_;
+  auto made = std::make_shared<const ElementGroups>(contact_.mesh, material);
+  if (material.labels && !grows) {
+    groups_ = made;
+    labels_ = material.labels;
+  }
+  return made;
+}
+
+FeaturedBody::Moduli FeaturedBody::moduli(const Material& material,
+                                          const ElementGroups& groups) const {
   const TetMesh& mesh = contact_.mesh;
   const auto count = static_cast<Eigen::Index>(mesh.tets.size());
   Moduli m;
-  for (const auto& n : mesh.tets) {
-    const Vec3 centre =
-        (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-    m.group.push_back(material.group_of ? material.group_of(centre) : 0);
-    m.modulus.push_back(material.modulus[m.group.back()]);
-  }
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    m.modulus.push_back(groups.modulus(t, material.modulus));
+  m.of_group = m.modulus;
   std::vector<std::vector<double>> factors;
+  std::size_t growths = 0;
   for (const BodyFeature& f : material.features) {
     m.by_feature.emplace_back();
     factors.emplace_back();
+    if (f.kind == Feature::kGrowth) {
+      Eigen::MatrixXd& by = m.by_feature.back();
+      by.setZero(count, 2);
+      for (Eigen::Index t = 0; t < count; ++t)
+        by(t, 1) = groups.modulus_by_growth(static_cast<std::size_t>(t), material.modulus, growths);
+      ++growths;
+      factors.back() = m.of_group;
+    }
     if (!is_zone(f.kind)) continue;
     const double ratio = f.value.back();
     const InsideShares inside = inside_shares(mesh, zone_level(f, free_surface_));
@@ -121,7 +140,8 @@ FeaturedBody::Moduli FeaturedBody::moduli(const Material& material) const {
 FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
   const TetMesh& mesh = contact_.mesh;
   const std::size_t tets = mesh.tets.size();
-  const Moduli m = moduli(material);
+  const auto group = groups(material);
+  const Moduli m = moduli(material, *group);
   const BodyFeature* transverse = find_feature(material, Feature::kTransverse);
   const UnitLaw law =
       unit_law(material.nu, transverse != nullptr ? transverse->value : std::vector<double>{});
@@ -185,7 +205,11 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
     const FieldMoments moments(element_gradients(mesh, t), local_fields(mesh, t, phi));
     const Eigen::Matrix3d k = moments.energy(law.D, law.kappa);
     all.add(m.modulus[t], moments);
-    s.by_modulus[m.group[t]] += m.modulus[t] / material.modulus[m.group[t]] * k;
+    group->for_each(t, [&](std::size_t g, double share) {
+      // Zones multiply it; of one group its own modulus drops out exactly.
+      s.by_modulus[g] +=
+          share * (m.modulus[t] / m.of_group[t]) * (m.of_group[t] / material.modulus[g]) * k;
+    });
     s.K += m.modulus[t] * k;
     for (std::size_t f = 0; f < m.by_feature.size(); ++f)
       for (Eigen::Index v = 0; v < m.by_feature[f].cols(); ++v)

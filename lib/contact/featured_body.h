@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/contact_stiffness.h"
+#include "contact/element_groups.h"
 #include "material/body_features.h"
 #include "mesh/surface_tree.h"
 #include "solid/node_system.h"
@@ -32,14 +33,17 @@ class FeaturedBody {
   void forget_system();
   // That matrix, or its order; not the mesh, nor the surface.
   std::size_t held_bytes() const {
-    return hapsim::held_bytes(system_) + hapsim::held_bytes(order_);
+    return hapsim::held_bytes(system_) + hapsim::held_bytes(order_) + hapsim::held_bytes(groups_);
   }
 
  private:
   struct Moduli;  // by element, with derivatives
-  Moduli moduli(const Material& material) const;
+  std::shared_ptr<const ElementGroups> groups(const Material& material);
+  Moduli moduli(const Material& material, const ElementGroups& groups) const;
   const ContactMesh& contact_;
   std::shared_ptr<const SurfaceTree> free_surface_;
+  std::shared_ptr<const ElementGroups> groups_;  // of the last material with labels
+  std::shared_ptr<const BodyRegions> labels_;    // these
   std::unique_ptr<NodeSystem> system_;
   std::vector<int> order_;      // of the system that was given back
   bool supported_ = false;      // the bonded nodes are free in it, or were

@@ -1,5 +1,6 @@
 #include "contact/marker_solution.h"
 
+#include "contact/element_groups.h"
 #include "contact/surface_place.h"
 #include "solid/elastic_body.h"
 
@@ -48,16 +49,10 @@ MarkerSolution solve_markers(const ContactMesh& contact, const Material& materia
     if (mesh.fixed[n]) handle[n] = kHeldNode;
   for (const int n : contact.patch_nodes) handle[static_cast<std::size_t>(n)] = 0;
   const Lame unit = lame(1, material.nu), by_nu = lame_by_poisson(1, material.nu);
-  std::vector<std::size_t> group(mesh.tets.size(), 0);
+  const ElementGroups element(mesh, material);
   std::vector<Lame> constants;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto corner = [&](std::size_t k) {
-      return mesh.nodes[static_cast<std::size_t>(mesh.tets[t][k])];
-    };
-    if (material.group_of)
-      group[t] = static_cast<std::size_t>(
-          material.group_of((corner(0) + corner(1) + corner(2) + corner(3)) / 4));
-    const double modulus = material.modulus[group[t]];
+    const double modulus = element.modulus(t, material.modulus);
     constants.push_back({modulus * unit.lambda, modulus * unit.mu});
   }
   ElasticBody body(mesh, handle, kWithoutLocking);
@@ -69,9 +64,14 @@ MarkerSolution solve_markers(const ContactMesh& contact, const Material& materia
   Eigen::MatrixXd load =
       Eigen::MatrixXd::Zero(fields.rows(), 3 + (apart ? 3 * static_cast<Eigen::Index>(groups) : 0));
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const double modulus = material.modulus[group[t]];
+    const double modulus = element.modulus(t, material.modulus);
     add_change(mesh, t, {modulus * by_nu.lambda, modulus * by_nu.mu}, fields, 0, load);
-    if (apart) add_change(mesh, t, unit, fields, 3 + 3 * static_cast<Eigen::Index>(group[t]), load);
+    if (!apart) continue;
+    element.for_each(t, [&](std::size_t g, double share) {
+      const double by = share * (modulus / material.modulus[g]);
+      add_change(mesh, t, {by * unit.lambda, by * unit.mu}, fields,
+                 3 + 3 * static_cast<Eigen::Index>(g), load);
+    });
   }
   const Eigen::MatrixXd slopes = body.relax(load);
   const std::vector<SurfacePlace> places = surface_places(mesh, points);

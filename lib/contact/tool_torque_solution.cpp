@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "contact/element_groups.h"
 #include "contact/rigid_stiffness.h"
 #include "solid/elastic_body.h"
 
@@ -71,14 +72,10 @@ TorqueSolution solve_torque(const ContactMesh& contact, const Material& material
   const TetMesh& mesh = contact.mesh;
   const std::size_t tets = mesh.tets.size();
   const Lame unit = lame(1, material.nu), by_nu = lame_by_poisson(1, material.nu);
-  std::vector<int> group(tets, 0);
+  const ElementGroups groups(mesh, material);
   std::vector<Lame> constants(tets);
   for (std::size_t t = 0; t < tets; ++t) {
-    const auto& n = mesh.tets[t];
-    const Vec3 centroid =
-        (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-    if (material.group_of) group[t] = material.group_of(centroid);
-    const double modulus = material.modulus[static_cast<std::size_t>(group[t])];
+    const double modulus = groups.modulus(t, material.modulus);
     constants[t] = {modulus * unit.lambda, modulus * unit.mu};
   }
   const SixFields fields = unit_fields(contact, constants);
@@ -86,11 +83,13 @@ TorqueSolution solve_torque(const ContactMesh& contact, const Material& material
   Matrix6 all = Matrix6::Zero(), slope = Matrix6::Zero();
   for (std::size_t t = 0; t < tets; ++t) {
     const SixEnergies e = six_energies(mesh, t, fields);
-    const auto g = static_cast<std::size_t>(group[t]);
+    const double modulus = groups.modulus(t, material.modulus);
     const Matrix6 k = unit.lambda * e.volumetric + unit.mu * e.deviatoric;
-    by_group[g] += k;
-    all += material.modulus[g] * k;
-    slope += material.modulus[g] * (by_nu.lambda * e.volumetric + by_nu.mu * e.deviatoric);
+    groups.for_each(t, [&](std::size_t g, double share) {
+      by_group[g] += share * (modulus / material.modulus[g]) * k;
+    });
+    all += modulus * k;
+    slope += modulus * (by_nu.lambda * e.volumetric + by_nu.mu * e.deviatoric);
   }
   TorqueSolution s;
   s.K = s.coarse_K = all.topLeftCorner<3, 3>();

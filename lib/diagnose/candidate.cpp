@@ -119,6 +119,12 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
     return std::nullopt;
   }
   const Model& model = base.fitted.model;
+  if (card.is_map && g.experiment.places.has_labels(material_of(model))) {
+    lack =
+        "the model's regions are those of the body's tetrahedra: take out their moduli to try a "
+        "map over the surface";
+    return std::nullopt;
+  }
   Candidate candidate;
   candidate.effect = &effect;
   candidate.one_more_term = model.has(card.name);

@@ -44,6 +44,8 @@ struct EffectCard {
   std::string source;
   std::string assumptions;
   std::vector<ParameterCard> parameters;
+  // What rows of a region above 0 may have besides; never there unless a model's file has it.
+  std::vector<ParameterCard> of_region = {};
   bool terms = false;              // may be repeated: E1, tau1, E2, tau2, ...
   bool needs_time = false;         // not testable without a t column
   bool needs_session = false;      // not testable if the time begins anew with each press
@@ -158,6 +160,7 @@ struct MaterialSpec {
   int nu_column = -1;
   std::vector<double> modulus;  // E [Pa] by region
   std::vector<int> modulus_column;
+  std::vector<int> given;       // regions that have a modulus of their own
   std::vector<Vec3> key_point;  // region of a point: that of its nearest key point, in plan view
   std::vector<int> key_region;
   // A contact feels the modulus at its own place alone, as if the whole body had it: that of its

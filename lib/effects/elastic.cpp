@@ -17,10 +17,17 @@ class Elastic : public Effect {
         .source = "Hooke's law; Zienkiewicz and Taylor, The Finite Element Method, vol. 1",
         .assumptions =
             "small strains, isotropic, one Poisson's ratio for the whole body; with "
-            "relaxation, E is the modulus after all of it",
+            "relaxation, E is the modulus after all of it; E of regions 1, 2, ... lies where the "
+            "key "
+            "points of regions are or, without any, where the body's tetrahedra have that number "
+            "(hs-tetmesh --region)",
         .parameters = {{"E", "Pa", "Young's modulus (one row a region)", 0, 1e4, 1, 1e12, 1e4,
                         true},
                        {"nu", "1", "Poisson's ratio", 0, 0.4, 0, 0.499, 0.1, false, 0.5}},
+        .of_region = {{"growth", "m",
+                       "by how much the region's boundary lies outside of that of the body's "
+                       "tetrahedra with its number",
+                       0, 0, -0.02, 0.02, 1e-3, false}},
         .modulus = "E",
         .poissons_ratio = "nu",
         .signature = "no body at all",
@@ -34,6 +41,11 @@ class Elastic : public Effect {
       if (v.name == "nu") {
         material.nu = v.value;
         material.nu_column = v.column;
+      } else if (v.name == "growth") {
+        FeatureSpec spec{{Feature::kGrowth, {}}, {}};
+        spec.feature.value = {static_cast<double>(v.region), v.value};
+        spec.column = {-1, v.column};
+        material.features.push_back(std::move(spec));
       } else {
         const std::size_t region = static_cast<std::size_t>(v.region);
         if (material.modulus.size() <= region) {
@@ -41,6 +53,7 @@ class Elastic : public Effect {
           material.modulus_column.resize(region + 1, -1);
         }
         material.modulus[region] = v.value;
+        material.given.push_back(v.region);
         material.modulus_column[region] = v.column;
       }
     }

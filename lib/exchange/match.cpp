@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "contact/contact_stiffness.h"
 #include "experiment/forces.h"
-#include "experiment/nearest_region.h"
+#include "experiment/labels.h"
 #include "tetmesh/contact_mesh.h"
 
 namespace hapsim {
@@ -73,7 +73,7 @@ void to_first_order(TetMesh& mesh, std::vector<int>& tool) {
 
 // The scene pressed at another place, on the mesh graded for that.
 Scene pressed_at(const Scene& like, const ContactBase& base, const MaterialSpec& material,
-                 const Vec3& place, double radius, int order) {
+                 const BodyRegions* labels, const Vec3& place, double radius, int order) {
   ContactMesh contact = make_contact_mesh(base, place, radius, kRimEdge * radius, kGrowth);
   Scene scene;
   scene.mesh = std::move(contact.mesh);
@@ -83,7 +83,7 @@ Scene pressed_at(const Scene& like, const ContactBase& base, const MaterialSpec&
   straighten(scene.mesh);
   if (order == 1) to_first_order(scene.mesh, scene.tool);
   std::sort(scene.tool.begin(), scene.tool.end());
-  scene.mesh.region = regions_of(scene.mesh, material);
+  scene.mesh.region = regions_of(scene.mesh, material, labels);
   return scene;
 }
 
@@ -108,12 +108,13 @@ Match match_scene(Scene& scene, const TetMesh& body, const Model& model, const R
   Match match;
   match.before = deck_error(deck_stiffness(scene), graded[0]);
   const MaterialSpec material = material_of(model);
+  const auto labels = acting_labels(material, body);
   const ContactBase base = make_contact_base(body);
   std::vector<Eigen::Matrix3d> K(graded.size());
   Scene own;
   in_parallel(graded.size(), options.prepare.threads, [&](std::size_t p) {
-    Scene there =
-        pressed_at(scene, base, material, graded[p].place, recording.tool_radius(), options.order);
+    Scene there = pressed_at(scene, base, material, labels.get(), graded[p].place,
+                             recording.tool_radius(), options.order);
     K[p] = deck_stiffness(there);
     if (p == 0) own = std::move(there);
   });

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "experiment/forces.h"
+#include "experiment/labels.h"
 #include "experiment/nearest_region.h"
 #include "model/relaxation_steps.h"
 #include "solid/mesh_press.h"
@@ -85,11 +86,14 @@ void write_xml_remarks(std::ostream& out, const Scene& scene) {
   }
 }
 
-std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material) {
+std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material,
+                            const BodyRegions* labels) {
   std::vector<int> region;
-  for (const auto& n : mesh.tets)
-    region.push_back(region_at(
-        material, (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4));
+  for (const auto& n : mesh.tets) {
+    const Vec3 centre =
+        (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+    region.push_back(labels != nullptr ? labels->at(centre) : region_at(material, centre));
+  }
   return region;
 }
 
@@ -104,8 +108,9 @@ Scene make_scene(const TetMesh& body, const Model& model, const Recording& recor
   scene.nu = material.nu;
   scene.finite = spec.finite;
   scene.terms = spec.terms;
-  if (material.key_point.empty()) scene.modulus.resize(1);  // the body's own regions stay
-  if (!material.key_point.empty()) scene.mesh.region = regions_of(body, material);
+  if (!acting_labels(material, body) && material.key_point.empty())
+    scene.modulus.resize(1);  // the body's own regions stay
+  if (!material.key_point.empty()) scene.mesh.region = regions_of(body, material, nullptr);
   if (press.empty()) return scene;
   scene.tool = patch_under_tool(body, recording.position[static_cast<std::size_t>(press[0])],
                                 recording.tool_radius())

@@ -9,6 +9,7 @@
 #include "mesh/tetmesh.h"
 #include "model/model.h"
 #include "recording/recording.h"
+#include "solid/body_regions.h"
 
 namespace hapsim {
 
@@ -47,8 +48,10 @@ Scene make_scene(const TetMesh& body, const Model& model, const Recording& recor
 // The remarks as comments of XML, in which no two dashes may follow each other.
 void write_xml_remarks(std::ostream& out, const Scene& scene);
 
-// By element, the region of the material's nearest key point; 0 without key points.
-std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material);
+// By element, the label at its centre, or where `labels` is null the region of the material's
+// nearest key point; 0 without key points.
+std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material,
+                            const BodyRegions* labels);
 
 // CalculiX, Abaqus: a step for each time, RF summed over the node set TOOL printed after each (the
 // force of the tool on the body). Error(kBadInput): relaxation, which CalculiX does not have.

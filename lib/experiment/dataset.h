@@ -30,6 +30,7 @@ struct Dataset {
   std::vector<Episode> episodes;
   std::vector<Setup> setups;  // distinct, in the order of the recording
   std::vector<int> setup_of;  // by position
+  std::vector<int> label;     // of the body's tetrahedra there, by position; empty: all 0
   // Relative error of a position's stiffness beyond that of all (Allowance::floor), by position;
   // empty: none.
   std::vector<double> doubt;

@@ -38,6 +38,7 @@ Dataset at_positions(const Dataset& dataset, const std::vector<std::size_t>& pos
     renumbered[p] = static_cast<int>(result.positions.size());
     result.positions.push_back(dataset.positions[p]);
     result.setup_of.push_back(dataset.setup_of[p]);
+    if (!dataset.label.empty()) result.label.push_back(dataset.label[p]);
     if (!dataset.doubt.empty()) result.doubt.push_back(dataset.doubt[p]);
     if (!dataset.curve_doubt.empty()) result.curve_doubt.push_back(dataset.curve_doubt[p]);
   }

@@ -152,6 +152,7 @@ Experiment make_experiment(std::span<const TetMesh> bodies, Dataset dataset,
   }();
   for (UnfitPlace& place : settle_unfit(places, dataset, options.borrow))
     unfit.push_back(std::move(place));
+  dataset.label = places.labels();
   dataset = on_body(std::move(dataset), places.stands());
   const std::size_t too_strained = leave_strained(dataset, options.borrow);
   std::vector<std::vector<Vec3>> windows;

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "effects/catalogue.h"
+#include "experiment/labels.h"
 #include "experiment/nearest_region.h"
 #include "material/maxwell_memory.h"
 #include "model/relaxation_steps.h"
@@ -14,8 +15,8 @@ namespace {
 
 // What contact laws need to know of the body at one position.
 ContactStiffness contact_of(const PositionStiffness& s, const MaterialSpec& material,
-                            const Vec3& position, bool derivatives) {
-  LocalModulus modulus{0, {{region_at(material, position), 1.0}}};
+                            const Vec3& position, int label, bool derivatives) {
+  LocalModulus modulus{0, {{is_by_label(material) ? label : region_at(material, position), 1.0}}};
   if (material.local) modulus = local_modulus(material, position);
   const auto at = [&](int region) { return material.modulus[static_cast<std::size_t>(region)]; };
   ContactStiffness contact;
@@ -57,12 +58,14 @@ void add_memory(const PressView& view, const std::vector<MaxwellStiffness>& rela
 
 // A press as the body sees it: its motion has passed all effects that change it.
 PressView press_on_body(const std::vector<EffectInstance>& effects, const MaterialSpec& material,
-                        const PositionStiffness& s, const Episode& episode, const Vec3& position,
+                        const PositionStiffness& s, const Episode& episode, const Dataset& dataset,
                         Eigen::Index columns, bool derivatives) {
+  const auto position = static_cast<std::size_t>(episode.position);
+  const int label = dataset.label.empty() ? 0 : dataset.label[position];
   PressView view = episode.view;
   view.modulus = material.modulus[0];
   view.modulus_column = derivatives ? material.modulus_column[0] : -1;
-  view.contact = contact_of(s, material, position, derivatives);
+  view.contact = contact_of(s, material, dataset.positions[position], label, derivatives);
   Motion motion{view.u, {}, columns};
   for (const EffectInstance& i : effects) i.effect->move(view, i.values, motion);
   view.u = std::move(motion.u);
@@ -72,10 +75,10 @@ PressView press_on_body(const std::vector<EffectInstance>& effects, const Materi
 
 // One episode through all effects: from the tool's motion to the sensor's reading.
 Signal episode_forces(const std::vector<EffectInstance>& effects, const MaterialSpec& material,
-                      const PositionStiffness& s, const Episode& episode, const Vec3& position,
+                      const PositionStiffness& s, const Episode& episode, const Dataset& dataset,
                       Eigen::Index columns, bool derivatives) {
   const PressView view =
-      press_on_body(effects, material, s, episode, position, columns, derivatives);
+      press_on_body(effects, material, s, episode, dataset, columns, derivatives);
   const Eigen::Index n = 3 * static_cast<Eigen::Index>(view.size());
   Signal signal{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, columns)};
   for (std::size_t i = 0; i < view.size(); ++i) {
@@ -196,7 +199,7 @@ Signal model_forces(const Model& model, const Dataset& dataset, const StiffnessA
   const auto one = [&](std::size_t k) {
     const Episode& episode = dataset.episodes[selection[k]];
     const Signal signal = episode_forces(effects, material, stiffness[episode.position], episode,
-                                         dataset.positions[episode.position], columns, derivatives);
+                                         dataset, columns, derivatives);
     all.f.segment(begin[k], signal.f.size()) = signal.f;
     if (columns > 0) all.df.middleRows(begin[k], signal.f.size()) = signal.df;
   };
@@ -215,7 +218,7 @@ std::vector<Vec3> motion_on_body(const Model& model, const Experiment& experimen
     const Episode& episode = experiment.dataset.episodes[e];
     const auto p = static_cast<std::size_t>(episode.position);
     const PressView view = press_on_body(effects, material, about.at(p, material), episode,
-                                         experiment.dataset.positions[p], 0, false);
+                                         experiment.dataset, 0, false);
     motion.insert(motion.end(), view.u.begin(), view.u.end());
   }
   return motion;

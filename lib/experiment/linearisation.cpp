@@ -15,8 +15,8 @@ bool same_kinds(const MaterialSpec& a, const MaterialSpec& b) {
       [](const FeatureSpec& x, const FeatureSpec& y) { return x.feature.kind == y.feature.kind; });
 }
 
-bool is_homogeneous(const MaterialSpec& material) {
-  return !has_regions(material) && material.features.empty();
+bool is_homogeneous(const SetupPlaces& places, const MaterialSpec& material) {
+  return !places.has_regions(material) && material.features.empty();
 }
 
 // One modulus everywhere.
@@ -34,7 +34,7 @@ MaterialSpec without_regions(MaterialSpec material, double modulus) {
 SetupLinearisation SetupLinearisation::solve(std::shared_ptr<const SetupPlaces> places,
                                              const MaterialSpec& material) {
   SetupLinearisation result = estimate(places, material, nullptr);
-  if (is_homogeneous(material)) return result;
+  if (is_homogeneous(*places, material)) return result;
   result.solved_ = result.places_->solve(in_place(material));
   result.shares_ = nullptr;
   result.estimates_ = nullptr;
@@ -52,7 +52,7 @@ SetupLinearisation SetupLinearisation::estimate(std::shared_ptr<const SetupPlace
   result.shift_ = material.shift;
   result.rotation_ = material.rotation;
   if (result.is_solved_for(material)) return result;
-  if (has_regions(material) && !result.is_solved_for(result.known_part(material))) {
+  if (places->has_regions(material) && !result.is_solved_for(result.known_part(material))) {
     result.regions_ = in_place(material);
     result.shares_ = result.places_->shares(result.regions_);
   }
@@ -62,7 +62,7 @@ SetupLinearisation SetupLinearisation::estimate(std::shared_ptr<const SetupPlace
 }
 
 bool SetupLinearisation::is_solved_for(const MaterialSpec& material) const {
-  return solved_ && same_regions(solved_->material, material) &&
+  return solved_ && places_->same_regions(solved_->material, material) &&
          same_kinds(solved_->material, material);
 }
 
@@ -97,7 +97,7 @@ PositionStiffness SetupLinearisation::unmoved(std::size_t position,
   if (is_solved_for(material))
     return extrapolated(solved_->solutions[position], places_->contacts()[position].stiffness,
                         solved_->material, material);
-  if (!is_homogeneous(material)) return with_estimates(position, material);
+  if (!is_homogeneous(*places_, material)) return with_estimates(position, material);
   PositionStiffness result;
   Eigen::Matrix3d unit, by_nu;
   places_->contacts()[position].stiffness.evaluate(material.nu, unit, by_nu);
@@ -125,7 +125,7 @@ PositionStiffness SetupLinearisation::with_estimates(std::size_t position,
                                                      const MaterialSpec& material) const {
   const MaterialSpec known = known_part(material);
   // Regions that nothing was solved for are the last thing to add.
-  if (has_regions(material) && !is_solved_for(known)) return by_shares(position, material);
+  if (places_->has_regions(material) && !is_solved_for(known)) return by_shares(position, material);
   if (!estimates_)
     throw std::logic_error("a stiffness is asked of a linearisation that lacks its features");
   PositionStiffness result = unmoved(position, known);
@@ -140,7 +140,7 @@ PositionStiffness SetupLinearisation::with_estimates(std::size_t position,
 
 PositionStiffness SetupLinearisation::by_shares(std::size_t position,
                                                 const MaterialSpec& material) const {
-  if (!shares_ || !same_regions(regions_, material))
+  if (!shares_ || !places_->same_regions(regions_, material))
     throw std::logic_error("a stiffness is asked of a linearisation that lacks its regions");
   PositionStiffness result = unmoved(position, without_regions(material, 1));
   const std::vector<double>& share = (*shares_)[position];

@@ -26,7 +26,7 @@ MarkerGains::MarkerGains(const Places& places, const MaterialSpec& material,
     OfSetup setup;
     setup.solved = pressed.before_move(material)->markers(in_place(material), regions, there);
     const std::vector<double>& nu = setup.solved->nu;
-    const bool apart = regions && has_regions(material);
+    const bool apart = regions && pressed.has_regions(material);
     for (std::size_t p = 0; !apart && p < pressed.positions().size(); ++p) {
       setup.G.emplace_back(points.size());
       for (std::size_t k = 0; k < nu.size(); ++k) {

@@ -67,6 +67,21 @@ std::vector<ToolStand> Places::stands() const {
   return stands;
 }
 
+bool Places::has_labels(const MaterialSpec& material) const {
+  return std::any_of(setups_.begin(), setups_.end(),
+                     [&](const auto& setup) { return setup->labels_of(material) != nullptr; });
+}
+
+std::vector<int> Places::labels() const {
+  std::vector<int> labels;
+  for (std::size_t p = 0; p < size(); ++p) {
+    const auto& of_body = setups_[(*place_)[p].setup]->labels();
+    labels.push_back(of_body ? of_body->at(position(p)) : 0);
+  }
+  if (std::all_of(labels.begin(), labels.end(), [](int l) { return l == 0; })) labels.clear();
+  return labels;
+}
+
 double Places::mesh_uncertainty() const {
   std::vector<double> values;
   for (std::size_t p = 0; p < size(); ++p) values.push_back(contact(p).mesh_uncertainty);

@@ -34,6 +34,10 @@ class Places {
   const Vec3& position(std::size_t position) const;
   std::vector<ToolStand> stands() const;
   const std::string& unfit(std::size_t p) const { return contact(p).unfit; }
+  // Whether the material's regions are the labels of one of the bodies (labels.h).
+  bool has_labels(const MaterialSpec& material) const;
+  // The label of the body at each position; empty where all are 0.
+  std::vector<int> labels() const;
   double mesh_uncertainty() const;  // median over the positions, relative
   // How uncertain each stiffness is because the body beyond a window is a guess: the share of the
   // strain energy there, which is the relative change of the stiffness by the logarithm of the

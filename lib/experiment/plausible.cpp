@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "experiment/labels.h"
 #include "model/body_parameters.h"
 #include "model/search_state.h"
 
@@ -88,13 +89,20 @@ std::string strange_modulus(const Model& model) {
       e->value > kHardest ? "harder" : "softer");
 }
 
-std::vector<int> idle_regions(const Model& model) {
+std::vector<int> idle_regions(const Model& model, std::span<const TetMesh> bodies) {
   std::vector<int> idle;
+  const bool by_label = is_by_label(material_of(model));
   for (const Parameter& p : model.parameters) {
     if (!is_modulus(p) || p.region == 0) continue;
     const bool placed =
-        std::any_of(model.parameters.begin(), model.parameters.end(),
-                    [&](const Parameter& q) { return is_of_map(q) && q.region == p.region; });
+        by_label
+            ? std::any_of(bodies.begin(), bodies.end(),
+                          [&](const TetMesh& body) {
+                            return std::find(body.region.begin(), body.region.end(), p.region) !=
+                                   body.region.end();
+                          })
+            : std::any_of(model.parameters.begin(), model.parameters.end(),
+                          [&](const Parameter& q) { return is_of_map(q) && q.region == p.region; });
     if (!placed) idle.push_back(p.region);
   }
   return idle;
@@ -104,13 +112,19 @@ std::vector<std::string> doubts_of(const Model& model) {
   std::vector<std::string> lines;
   if (is_unfinished(model))
     lines.push_back(model.name + ": the fit of this model was ended before it converged");
-  for (const int region : idle_regions(model))
-    lines.push_back(
-        fmt::format("{}: elastic E of region {} acts nowhere: no row of the effect regions gives "
-                    "that region a place",
-                    model.name, region));
   if (const auto what = model.metadata.find("interrupted"))
     lines.push_back(model.name + ": interrupted " + *what + ", so more may be missing");
+  return lines;
+}
+
+std::vector<std::string> doubts_of(const Model& model, std::span<const TetMesh> bodies) {
+  std::vector<std::string> lines;
+  for (const int region : idle_regions(model, bodies))
+    lines.push_back(fmt::format(
+        "{}: elastic E of region {} acts nowhere: no row of the effect regions gives "
+        "that region a place{}",
+        model.name, region,
+        is_by_label(material_of(model)) ? ", and no tetrahedron of the body is of it" : ""));
   return lines;
 }
 

@@ -1,6 +1,7 @@
 // Data that cannot be what they claim to be: told before a fit makes numbers of them.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,11 +27,13 @@ void require_one_setup(const Dataset& dataset, const std::string& what);
 std::string strange_modulus(const Model& model);
 
 // Regions that have a modulus but no place, so that it acts nowhere: no key point (effect regions)
-// is of them.
-std::vector<int> idle_regions(const Model& model);
+// is of them, or, of a model without key points, no tetrahedron of the bodies.
+std::vector<int> idle_regions(const Model& model, std::span<const TetMesh> bodies);
 
-// What is to be said of a model that was read: its fit was ended early, or a modulus acts nowhere;
-// a line each, beginning with the file's name.
+// What is to be said of a model that was read: its fit was ended early; a line each, beginning with
+// the file's name.
 std::vector<std::string> doubts_of(const Model& model);
+// The same of a model on its bodies: a modulus acts nowhere.
+std::vector<std::string> doubts_of(const Model& model, std::span<const TetMesh> bodies);
 
 }  // namespace hapsim

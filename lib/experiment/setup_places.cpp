@@ -2,16 +2,17 @@
 
 #include "base/error.h"
 #include "contact/contact_cache.h"
+#include "experiment/labels.h"
 #include "experiment/nearest_region.h"
 #include "mesh/between_plates.h"
 
 namespace hapsim {
-namespace {
 
 // The regions and the kinds of features: what must be the same for one solution to be extrapolated
 // to another material.
-ContentHash layout(const MaterialSpec& material) {
+ContentHash SetupPlaces::layout(const MaterialSpec& material) const {
   ContentHash hash;
+  if (labels_of(material)) hash.add("labels " + library_->labels_key());
   for (std::size_t k = 0; k < material.key_point.size(); ++k) {
     hash.add(material.key_point[k].x());
     hash.add(material.key_point[k].y());
@@ -22,7 +23,7 @@ ContentHash layout(const MaterialSpec& material) {
 }
 
 // All of the material but a common factor of its moduli, which needs no solution.
-std::string content(const MaterialSpec& material) {
+std::string SetupPlaces::content(const MaterialSpec& material) const {
   ContentHash hash = layout(material);
   hash.add(material.nu);
   for (const double modulus : material.modulus) hash.add(modulus / material.modulus[0]);
@@ -30,8 +31,6 @@ std::string content(const MaterialSpec& material) {
     for (const double value : f.feature.value) hash.add(value);
   return hash.hex();
 }
-
-}  // namespace
 
 bool has_moved(const MaterialSpec& material) {
   return material.shift != Vec3::Zero() || material.rotation != Vec3::Zero();
@@ -44,13 +43,27 @@ MaterialSpec in_place(const MaterialSpec& material) {
   return result;
 }
 
-bool has_regions(const MaterialSpec& material) {
+namespace {
+
+bool has_key_regions(const MaterialSpec& material) {
   return !material.key_point.empty() && material.modulus.size() > 1 && !material.local;
 }
 
-bool same_regions(const MaterialSpec& a, const MaterialSpec& b) {
-  if (has_regions(a) != has_regions(b)) return false;
-  if (!has_regions(a)) return true;
+}  // namespace
+
+std::shared_ptr<const BodyRegions> SetupPlaces::labels_of(const MaterialSpec& material) const {
+  return acting_labels(material, library_->labels());
+}
+
+bool SetupPlaces::has_regions(const MaterialSpec& material) const {
+  return has_key_regions(material) || labels_of(material) != nullptr;
+}
+
+bool SetupPlaces::same_regions(const MaterialSpec& a, const MaterialSpec& b) const {
+  if (labels_of(a) || labels_of(b))
+    return labels_of(a) == labels_of(b) && a.modulus.size() == b.modulus.size();
+  if (has_key_regions(a) != has_key_regions(b)) return false;
+  if (!has_key_regions(a)) return true;
   if (a.key_region != b.key_region || a.key_point.size() != b.key_point.size()) return false;
   for (std::size_t k = 0; k < a.key_point.size(); ++k)
     if (a.key_point[k].head<2>() != b.key_point[k].head<2>()) return false;
@@ -61,8 +74,8 @@ namespace {
 
 std::size_t held_bytes(const MaterialSpec& m) {
   std::size_t sum = hapsim::held_bytes(m.modulus) + hapsim::held_bytes(m.modulus_column) +
-                    hapsim::held_bytes(m.key_point) + hapsim::held_bytes(m.key_region) +
-                    m.features.capacity() * sizeof(FeatureSpec);
+                    hapsim::held_bytes(m.given) + hapsim::held_bytes(m.key_point) +
+                    hapsim::held_bytes(m.key_region) + m.features.capacity() * sizeof(FeatureSpec);
   for (const FeatureSpec& f : m.features)
     sum += hapsim::held_bytes(f.feature.value) + hapsim::held_bytes(f.column);
   return sum;
@@ -170,21 +183,17 @@ std::shared_ptr<const SetupPlaces> SetupPlaces::before_move(const MaterialSpec& 
   }));
 }
 
-namespace {
-
-// The material as elements have it, its moduli over that of region 0. Refers to `material`.
-Material of_elements(const MaterialSpec& material) {
+Material SetupPlaces::of_elements(const MaterialSpec& material) const {
   Material m;
   m.nu = material.nu;
   m.modulus.clear();
   for (const double modulus : material.modulus) m.modulus.push_back(modulus / material.modulus[0]);
-  if (has_regions(material))
+  m.labels = labels_of(material);
+  if (has_key_regions(material))
     m.group_of = [&material](const Vec3& p) { return region_at(material, p); };
   for (const FeatureSpec& f : material.features) m.features.push_back(f.feature);
   return m;
 }
-
-}  // namespace
 
 std::shared_ptr<const SolvedPlaces> SetupPlaces::solve(const MaterialSpec& material) const {
   return kept<SolvedPlaces>(content(material), [&] {
@@ -243,6 +252,13 @@ std::shared_ptr<const MarkerPlaces> SetupPlaces::markers(const MaterialSpec& mat
 }
 
 std::shared_ptr<const RegionShares> SetupPlaces::shares(const MaterialSpec& material) const {
+  if (const auto labels = labels_of(material))
+    return kept<RegionShares>(layout(material).hex(), [&] {
+      auto shares = std::make_shared<RegionShares>();
+      for (const auto& estimate : *estimates())
+        shares->push_back(estimate->shares(*labels, material.modulus.size()));
+      return shares;
+    });
   return kept<RegionShares>(layout(material).hex(), [&] {
     const PlanGrid grid = library_->grid();
     std::vector<int> region(static_cast<std::size_t>(grid.columns) * grid.rows);

@@ -81,6 +81,12 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
   const std::vector<PreparedContact>& contacts() const { return prepared_->contacts; }
   const std::vector<Vec3>& positions() const { return prepared_->positions; }
   ToolStand stand(std::size_t place) const;
+  const std::shared_ptr<const BodyRegions>& labels() const { return library_->labels(); }
+  // The body's labels where they are the material's regions, else null (acting_labels()).
+  std::shared_ptr<const BodyRegions> labels_of(const MaterialSpec& material) const;
+  // Several moduli, each in its region of the body.
+  bool has_regions(const MaterialSpec& material) const;
+  bool same_regions(const MaterialSpec& a, const MaterialSpec& b) const;
   const Surface& surface() const { return library_->surface(); }
   PlanGrid grid() const { return library_->grid(); }  // of the contacts' plan_share
   // The move that the contact points' distances from the surface show.
@@ -91,6 +97,10 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
               std::shared_ptr<const PreparedPlaces> prepared, double nu_low, double nu_high);
   std::shared_ptr<const SetupPlaces> of(std::shared_ptr<const PreparedPlaces> prepared) const;
   std::shared_ptr<const PreparedPlaces> prepare_at(const std::vector<Vec3>& positions) const;
+  // The material as elements have it, its moduli over that of region 0. Refers to `material`.
+  Material of_elements(const MaterialSpec& material) const;
+  ContentHash layout(const MaterialSpec& material) const;
+  std::string content(const MaterialSpec& material) const;
   // The value of that type for these places and what `about` says; made where it is not kept.
   template <class Value, class Make>
   std::shared_ptr<const Value> kept(const std::string& about, const Make& make) const;
@@ -104,8 +114,5 @@ class SetupPlaces : public std::enable_shared_from_this<SetupPlaces> {
 bool has_moved(const MaterialSpec& material);
 // The material as it is on the body that has not moved.
 MaterialSpec in_place(const MaterialSpec& material);
-// Several moduli, each in its region of the body.
-bool has_regions(const MaterialSpec& material);
-bool same_regions(const MaterialSpec& a, const MaterialSpec& b);
 
 }  // namespace hapsim

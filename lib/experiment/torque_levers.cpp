@@ -24,7 +24,7 @@ TorqueLevers::TorqueLevers(const Places& places, const MaterialSpec& material, b
     OfSetup setup;
     setup.solved = places.setup(s)->before_move(material)->torques(in_place(material), regions);
     const std::vector<double>& nu = setup.solved->nu;
-    const bool apart = regions && has_regions(material);
+    const bool apart = regions && places.setup(s)->has_regions(material);
     for (std::size_t p = 0; !apart && p < places.setup(s)->positions().size(); ++p) {
       setup.K.emplace_back();
       setup.T.emplace_back();

@@ -11,7 +11,7 @@ namespace hapsim {
 
 struct ExtendOptions {
   int terms = 1;                    // of effects with terms
-  int regions = kAutomaticRegions;  // or a number, or kEverySite
+  int regions = kAutomaticRegions;  // or a number, kEverySite or kByLabel
   double noise = 1;                 // [N]
   double floor = 0;
 };

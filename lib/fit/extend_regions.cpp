@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
+#include "base/error.h"
 #include "effects/catalogue.h"
 #include "model/body_parameters.h"
 #include "regions/region_boundary.h"
@@ -45,6 +47,34 @@ std::optional<Model> with_boundary(const Model& fitted, const RegionBoundary& bo
   return model;
 }
 
+// One modulus for each number of the bodies' tetrahedra, all alike; what no tetrahedron is of is
+// not fitted.
+Model with_body_labels(const Fit& base, const Experiment& experiment) {
+  std::set<int> numbers;
+  for (std::size_t s = 0; s < experiment.places.setups(); ++s)
+    if (const auto& labels = experiment.places.setup(s)->labels())
+      numbers.insert(labels->numbers().begin(), labels->numbers().end());
+    else
+      numbers.insert(0);
+  if (numbers == std::set<int>{0})
+    fail_input("", "all tetrahedra of the body are of region 0",
+               "number them (hs-tetmesh --region tumour.stl), or leave out --regions labels");
+  Model model = base.model;
+  const Parameter modulus = *modulus_of(model);
+  for (const int region : numbers) {
+    if (modulus_of(model, region) != nullptr) continue;
+    Parameter added = modulus;
+    added.region = region;
+    const auto last = std::find_if(model.parameters.rbegin(), model.parameters.rend(), is_modulus);
+    model.parameters.insert(last.base(), added);
+  }
+  if (numbers.count(0) == 0) modulus_of(model)->state = ParameterState::kFixed;
+  if (model.has(map_effect().card().name))
+    fail_usage("the model has regions in plan view already, beside which labels do not act",
+               "remove them first (--remove " + map_effect().card().name + ")");
+  return model;
+}
+
 }  // namespace
 
 Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
@@ -69,6 +99,10 @@ Model with_moduli(const Model& fitted, const std::vector<double>& log_gain) {
 
 Model with_regions(const Fit& base, const Experiment& experiment, const Selection& selection,
                    const ExtendOptions& options) {
+  if (options.regions == kByLabel) return with_body_labels(base, experiment);
+  if (experiment.places.has_labels(material_of(base.model)))
+    fail_usage("the model has regions that are the body's own, beside which none in plan view act",
+               "take E of all regions but 0 out of the model first");
   constexpr int kMost = 8;  // groups tried; the criterion decides how many there are
   const auto samples = merged_places(location_samples(base.model, experiment, base.about, selection,
                                                       {options.noise, options.floor}));

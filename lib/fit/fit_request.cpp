@@ -15,9 +15,11 @@ namespace hapsim {
 int parse_regions(const std::string& text, const std::string& option) {
   if (text == "auto") return kAutomaticRegions;
   if (text == "sites") return kEverySite;
+  if (text == "labels") return kByLabel;
   double number = 0;
   if (!parse_number(text, number) || number < 1 || number != std::floor(number) || number > 10000)
-    fail_usage(option + " " + text + " is not a number of regions", "give 2, auto or sites");
+    fail_usage(option + " " + text + " is not a number of regions",
+               "give 2, auto, sites or labels");
   return static_cast<int>(number);
 }
 

@@ -12,7 +12,8 @@
 
 namespace hapsim {
 
-// "2", "auto" or "sites" as ExtendOptions::regions. Error(kUsage) beginning with `option`.
+// "2", "auto", "sites" or "labels" as ExtendOptions::regions. Error(kUsage) beginning with
+// `option`.
 int parse_regions(const std::string& text, const std::string& option);
 
 struct TermsRequest {

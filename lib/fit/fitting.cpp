@@ -87,7 +87,8 @@ Fitting::Fitting(const Model& start, const Experiment& experiment, const Selecti
                            model_forces(start, experiment, result_.about, selection, false).f,
                            options.noise, options.floor);
   // What is not solved for is estimated, over the whole range.
-  is_linearised_ = is_linearised(asked, options.exact_regions) &&
+  is_linearised_ = (is_linearised(asked, options.exact_regions) ||
+                    (options.exact_regions && experiment.places.has_labels(asked))) &&
                    (options.rounds > 0 || result_.about.is_solved_for(asked));
   if (options.watch) search_.watch = [this](double sum) { return go_on(sum); };
   // Steps of a linearised body have a reach, within which the constraints are to have a point.

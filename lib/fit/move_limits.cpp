@@ -15,7 +15,9 @@ bool is_linear_in(const Parameter& p) {
   const EffectCard& card = require_effect(p.effect).card();
   if (card.stage != Stage::kBody && card.stage != Stage::kSupport) return false;
   if (is_modulus(p)) return p.region > 0;
-  return is_poissons_ratio(p) || card.solved;
+  const bool of_region = std::any_of(card.of_region.begin(), card.of_region.end(),
+                                     [&](const ParameterCard& c) { return c.name == p.name; });
+  return is_poissons_ratio(p) || card.solved || of_region;
 }
 
 }  // namespace

@@ -105,12 +105,16 @@ std::string mended_words(const MeshRepairs& r) {
       r.unused_nodes, r.doubled, r.turned);
 }
 
-Surface read_outside(Input& input) {
+Surface read_outside(Input& input, std::optional<TetMesh>* mesh) {
   const std::string bytes = input.read_all();
   const Recognised found = recognise(bytes);
   require_body(bytes, input.name(), found);
-  if (found.content == Content::kTetrahedra)
-    return boundary_surface(parse_mesh(bytes, input.name(), false).mesh);
+  if (found.content == Content::kTetrahedra) {
+    MeshFile file = parse_mesh(bytes, input.name(), false);
+    Surface outside = boundary_surface(file.mesh);
+    if (mesh != nullptr) *mesh = std::move(file.mesh);
+    return outside;
+  }
   return parse_surface(bytes, input.name());
 }
 

@@ -34,7 +34,8 @@ void put_on_base(Support& support, const BodyInput& body);
 // What was dropped or turned while reading, in a sentence; "" where nothing was.
 std::string mended_words(const MeshRepairs& repairs);
 
-// The surface, or the boundary of the mesh, which need not be held. Errors as above.
-Surface read_outside(Input& input);
+// The surface, or the boundary of the mesh, which need not be held; `mesh`, where not null, becomes
+// that mesh. Errors as above.
+Surface read_outside(Input& input, std::optional<TetMesh>* mesh = nullptr);
 
 }  // namespace hapsim

@@ -5,6 +5,7 @@ namespace hapsim {
 std::size_t feature_size(Feature kind) {
   switch (kind) {
     case Feature::kLayer:
+    case Feature::kGrowth:
       return 2;
     case Feature::kInclusion:
       return 5;

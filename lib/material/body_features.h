@@ -24,6 +24,9 @@ enum class Feature {
   // A tension of the free surface before the press, the same along every direction of it: over the
   // body's modulus (of region 0) [m].
   kTension,
+  // A region of the body's numbered tetrahedra whose boundary lies further out: its number, by how
+  // much along the boundary's normals [m].
+  kGrowth,
 };
 
 struct BodyFeature {

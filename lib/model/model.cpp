@@ -60,6 +60,8 @@ const ParameterCard* parameter_card(const Effect& effect, const std::string& nam
     const auto [stem, term] = split_term(name);
     if (term > 0 && split_term(p.name).first == stem) return &p;
   }
+  for (const ParameterCard& p : effect.card().of_region)
+    if (p.name == name) return &p;
   return nullptr;
 }
 

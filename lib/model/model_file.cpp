@@ -45,9 +45,14 @@ void check_row(const Parameter& p, const std::string& where) {
   if (card == nullptr) {
     std::string all;
     for (const ParameterCard& c : effect->card().parameters) all += " " + c.name;
+    for (const ParameterCard& c : effect->card().of_region) all += " " + c.name;
     fail_input(where, fmt::format("effect {} has no parameter '{}'", p.effect, p.name),
                "its parameters are" + all);
   }
+  for (const ParameterCard& c : effect->card().of_region)
+    if (&c == card && p.region == 0)
+      fail_input(where, fmt::format("{} {} is of a region above 0", p.effect, p.name),
+                 "give the row the region's number, or take it out");
   if (p.unit != card->unit)
     fail_input(where, fmt::format("{} {} is in '{}'", p.effect, p.name, p.unit),
                "give it in " + card->unit);

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "effects/catalogue.h"
+#include "experiment/labels.h"
 #include "experiment/weights.h"
 #include "io/number.h"
 #include "plan/press_depths.h"
@@ -107,6 +108,7 @@ Candidates make_candidates(const std::vector<Model>& models, const Experiment& e
                   std::accumulate(known.recording.temp.begin(), known.recording.temp.end(), 0.0) /
                       static_cast<double>(known.recording.temp.size()));
   candidates.dataset = on_body(make_dataset(std::move(r)), stands);
+  candidates.dataset.label = labels_at(candidates.places->labels(), candidates.dataset.positions);
   std::vector<double> past(positions.size(), 0);
   const bool pressed_first = asked.places.empty() || asked.pressed_places;
   for (const Episode& press : known.episodes)

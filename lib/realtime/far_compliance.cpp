@@ -20,7 +20,7 @@ std::vector<Lame> constants_of(const TetMesh& mesh, const Material& material) {
   for (const auto& n : mesh.tets) {
     const Vec3 centre =
         (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-    const double E = material.modulus[material.group_of ? material.group_of(centre) : 0];
+    const double E = material.modulus[material.group_at(centre)];
     constants.push_back({E * unit.lambda, E * unit.mu});
   }
   return constants;
@@ -52,8 +52,7 @@ FarCompliance::FarCompliance(const ContactBase& base, double tool_radius, const 
   std::vector<double> root;  // of the modulus
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     normals_[i].normalize();
-    root.push_back(
-        std::sqrt(material.modulus[material.group_of ? material.group_of(corners_[i]) : 0]));
+    root.push_back(std::sqrt(material.modulus[material.group_at(corners_[i])]));
   }
   const auto count = static_cast<Eigen::Index>(corners_.size());
   beyond_.setZero(3 * count, 3 * count);

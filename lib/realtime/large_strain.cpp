@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/random.h"
+#include "experiment/labels.h"
 #include "io/stream.h"
 #include "mesh/way_through.h"
 
@@ -98,6 +99,7 @@ LargeStrain::LargeStrain(const TetMesh& body, const Model& model, const Stiffnes
     key.add(p.region);
     key.add(p.value);
   }
+  if (acting_labels(material_of(model_), body)) key.add("labels " + labels_key(body));
   key.add(options_.tool_radius);
   key_ = key.hex();
 

@@ -6,13 +6,14 @@
 namespace hapsim {
 
 PlaceFacts::PlaceFacts(const StiffnessField& field, const MaterialSpec& material,
-                       const std::vector<KnownStiffness>& known)
+                       const BodyRegions* labels, const std::vector<KnownStiffness>& known)
     : field_(field), nu_(material.nu) {
-  for (const FieldEntry& entry : field.entries())
-    modulus_.push_back(
-        material.local
-            ? local_modulus(material, entry.point).value
-            : material.modulus[static_cast<std::size_t>(region_at(material, entry.point))]);
+  for (const FieldEntry& entry : field.entries()) {
+    const int region =
+        labels != nullptr ? labels->at(entry.point) : region_at(material, entry.point);
+    modulus_.push_back(material.local ? local_modulus(material, entry.point).value
+                                      : material.modulus[static_cast<std::size_t>(region)]);
+  }
   for (const KnownStiffness& k : known) known_.emplace_back(k.point, k.normal);
 }
 

@@ -5,13 +5,15 @@
 
 #include "effects/effect_step.h"
 #include "realtime/stiffness_field.h"
+#include "solid/body_regions.h"
 
 namespace hapsim {
 
 class PlaceFacts {
  public:
-  // `known`: contacts that are known finely, of which each has its own normal. Keeps `field`.
-  PlaceFacts(const StiffnessField& field, const MaterialSpec& material,
+  // `labels`: where they are the material's regions, else null. `known`: contacts that are known
+  // finely, of which each has its own normal. Keeps `field`.
+  PlaceFacts(const StiffnessField& field, const MaterialSpec& material, const BodyRegions* labels,
              const std::vector<KnownStiffness>& known);
 
   // The place at a point of a face, where the surface has this normal; no table search, so it

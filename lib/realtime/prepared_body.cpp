@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "experiment/forces.h"
+#include "experiment/labels.h"
 #include "experiment/nearest_region.h"
 #include "io/stream.h"
 #include "simulate/regional_relaxation.h"
@@ -37,13 +38,28 @@ bool is_unit(const MaterialSpec& material) {
   return material.local || material.modulus.size() == 1;
 }
 
+// A body's own regions; null where none acts.
+struct ActingLabels {
+  std::shared_ptr<const BodyRegions> regions;
+  std::string key;
+};
+
 // Its moduli over the first, or the unit material.
-SampledMaterial sampled(const MaterialSpec& material) {
+SampledMaterial sampled(const MaterialSpec& material, const ActingLabels& labels) {
   SampledMaterial result;
   result.field.nu = result.solid.nu = material.nu;
   if (is_unit(material)) {
     result.field.modulus = [](const Vec3&) { return 1.0; };
     result.solid.modulus = {1.0};
+  } else if (labels.regions) {
+    result.solid.modulus.clear();
+    for (const double modulus : material.modulus)
+      result.solid.modulus.push_back(modulus / material.modulus[0]);
+    result.solid.labels = labels.regions;
+    result.field.modulus = [solid = result.solid](const Vec3& p) {
+      return solid.modulus[solid.group_at(p)];
+    };
+    result.description = "labels " + labels.key;
   } else {
     result.solid.modulus.clear();
     for (const double modulus : material.modulus)
@@ -135,7 +151,9 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     fail_input(model.name, "regions that relax each in its own way remember the linear force alone",
                "give all regions the Maxwell elements of region 0, or leave out --large-strain");
   terms_ = relaxation.common;
-  const SampledMaterial solid = sampled(material);
+  ActingLabels labels{acting_labels(material, body), ""};
+  if (labels.regions) labels.key = labels_key(body);
+  const SampledMaterial solid = sampled(material, labels);
   std::vector<KnownStiffness> known =
       options.contacts ? options.contacts(material) : std::vector<KnownStiffness>{};
   for (KnownStiffness& k : known) k.K /= scale_at(material, k.point);
@@ -159,9 +177,11 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
     store_field(path, *field_);
   }
   field_->scale([&](const Vec3& p) { return scale_at(material, p); });
-  facts_ = std::make_unique<PlaceFacts>(*field_, material, known);
+  facts_ = std::make_unique<PlaceFacts>(*field_, material, labels.regions.get(), known);
   if (!relaxation.regional.empty())
-    prepare_regional(relaxation.regional, material, *sampling, options);
+    prepare_regional(
+        relaxation.regional, material, *sampling,
+        [&labels](const MaterialSpec& m) { return sampled(m, labels); }, options);
   if (is_regional() && terms_.size() > static_cast<std::size_t>(kMostTerms))
     fail_input(model.name, "the model has " + std::to_string(terms_.size()) + " relaxation times",
                "the real-time loop takes up to " + std::to_string(kMostTerms));
@@ -179,9 +199,11 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
   large_strain_ = std::make_unique<LargeStrain>(body, model, *field_, *distance_, *facts_, strain);
 }
 
-void PreparedBody::prepare_regional(const std::vector<RegionRelaxation>& regions,
-                                    const MaterialSpec& relaxed, const FieldSampling& sampling,
-                                    const PreparedBodyOptions& options) {
+void PreparedBody::prepare_regional(
+    const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
+    const FieldSampling& sampling,
+    const std::function<SampledMaterial(const MaterialSpec&)>& sampled,
+    const PreparedBodyOptions& options) {
   assert(terms_.empty());  // an effect's terms are common or regional
   const std::vector<FieldEntry>& entries = field_->entries();
   const auto estimate = [&](const MaterialSpec& material) {

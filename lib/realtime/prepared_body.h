@@ -68,7 +68,9 @@ class PreparedBody {
 
  private:
   void prepare_regional(const std::vector<RegionRelaxation>& regions, const MaterialSpec& relaxed,
-                        const FieldSampling& sampling, const PreparedBodyOptions& options);
+                        const FieldSampling& sampling,
+                        const std::function<SampledMaterial(const MaterialSpec&)>& sampled,
+                        const PreparedBodyOptions& options);
 
   std::vector<EffectInstance> effects_;
   double tool_radius_ = 0, modulus_ = 0;

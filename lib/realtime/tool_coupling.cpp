@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "contact/feature_zone.h"
 #include "experiment/forces.h"
+#include "experiment/labels.h"
 #include "experiment/nearest_region.h"
 #include "realtime/half_space_surface.h"
 #include "realtime/insert_vertex.h"
@@ -45,20 +46,16 @@ TetMesh condensed_mesh(const TetMesh& body, bool second_order) {
   return to_second_order(corners);
 }
 
-Vec3 centre_of(const TetMesh& mesh, std::size_t tet) {
-  const auto& n = mesh.tets[tet];
-  return (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-}
-
-double region_modulus(const MaterialSpec& material, const Vec3& p) {
-  return material.modulus[static_cast<std::size_t>(region_at(material, p))];
+double region_modulus(const MaterialSpec& material, const BodyRegions* labels, const Vec3& p) {
+  const int region = labels != nullptr ? labels->at(p) : region_at(material, p);
+  return material.modulus[static_cast<std::size_t>(region)];
 }
 
 std::vector<Lame> constants_of(const TetMesh& mesh, const MaterialSpec& material, bool apart) {
   std::vector<double> modulus(mesh.tets.size(), 1.0);
   if (!apart)
     for (std::size_t t = 0; t < modulus.size(); ++t)
-      modulus[t] = region_modulus(material, centre_of(mesh, t));
+      modulus[t] = material.modulus[static_cast<std::size_t>(region_of_tet(material, mesh, t))];
   std::shared_ptr<const SurfaceTree> outside;
   for (const FeatureSpec& f : material.features) {
     if (!outside) outside = free_surface(make_contact_base(mesh));
@@ -113,8 +110,9 @@ ToolCoupling::ToolCoupling(const TetMesh& body, const Model& model, double tool_
   surface_ = std::make_unique<SignedDistance>(boundary_surface(mesh, &node), "body");
   const Surface& surface = surface_->surface();
   const std::size_t count = node.size();
+  const auto labels = apart_ ? nullptr : acting_labels(material, mesh);
   for (const int n : node)
-    corner_modulus_.push_back(apart_ ? 1 : region_modulus(material, mesh.nodes[n]));
+    corner_modulus_.push_back(apart_ ? 1 : region_modulus(material, labels.get(), mesh.nodes[n]));
   const auto size = 3 * static_cast<Eigen::Index>(count);
   beyond_.setZero(size, size);
   const auto block = [&](std::size_t i, std::size_t j) {

@@ -36,5 +36,6 @@ RegionLabels region_labels(const std::vector<LocationSample>& samples, int count
 double labels_criterion(const std::vector<LocationSample>& samples, const std::vector<int>& label);
 constexpr int kAutomaticRegions = 0;
 constexpr int kEverySite = -1;
+constexpr int kByLabel = -2;  // those of the body's numbered tetrahedra
 
 }  // namespace hapsim

@@ -9,12 +9,13 @@
 #include <memory>
 
 #include "base/error.h"
+#include "contact/element_groups.h"
 #include "contact/feature_zone.h"
 #include "contact/support_springs.h"
 #include "effects/effect.h"
 #include "experiment/dataset.h"
 #include "experiment/forces.h"
-#include "experiment/nearest_region.h"
+#include "experiment/labels.h"
 #include "io/number.h"
 #include "material/hooke_law.h"
 #include "material/hyperelastic_law.h"
@@ -79,6 +80,7 @@ class Simulation {
       if (f.feature.kind == Feature::kTransverse && spec_.finite)
         fail_input(model.name, "finite strain of a transversely isotropic body is not in the model",
                    "take hyperelastic or anisotropic out");
+    labels_ = acting_labels(material_, body);
     base_ = options.base != nullptr ? *options.base : make_contact_base(body);
     surface_ = free_surface(base_);
   }
@@ -208,10 +210,7 @@ class Simulation {
                                ? transverse_body_law(E, material_.nu, transverse->value)
                                : isotropic_law(E, material_.nu));
     }
-    for (const auto& n : mesh.tets)
-      model.law_of_tet.push_back(region_at(
-          material_,
-          (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4));
+    place_regions(mesh, model);
     if (options_.averaged)
       model.dilatation = mesh.order == 2 ? Dilatation::kElement : Dilatation::kPatch;
     for (const FeatureSpec& f : material_.features) {
@@ -232,6 +231,28 @@ class Simulation {
             {face.nodes, material_.modulus[0] * face.spring * face.matrix});
     }
     return model;
+  }
+
+  // On a mesh of its own an element at the boundary of a label is of the mixture of its moduli.
+  void place_regions(const TetMesh& mesh, BodyModel& model) const {
+    if (&mesh == &body_ || !labels_) {
+      for (const FeatureSpec& f : material_.features)
+        if (f.feature.kind == Feature::kGrowth)
+          fail_input("", "a region that has grown is not that of the body's own mesh",
+                     "take its growth out, or press with one tool and without --own-mesh");
+      for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        model.law_of_tet.push_back(region_of_tet(material_, mesh, t));
+      return;
+    }
+    Material by_label;
+    by_label.labels = labels_;
+    for (const FeatureSpec& f : material_.features) by_label.features.push_back(f.feature);
+    const ElementGroups groups(mesh, by_label);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const std::size_t group = groups.main_group(t);
+      model.law_of_tet.push_back(static_cast<int>(group));
+      model.scale.push_back(groups.modulus(t, material_.modulus) / material_.modulus[group]);
+    }
   }
 
   // The press of one tool as effects see it.
@@ -323,6 +344,7 @@ class Simulation {
   std::vector<EffectInstance> around_;  // effects on the motion and of the sensor
   ContactBase base_;
   std::shared_ptr<const SurfaceTree> surface_;
+  std::shared_ptr<const BodyRegions> labels_;  // where they act
   std::unique_ptr<Session> session_;
   FullResult result_;
 };

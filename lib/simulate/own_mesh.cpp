@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "experiment/forces.h"
+#include "experiment/labels.h"
 #include "experiment/nearest_region.h"
 #include "formats/field_vtu.h"
 #include "material/maxwell_memory.h"
@@ -26,12 +27,11 @@ MaterialSpec checked_material(const Model& model) {
 std::vector<Lame> constants(const TetMesh& mesh, const MaterialSpec& material) {
   const Lame unit = lame(1, material.nu);
   std::vector<Lame> result;
-  for (const auto& t : mesh.tets) {
-    const Vec3 centre =
-        (mesh.nodes[t[0]] + mesh.nodes[t[1]] + mesh.nodes[t[2]] + mesh.nodes[t[3]]) / 4;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const double modulus =
-        material.local ? 1
-                       : material.modulus[static_cast<std::size_t>(region_at(material, centre))];
+        material.local
+            ? 1
+            : material.modulus[static_cast<std::size_t>(region_of_tet(material, mesh, t))];
     result.push_back({modulus * unit.lambda, modulus * unit.mu});
   }
   return result;
@@ -107,6 +107,12 @@ std::vector<ToolStand> OwnMesh::stands() const {
   for (const MeshPatch& p : press_.patches())
     result.push_back({p.normal, height_between_plates(surface, p.point, p.normal, tool_radius_)});
   return result;
+}
+
+std::vector<int> OwnMesh::labels() const {
+  std::vector<Vec3> points;
+  for (const MeshPatch& p : press_.patches()) points.push_back(p.point);
+  return labels_at(BodyRegions::of(mesh_), points);
 }
 
 std::size_t OwnMesh::patch_size(std::size_t position) const {

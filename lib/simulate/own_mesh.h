@@ -24,6 +24,8 @@ class OwnMesh {
   const PositionStiffness& at(std::size_t position) const { return stiffness_[position]; }
   bool is_regional() const { return !stiffness_.empty() && !stiffness_[0].relaxing.empty(); }
   std::vector<ToolStand> stands() const;
+  // Of the body's tetrahedra, by position; empty: all 0 (Dataset::label).
+  std::vector<int> labels() const;
   const SolverChoice& solver() const { return press_.solver(); }
   int iterations() const { return press_.iterations(); }
   std::size_t patch_size(std::size_t position) const;  // nodes that move with the tool

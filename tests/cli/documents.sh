@@ -130,6 +130,7 @@ awk 'BEGIN { print "OFF"; print 8, 12, 0
   for (i = 0; i < 8; ++i) print 0.02 + (i % 2) * 0.02, 0.015 + (int(i / 2) % 2) * 0.02, 0.01 + (i >= 4) * 0.02
   split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ","); for (i = 1; i <= 12; ++i) print 3, f[i] }' >inner.off
 quiet hs-reconstruct inner.off -o tumour.stl
+quiet hs-tetmesh surface.off --region tumour.stl -o parts.ply
 awk '/^OFF/ { print; next } NF == 3 && n++ { print 1000 * $1, 1000 * $2, 1000 * $3; next } { print }' ../box.off >part.stl # told by content
 cp damaged.off damaged.stl
 quiet hs-tetmesh surface.off --edge 12mm -o other.msh

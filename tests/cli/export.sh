@@ -82,7 +82,11 @@ for format in vtu gmsh calculix febio sofa; do
     complain "$format gives the same forces"
   cmp -s <(regions parts.ply) <(regions back.$format) || complain "$format keeps the body's regions"
 done
-grep -q 'elastic E of region 1 acts nowhere' <("$bin/hs-export" two.csv --format vtu --body parts.ply 2>&1 >/dev/null) ||
+# E of a number acts where the tetrahedra have it; of no number nowhere.
+"$bin/hs-export" two.csv --format calculix --body parts.ply | grep -A1 '^\*ELASTIC' | grep -c '^[12]\.0*e+04, 4\.0*e-01' | grep -q '^2$' ||
+  complain 'both moduli are in the deck'
+grep -q 'acts nowhere' <("$bin/hs-export" two.csv --format vtu --body parts.ply 2>&1 >/dev/null) && complain 'both moduli act'
+grep -q 'elastic E of region 1 acts nowhere' <("$bin/hs-export" two.csv --format vtu --body body.ply 2>&1 >/dev/null) ||
   complain 'a modulus without a place is told'
 { echo '# converged: no'; echo "$elastic"; } >early.csv
 grep -q 'before it converged' <("$bin/hs-export" early.csv --format vtu --body parts.ply 2>&1 >/dev/null) ||

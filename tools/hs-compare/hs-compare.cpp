@@ -42,7 +42,8 @@ std::vector<SimulatedVersion> read_versions(const Arguments& arguments, const Re
 }
 
 // What the report tells beside the forces, read from the files that were given.
-ReportExtras read_extras(const Arguments& arguments) {
+ReportExtras read_extras(const Arguments& arguments,
+                         const std::shared_ptr<const BodyRegions>& labels) {
   ReportExtras extras;
   extras.program = version();
   extras.flags = live_flag_meanings();
@@ -61,6 +62,7 @@ ReportExtras read_extras(const Arguments& arguments) {
     Input input(arguments[flag::model]);
     extras.model = read_model(input);
   }
+  extras.labels = labels;
   for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::history})
     if (arguments.given(flag)) extras.files.emplace_back(flag.name + 2, arguments.text(flag));
   for (const std::string& diagnosis : arguments.list(flag::diagnosis))
@@ -110,11 +112,15 @@ int run(const Arguments& arguments) {
   }
 
   ErrorMap map;
+  std::shared_ptr<const BodyRegions> labels;
   if (arguments.given(flag::body)) {
     std::vector<double> error;
     for (const BinError& e : c.by_position().errors) error.push_back(e.rmse);
     Input body(arguments[flag::body]);
-    map = map_error(read_outside(body), c.facts.positions, error,
+    std::optional<TetMesh> inside;
+    const Surface outside = read_outside(body, &inside);
+    if (inside) labels = BodyRegions::of(*inside);
+    map = map_error(outside, c.facts.positions, error,
                     arguments.given(flag::reach) ? arguments[flag::reach] : 0);
   }
 
@@ -125,7 +131,8 @@ int run(const Arguments& arguments) {
     return outputs.back()->stream();
   };
   if (arguments.given(flag::html) || arguments.given(flag::figures)) {
-    const Report report = comparison_report(measured, versions, c, map, read_extras(arguments));
+    const Report report =
+        comparison_report(measured, versions, c, map, read_extras(arguments, labels));
     if (arguments.given(flag::html)) write_report(open(arguments[flag::html]), report);
     if (arguments.given(flag::figures))
       for (const auto& [name, text] : report_figures(report))

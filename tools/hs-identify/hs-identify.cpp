@@ -112,6 +112,8 @@ int run(const Arguments& arguments) {
     fail_usage("--markers is of one recording", "fit each recording by itself, or without points");
   RestOfPress rest(arguments, given);
   const TetMesh& body = given.bodies.front();
+  for (const std::string& words : doubts_of(plan.start, given.bodies))
+    say(arguments, "hs-identify", words);
   const std::unique_ptr<LibraryUse> library =
       asked_library(arguments, given.dataset.recording, body);
   set_poisson_range(plan, options);

@@ -216,9 +216,12 @@ inline ToolSpec identify_specification() {
        .repeatable = true},
       {.flag = flag::regions,
        .value = "N",
-       .help = "Number of regions when regions is added: a number, auto (what the positions' own "
-               "moduli ask for; two with a straight, round or other smooth boundary unless more "
-               "are told clearly) or sites (each position its own stiffness).",
+       .help =
+           "Number of regions when regions is added: a number, auto (what the positions' own "
+           "moduli ask for; two with a straight, round or other smooth boundary unless more "
+           "are told clearly), sites (each position its own stiffness) or labels (those that the "
+           "body's tetrahedra are numbered with, hs-tetmesh --region, each with its own E; the "
+           "model then has no key points).",
        .group = "Model",
        .default_text = "auto"},
       until_flag(),
@@ -343,6 +346,9 @@ inline ToolSpec identify_specification() {
        "Learns from the first 4 s of each press and predicts the rest."},
       {"hs-identify data.csv --body body.ply --fix nu=0.45 --add regions --regions sites -o m.csv",
        "Gives each pressed position its own stiffness."},
+      {"hs-identify data.csv --body parts.ply --fix nu=0.45 --add regions --regions labels -o "
+       "m.csv",
+       "Finds the modulus of each closed region that hs-tetmesh --region has put into the body."},
       {"hs-simulate motion.csv --body body.ply --model m.csv | hs-identify - --body body.ply "
        "--acfm "
        "2 -o acfm.csv",

@@ -47,8 +47,9 @@ class RestOfPress {
       if (std::none_of(experiment.unfit.begin(), experiment.unfit.end(),
                        [&](const UnfitPlace& u) { return u.point == whole_->positions[p]; }))
         kept.push_back(p);
-    const LaterError error = later_error(
-        fitted, on_body(at_positions(*whole_, kept), experiment.places.stands()), seconds_);
+    Dataset whole = on_body(at_positions(*whole_, kept), experiment.places.stands());
+    whole.label = experiment.dataset.label;
+    const LaterError error = later_error(fitted, whole, seconds_);
     whole_.reset();
     model.metadata.set("until", format_number(seconds_));
     model.metadata.set("heldout_later", format_number(error.rmse));

@@ -113,6 +113,7 @@ Summary simulated_summary(const Arguments& arguments, std::size_t rows, const st
 
 int run_full_mode(const Arguments& arguments, const Model& model) {
   const TetMesh body = load_body(arguments);
+  say_idle(arguments, "hs-simulate", model, body);
   FullOptions options;
   options.own_mesh = arguments[flag::own_mesh];
   options.force_control = arguments[flag::force_control];
@@ -142,6 +143,7 @@ int run_full_mode(const Arguments& arguments, const Model& model) {
 
 int run_own_mesh(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
+  say_idle(arguments, "hs-simulate", model, mesh);
   const bool forces_given = arguments[flag::force_control];
   Recording motion = load_pressed(arguments, arguments.input(), forces_given, model);
   if (forces_given) motion.u.assign(motion.rows(), Vec3::Zero());  // not known yet
@@ -159,6 +161,7 @@ int run_own_mesh(const Arguments& arguments, const Model& model) {
   if (arguments.given(flag::vtu) && body.is_regional())
     fail_input(model.name, "the field of regions that relax each in its own way is not written",
                "leave out --vtu, or give all of them the terms of region 0");
+  dataset.label = body.labels();
   dataset = on_body(std::move(dataset), body.stands());
   if (!forces_given) say_beyond(arguments, press_depth(std::span(&mesh, 1), dataset), model);
   say_together(arguments, "hs-simulate", dataset.recording);
@@ -285,6 +288,7 @@ int run(const Arguments& arguments) {
   if (arguments[flag::full]) return run_full_mode(arguments, model);
   if (arguments[flag::own_mesh]) return run_own_mesh(arguments, model);
   const TetMesh body = load_body(arguments);
+  say_idle(arguments, "hs-simulate", model, body);
   std::shared_ptr<Progress> progress;
   ExperimentOptions options = experiment_options(arguments, progress);
   const Control control = arguments[flag::force_control] ? Control::kForce : Control::kDisplacement;

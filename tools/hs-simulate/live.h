@@ -195,6 +195,7 @@ inline void tell_large_strain(const Arguments& arguments, const PreparedBody& bo
 
 inline int run_live_mode(const Arguments& arguments, const Model& model) {
   const TetMesh mesh = load_body(arguments);
+  say_idle(arguments, "hs-simulate", model, mesh);
   LiveInput in(arguments);
   std::shared_ptr<Progress> progress;
   const std::optional<Experiment> fine = fine_contacts(arguments, mesh, model, progress);

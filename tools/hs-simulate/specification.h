@@ -111,6 +111,13 @@ inline ToolSpec simulate_specification() {
       "its own (none where it has no rows), in every mode; without such rows all regions have "
       "those "
       "of region 0. Some thirty bodies are solved for it, and the forces are exact in time.",
+      "A model with E of regions 1, 2, ... and no key points of the effect regions has these "
+      "moduli "
+      "where the body's tetrahedra have these numbers (hs-tetmesh --region, or the regions of "
+      "another program's mesh), in every mode; region 0 is what has no other. In the meshes of "
+      "contacts an element that a boundary cuts is of the mixture of its moduli, by volume. A "
+      "number of which the model has no E is refused; E of a number that the body does not have is "
+      "told to act nowhere.",
       "With --binary, motion and forces are records of fixed size, little-endian, without header "
       "or "
       "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "

@@ -116,7 +116,8 @@ ToolSpec specification() {
        .value = "FILE",
        .help = "Closed surface inside the body; may be given again. Its tetrahedra get the "
                "numbers 1, 2, ... and end at its triangles; where it touches or leaves the body, "
-               "they are chosen by their centres.",
+               "they are chosen by their centres. A model's E of these regions acts there "
+               "(hs-identify --add regions --regions labels).",
        .group = "Support and regions",
        .repeatable = true},
       {.flag = flag::contacts,
