@@ -50,7 +50,8 @@ constexpr double kRadius = 0.004;  // [m]
 // Steps of the loop a step of the elements, which of relaxing ones is of second order in time.
 constexpr int kEvery = 50, kEveryRelaxing = 20;
 constexpr int kSteps = 1000;      // of a press
-constexpr int kFinerPresses = 2;  // that finer elements solve too, and those of --full
+constexpr int kFinerPresses = 2;  // that finer elements solve too
+constexpr int kFullPresses = 1;   // and those of --full
 
 double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
@@ -188,6 +189,8 @@ void run(int argc, char** argv) {
       elements.solve.least_step = 1.0 / 32;
       f_finer =
           by_elements(body, model, at.point, elements, into, aside, every, relaxes_too, k_other);
+    }
+    if (p < kFullPresses) {
       FullOptions usual;
       usual.base = &base;
       usual.solve.least_step = 1.0 / 32;

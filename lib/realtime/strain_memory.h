@@ -43,7 +43,9 @@ struct StrainMemory {
   MemoryMatrix C = MemoryMatrix::Zero();
   SecondMatrix Q = SecondMatrix::Zero();
 };
-// Of the second order alone, over k a; in axes of v.
+// Of the second order alone, over k a; in axes of v. Twice what elements do at most (the stresses
+// stiffen the inside against y) and not zero where all is a multiple of what is now: a measure of
+// what the first order leaves, not a correction.
 Vec3 second_force(const SecondMatrix& Q, const MemoryPoint& at, const Vec3& x) noexcept;
 
 // As in axes that are turned about the first: with v -> R v, R = 1 along d and orthogonal across

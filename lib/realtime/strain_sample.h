@@ -57,7 +57,7 @@ struct StrainSample {
 // with quarter points (FullOptions) they are 4 to 7 % off. A way that does not converge ends there,
 // and the sample with the shortest. `model`: body and support effects alone, static. Nothing where
 // the model or the place is refused, as `why` then says, or nothing converges. `memory`: with what
-// stresses of one state do at another, which takes some half as long again.
+// stresses of one state do at another, which takes some three times as long.
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
                                                 const Model& model, const Vec3& point,
                                                 double tool_radius, double into, bool memory,

@@ -153,8 +153,8 @@ TEST(StrainMemory, AClosedWayTakesEnergy) {
   }
 }
 
-// Two Maxwell elements, one fast and one slow against the press, and a retreat; what is not told is
-// covered by what is stated.
+// Two Maxwell elements, one fast and one slow against the press, and a retreat, where the force
+// passes through zero and the second order shows: it is covered by what is stated.
 TEST(StrainMemory, IsTheElementsAlongAPressAndItsRetreat) {
   Model model = test::strained_model(8e3);
   for (const auto& [name, value] : {std::pair{"E2", 6e3}, {"tau2", 2.0}}) {
@@ -172,7 +172,7 @@ TEST(StrainMemory, IsTheElementsAlongAPressAndItsRetreat) {
   const double ratio = at.contact.K(2, 2) / (*press.stiffness())(2, 2);
   ForceLoop loop(body);
   loop.begin(kRelaxed);
-  double peak = 0, worst = 0;
+  double peak = 0, worst = 0, worst_back = 0;
   int covered = 0, steps = 0;
   for (int i = 0; i <= 40; ++i) {
     const double down = std::min(1.0, i / 15.0), back = std::clamp((i - 25) / 15.0, 0.0, 1.0);
@@ -181,11 +181,15 @@ TEST(StrainMemory, IsTheElementsAlongAPressAndItsRetreat) {
     peak = std::max(peak, f.norm());
     if (i == 0) continue;
     const double off = (got - f).norm();
-    worst = std::max(worst, off / std::max(f.norm(), 0.05 * peak));
+    if (back > 0)
+      worst_back = std::max(worst_back, off / peak);
+    else
+      worst = std::max(worst, off / std::max(f.norm(), 0.05 * peak));
     covered += off <= 1.96 * loop.uncertainty() * got.norm() ? 1 : 0;
     ++steps;
   }
-  EXPECT_LT(worst, 0.05);
+  EXPECT_LT(worst, 0.04);
+  EXPECT_LT(worst_back, 0.03);
   EXPECT_GE(covered, steps - 4);
 }
 
