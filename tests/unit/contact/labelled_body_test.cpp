@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstdio>
 
 #include "contact/featured_body.h"
 #include "contact/marker_solution.h"
@@ -87,20 +88,35 @@ TEST(LabelledBody, DerivativesAreThoseOfDifferences) {
   EXPECT_LT((s.by_nu - by_nu).norm(), 2e-5 * s.K.norm());
 }
 
-// The staircase of the labels is a ball of another volume: one of that is compared.
-TEST(LabelledBody, ABallOfLabelsIsAnInclusion) {
+// The staircase of the labels is a ball of another volume: one of that is compared. Elements at the
+// boundary have the geometric mean here and the mixture in parallel there, which is stiffer; what
+// that makes of the ball's work falls with the edges.
+TEST(LabelledBody, ABallOfLabelsTendsToAnInclusion) {
   TetMesh body = labelled_block(1, 0);
   double volume = 0;
   for (std::size_t t = 0; t < body.tets.size(); ++t)
     if (body.region[t] == 1) volume += tet_volume(body, t);
   const double radius = std::cbrt(3 * volume / (4 * 3.14159265358979));
-  const double plain = solve({kNu, {1e4}, nullptr, {}, nullptr}).K(2, 2);
+  const ContactMesh fine =
+      make_contact_mesh(block_base(), block_contact().point, kRadius, kRadius / 4, 0.22);
   for (const double ratio : {0.3, 5.0}) {
-    const double of_labels = solve(labelled(body, {1e4, ratio * 1e4})).K(2, 2);
     const BodyFeature ball{Feature::kInclusion, {kBall.x(), kBall.y(), kBall.z(), radius, ratio}};
-    const double of_ball = solve({kNu, {1e4}, nullptr, {ball}, nullptr}).K(2, 2);
-    EXPECT_NEAR((of_labels - plain) / (of_ball - plain), 1, 0.05) << ratio;
-    EXPECT_GT(std::abs(of_ball / plain - 1), 0.03) << ratio;
+    double coarse = 0;
+    for (const ContactMesh* mesh : {&block_contact(), &fine}) {
+      FeaturedBody solved(*mesh, free_surface(block_base()));
+      const double plain = solved.solve({kNu, {1e4}, nullptr, {}, nullptr}).K(2, 2);
+      const double of_labels = solved.solve(labelled(body, {1e4, ratio * 1e4})).K(2, 2);
+      const double of_ball = solved.solve({kNu, {1e4}, nullptr, {ball}, nullptr}).K(2, 2);
+      EXPECT_LT(of_labels, of_ball) << ratio;
+      EXPECT_GT(std::abs(of_ball / plain - 1), 0.03) << ratio;
+      const double apart = std::abs((of_labels - plain) / (of_ball - plain) - 1);
+      std::printf("ratio %.1f: %.3f of what the ball does apart\n", ratio, apart);
+      if (mesh == &fine) {
+        EXPECT_LT(apart, 0.75 * coarse) << ratio;
+      }
+      coarse = apart;
+      EXPECT_LT(apart, 0.2) << ratio;
+    }
   }
 }
 
