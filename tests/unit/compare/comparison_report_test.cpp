@@ -121,14 +121,14 @@ TEST(ReportBody, ColoursByErrorAndByMissingStiffness) {
   for (const BinError& e : c.comparison.by_position().errors) error.push_back(e.rmse);
   const ErrorMap map = map_error(square, c.comparison.facts.positions, error);
   Report report;
-  add_body(c.comparison, map, nullptr, report);
+  add_body(c.comparison, map, nullptr, nullptr, report);
   ASSERT_EQ(report.body.layers.size(), 2u);
   EXPECT_EQ(report.body.layers[0].at_position, error);
   EXPECT_EQ(report.body.layers[0].mark, c.comparison.noise.value);
   for (const double stiffer : report.body.layers[1].at_position) EXPECT_NEAR(stiffer, 25, 2);
   EXPECT_EQ(report.body.layers[1].value.size(), report.body.vertices.size());
   Report bare;
-  add_body(c.comparison, {}, nullptr, bare);
+  add_body(c.comparison, {}, nullptr, nullptr, bare);
   EXPECT_EQ(bare.body.layers.size(), 1u);  // positions alone, by error
 }
 
@@ -308,7 +308,7 @@ TEST(ComparisonReport, CutsABodyWithABallInsideOpen) {
   const Effect& ball = require_effect("inclusion");
   Model model = test::elastic(1e4, 0.4);
   Report report;
-  add_slices(test::box({0.04, 0.03, 0.02}), model, report);
+  add_slices(test::box({0.04, 0.03, 0.02}), model, nullptr, report);
   EXPECT_TRUE(report.slices.empty());
   const std::map<std::string, double> value{
       {"x", 0.02}, {"y", 0.015}, {"z", 0.01}, {"radius", 0.006}, {"ratio", 3}};
@@ -319,7 +319,7 @@ TEST(ComparisonReport, CutsABodyWithABallInsideOpen) {
     p.value = value.count(card.name) != 0 ? value.at(card.name) : card.start;
     model.parameters.push_back(p);
   }
-  add_slices(test::box({0.04, 0.03, 0.02}), model, report);
+  add_slices(test::box({0.04, 0.03, 0.02}), model, nullptr, report);
   ASSERT_EQ(report.slices.size(), 3u);
   for (const ReportSlice& slice : report.slices) {
     const std::set<double> found(slice.modulus.begin(), slice.modulus.end());
