@@ -87,12 +87,20 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
     stresses.push_back(press.stresses());
   }
   const Eigen::MatrixXd modes = stress_modes(visited, stresses);
+  stresses = {};  // some hundred MB of a large mesh
   const Eigen::Matrix3d inside = sample.frame * sample.K * sample.frame.transpose();
   StressStates all(sample.frame, radius, inside(0, 0) * radius * radius);
   for (std::size_t i = 0; i < states.size(); ++i) {
     press.restore(states[i]);
-    if (const auto response = press.stress_response(modes)) all.add(visited[i], *response);
+    if (const auto response = press.stress_response(modes)) {
+      all.add(visited[i], *response);
+      continue;
+    }
+    // A state that is not stable inside has no response, so the way counts to the one before.
+    const double d = visited[i][0], before = i > 0 ? visited[i - 1][0] : 0;
+    sample.into = std::min(sample.into, before < d ? before : 0);
   }
+  if (!(sample.into > 0)) return;
   sample.memory = all.fit(sample.memory_fit);
   sample.memory->C.topLeftCorner<3, 3>() -= inside / inside(0, 0);
 }

@@ -74,7 +74,7 @@ inline ToolSpec simulate_specification() {
       "(viscoelastic, fractional) remembers its stresses, as elements of finite strain do, not the "
       "force: each place then has what the stresses of every state do at every other, too (some "
       "three times as long a place). That is the elements' force to first order in what the inside "
-      "does otherwise; the rest, some 1 % of the largest force where the tool leaves and the force "
+      "does otherwise; the rest, up to 2 % of the largest force where the tool leaves and the force "
       "passes through zero, is in the uncertainty. Friction, the sensor and all else act on that "
       "force as on "
       "the linear one. Farther than was pressed the force goes on along its tangent, with 32 in "
