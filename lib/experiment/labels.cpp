@@ -10,9 +10,20 @@
 #include "experiment/nearest_region.h"
 
 namespace hapsim {
+
+void require_label(int number) {
+  if (0 <= number && number <= kMostLabel) return;
+  fail_input("",
+             fmt::format("the body has tetrahedra of region {}; regions of a model have numbers "
+                         "from 0 to {}",
+                         number, kMostLabel),
+             "number them anew (hs-tetmesh --region, or the program that made the mesh)");
+}
+
 namespace {
 
 void require_modulus(const MaterialSpec& material, int region) {
+  require_label(region);
   if (std::find(material.given.begin(), material.given.end(), region) != material.given.end())
     return;
   fail_input("",
@@ -33,10 +44,16 @@ std::shared_ptr<const BodyRegions> acting_labels(const MaterialSpec& material,
     if (acts && std::binary_search(labels->numbers().begin(), labels->numbers().end(), region))
       continue;
     fail_input("",
-               fmt::format("the model lets region {} grow, and no tetrahedron of the body is of a "
-                           "region of that number",
-                           region),
-               "take the row out, or give a body that is numbered (hs-tetmesh --region)");
+               is_by_label(material)
+                   ? fmt::format("the model lets region {} grow, and no tetrahedron of the body is "
+                                 "of a region of that number",
+                                 region)
+                   : fmt::format("the model lets region {} grow, and places no moduli by the "
+                                 "body's own regions",
+                                 region),
+               is_by_label(material)
+                   ? "take the row out, or give a body that is numbered (hs-tetmesh --region)"
+                   : "take the row out, or give E of each region and no key points");
   }
   if (!acts) return nullptr;
   for (const int region : labels->numbers()) require_modulus(material, region);
@@ -47,6 +64,13 @@ std::shared_ptr<const BodyRegions> acting_labels(const MaterialSpec& material,
                                                  const TetMesh& body) {
   if (!is_by_label(material)) return acting_labels(material, nullptr);
   return acting_labels(material, BodyRegions::of(body));
+}
+
+void refuse_growth(const MaterialSpec& material, const std::string& what) {
+  for (const FeatureSpec& f : material.features)
+    if (f.feature.kind == Feature::kGrowth)
+      fail_input("", fmt::format("{} is not known of a region that grows", what),
+                 "take the growth out of the model, or number the tetrahedra as it has grown");
 }
 
 std::vector<int> labels_at(const std::shared_ptr<const BodyRegions>& labels,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "effects/effect.h"
@@ -14,12 +15,20 @@ inline bool is_by_label(const MaterialSpec& material) {
   return material.key_point.empty() && material.modulus.size() > 1 && !material.local;
 }
 
+// Numbers that regions of a model may have; what is solved for grows with the largest.
+inline constexpr int kMostLabel = 1000;
+// Error(kBadInput): a tetrahedron's number that cannot be that of a region of a model.
+void require_label(int number);
+
 // The labels where they act, else null: no moduli are placed by them, or the body has none.
 // Error(kBadInput): the body has a region of which the material has no modulus.
 std::shared_ptr<const BodyRegions> acting_labels(const MaterialSpec& material,
                                                  const std::shared_ptr<const BodyRegions>& labels);
 // The same of a body that is not prepared.
 std::shared_ptr<const BodyRegions> acting_labels(const MaterialSpec& material, const TetMesh& body);
+
+// Error(kBadInput): a region of the material grows, which `what` does not know.
+void refuse_growth(const MaterialSpec& material, const std::string& what);
 
 // Of points of its surface; empty where all tetrahedra have the number 0.
 std::vector<int> labels_at(const std::shared_ptr<const BodyRegions>& labels,

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "experiment/labels.h"
+#include "experiment/thin_regions.h"
 #include "model/body_parameters.h"
 #include "model/search_state.h"
 
@@ -125,6 +126,15 @@ std::vector<std::string> doubts_of(const Model& model, std::span<const TetMesh> 
         "that region a place{}",
         model.name, region,
         is_by_label(material_of(model)) ? ", and no tetrahedron of the body is of it" : ""));
+  if (!is_by_label(material_of(model))) return lines;
+  for (const TetMesh& body : bodies)
+    for (const auto& [region, thickness] : thin_regions(body))
+      lines.push_back(fmt::format(
+          "region {} of the body is a sheet, some {:.2g} mm thick: where elements of the contact "
+          "meshes are thicker they take only part of it, and the stated errors do not know; "
+          "compare "
+          "with --own-mesh of a mesh that is fine there",
+          region, 1e3 * thickness));
   return lines;
 }
 

@@ -33,7 +33,7 @@ std::vector<int> idle_regions(const Model& model, std::span<const TetMesh> bodie
 // What is to be said of a model that was read: its fit was ended early; a line each, beginning with
 // the file's name.
 std::vector<std::string> doubts_of(const Model& model);
-// The same of a model on its bodies: a modulus acts nowhere.
+// The same of a model on its bodies: a modulus acts nowhere, or in a sheet.
 std::vector<std::string> doubts_of(const Model& model, std::span<const TetMesh> bodies);
 
 }  // namespace hapsim

@@ -209,6 +209,7 @@ std::shared_ptr<const SolvedPlaces> SetupPlaces::solve(const MaterialSpec& mater
 std::shared_ptr<const TorquePlaces> SetupPlaces::torques(const MaterialSpec& material,
                                                          bool regions) const {
   const bool apart = regions && has_regions(material);
+  if (apart) refuse_growth(material, "the tool's torque");
   return kept<TorquePlaces>(apart ? "torque " + content(material) : "torque", [&] {
     auto made = std::make_shared<TorquePlaces>();
     made->material = material;
@@ -230,6 +231,7 @@ std::shared_ptr<const TorquePlaces> SetupPlaces::torques(const MaterialSpec& mat
 std::shared_ptr<const MarkerPlaces> SetupPlaces::markers(const MaterialSpec& material, bool regions,
                                                          const std::vector<Vec3>& points) const {
   const bool apart = regions && has_regions(material);
+  if (apart) refuse_growth(material, "marked points");
   ContentHash where;
   for (const Vec3& point : points) where.add(point.data(), 3 * sizeof(double));
   const std::string about = "markers " + where.hex();
@@ -253,12 +255,13 @@ std::shared_ptr<const MarkerPlaces> SetupPlaces::markers(const MaterialSpec& mat
 
 std::shared_ptr<const RegionShares> SetupPlaces::shares(const MaterialSpec& material) const {
   if (const auto labels = labels_of(material))
-    return kept<RegionShares>(layout(material).hex(), [&] {
-      auto shares = std::make_shared<RegionShares>();
-      for (const auto& estimate : *estimates())
-        shares->push_back(estimate->shares(*labels, material.modulus.size()));
-      return shares;
-    });
+    return kept<RegionShares>(
+        layout(material).hex() + std::to_string(material.modulus.size()), [&] {
+          auto shares = std::make_shared<RegionShares>();
+          for (const auto& estimate : *estimates())
+            shares->push_back(estimate->shares(*labels, material.modulus.size()));
+          return shares;
+        });
   return kept<RegionShares>(layout(material).hex(), [&] {
     const PlanGrid grid = library_->grid();
     std::vector<int> region(static_cast<std::size_t>(grid.columns) * grid.rows);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "effects/catalogue.h"
+#include "experiment/labels.h"
 #include "model/body_parameters.h"
 #include "regions/region_boundary.h"
 #include "regions/region_map.h"
@@ -59,6 +60,7 @@ Model with_body_labels(const Fit& base, const Experiment& experiment) {
   if (numbers == std::set<int>{0})
     fail_input("", "all tetrahedra of the body are of region 0",
                "number them (hs-tetmesh --region tumour.stl), or leave out --regions labels");
+  for (const int region : numbers) require_label(region);
   Model model = base.model;
   const Parameter modulus = *modulus_of(model);
   for (const int region : numbers) {

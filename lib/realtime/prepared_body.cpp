@@ -153,6 +153,7 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
   terms_ = relaxation.common;
   ActingLabels labels{acting_labels(material, body), ""};
   if (labels.regions) labels.key = labels_key(body);
+  refuse_growth(material, "the live force");
   const SampledMaterial solid = sampled(material, labels);
   std::vector<KnownStiffness> known =
       options.contacts ? options.contacts(material) : std::vector<KnownStiffness>{};

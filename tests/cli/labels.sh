@@ -71,6 +71,25 @@ flat err | grep -q 'elastic E of region 3 acts nowhere' || complain 'and told'
 "$tool" motion.csv --body plain.ply --model all.csv -o nowhere.csv 2>err || complain 'a body without numbers is one body'
 flat err | grep -q 'elastic E of region 1 acts nowhere' || complain 'and that is told'
 
+# Numbers that no model can have, and a sheet that meshes of contacts hardly see.
+for number in -1 200000; do
+  awk -v n="$number" '$1 == 4 && NF == 6 && $NF == 1 { $NF = n } 1' numbered.ply >odd.ply
+  "$tool" motion.csv --body odd.ply --model all.csv -o no.csv 2>err && complain "region $number is refused"
+  [[ $? == 3 ]] || complain 'as bad input'
+  flat err | grep -q "tetrahedra of region $number; regions of a model have numbers from 0 to 1000" || complain 'and why'
+done
+awk 'NR > 2 && NF == 3 { print 0.01 + 0.04 * ($1 > 0), 0.01 + 0.03 * ($2 > 0), 0.025 + 0.0008 * ($3 > 0); next } { print }' box.off >sheet.off
+"$bin/hs-tetmesh" -q box.off --region sheet.off -o sheet.ply || complain 'a sheet'
+model sheet.csv 20000 200
+"$tool" motion.csv --body sheet.ply --model sheet.csv -o thin.csv 2>err || complain 'forces over a sheet'
+flat err | grep -q 'region 1 of the body is a sheet, some 0.7[0-9]* mm thick' || complain 'and that it is one'
+{ cat one.csv; echo 'elastic,1,growth,0.001,m,,,,fixed'; } >grown.csv
+"$tool" motion.csv --body body.ply --model grown.csv -o no.csv 2>err && complain 'growth without moduli of regions'
+flat err | grep -q 'places no moduli by the body' || complain 'and what is missing'
+{ cat all.csv; echo 'elastic,1,growth,0.001,m,,,,fixed'; } >grown.csv
+"$tool" motion.csv --body body.ply --model grown.csv --live --contacts motion.csv -o no.csv 2>err && complain 'growth live'
+flat err | grep -q 'the live force is not known of a region that grows' || complain 'is refused'
+
 # Both moduli are found again, by presses on finer meshes.
 "$tool" -q motion.csv --body body.ply --model all.csv --rim-edge 0.12 --add-noise 0.001 -o data.csv || complain 'presses'
 "$bin/hs-identify" -q data.csv --body body.ply --fix nu=0.42 --add regions --regions labels --folds 0 -o found.csv 2>err ||

@@ -74,7 +74,8 @@ inline ToolSpec simulate_specification() {
       "(viscoelastic, fractional) remembers its stresses, as elements of finite strain do, not the "
       "force: each place then has what the stresses of every state do at every other, too (some "
       "three times as long a place). That is the elements' force to first order in what the inside "
-      "does otherwise; the rest, up to 2 % of the largest force where the tool leaves and the force "
+      "does otherwise; the rest, up to 2 % of the largest force where the tool leaves and the "
+      "force "
       "passes through zero, is in the uncertainty. Friction, the sensor and all else act on that "
       "force as on "
       "the linear one. Farther than was pressed the force goes on along its tangent, with 32 in "
@@ -119,7 +120,9 @@ inline ToolSpec simulate_specification() {
       "another program's mesh), in every mode; region 0 is what has no other. In the meshes of "
       "contacts an element that a boundary cuts is of the mixture of its moduli, by volume. A "
       "number of which the model has no E is refused; E of a number that the body does not have is "
-      "told to act nowhere.",
+      "told to act nowhere. Compared with CalculiX this was for regions that are no sheets (bench/"
+      "regions): of a thin one contact meshes take a part only, which is told, but is in no stated "
+      "error.",
       "With --binary, motion and forces are records of fixed size, little-endian, without header "
       "or "
       "padding: i is an integer of 32 bits, the others are numbers of 64 bits (IEEE 754) in SI "
