@@ -9,9 +9,9 @@
 #include "explore/judgement.h"
 #include "explore/lump_places.h"
 #include "explore/place_finder.h"
-#include "plan/press_depths.h"
 #include "explore/suspects.h"
 #include "model/model_edit.h"
+#include "plan/press_depths.h"
 
 namespace hapsim {
 namespace {
