@@ -75,3 +75,25 @@ def stiffness(folder, mesh, materials, fixed, orientation=""):
         raise RuntimeError("ccx found no stiffness in %s" % folder)
     # Moduli in Pa with lengths in mm: a force unit is 1e-6 N, for 1 mm.
     return rows[:, 1:].T * 1e-6 / 1e-3
+
+
+def patch_stiffness(folder, mesh, materials, fixed):
+    """K (3, 3) [N/m] of a rigid patch: force on the tool = -K u. Its inverse is what unit forces on the patch move it by, three right
+    sides of one factorisation. `mesh`: nodes [mm], tets, patch; moduli in Pa."""
+    tool = len(mesh.nodes) + 1
+    text = deck(mesh, materials, fixed)
+    text = text.replace("*ELEMENT,", "%d, 0, 0, 0\n*NSET, NSET=TOOL\n%d\n*ELEMENT," % (tool, tool), 1)
+    rigid = "*EQUATION\n" + "".join("2\n%d, %d, 1., %d, %d, -1.\n" % (node + 1, axis, tool, axis)
+                                    for node in mesh.patch for axis in (1, 2, 3))
+    text = text.replace("*BOUNDARY\n", rigid + "*BOUNDARY\n", 1)
+    text += "*STEP\n*GREEN, SOLVER=SPOOLES\n*CLOAD\n" + "".join("%d, %d, 1.\n" % (tool, axis) for axis in (1, 2, 3))
+    text += "*NODE PRINT, NSET=TOOL\nU\n*END STEP\n"
+    (folder / "job.inp").write_text(text)
+    done = subprocess.run(["ccx", "-i", "job"], cwd=folder, capture_output=True, text=True,
+                          env={**os.environ, "OMP_NUM_THREADS": "1"})
+    rows = [line.split() for line in (folder / "job.dat").read_text().split("\n")]
+    found = np.array([[float(v) for v in row[1:]] for row in rows if len(row) == 4 and row[0] == str(tool)])
+    if done.returncode != 0 or found.shape != (3, 3):
+        raise RuntimeError("ccx failed in %s: %s" % (folder, done.stdout[-600:]))
+    # Moduli in Pa with lengths in mm: a force unit is 1e-6 N, for 1 mm.
+    return np.linalg.inv(found) * 1e-6 / 1e-3

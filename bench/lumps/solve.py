@@ -96,8 +96,7 @@ class PlaceMesh:
 
 
 def stiffness(folder, mesh, ratios):
-    """K (3, 3) [N/m] with lumps of these ratios: force on the tool = -K u. Its inverse is what unit forces on the rigid patch move it by,
-    three right sides of one factorisation."""
+    """K (3, 3) [N/m] with lumps of these ratios: force on the tool = -K u."""
     materials = [(calculix.isotropic("A", phantoms.MODULUS, phantoms.POISSON), np.flatnonzero(mesh.inside < 0))]
     for k, ratio in enumerate(ratios):
         if ratio > 0:
@@ -108,23 +107,8 @@ def stiffness(folder, mesh, ratios):
     kept = ~np.isin(mesh.inside, holes)
     numbers = np.cumsum(kept) - 1
     materials = [(text, numbers[elements]) for text, elements in materials]
-    tool = len(mesh.nodes) + 1
-    text = calculix.deck(types.SimpleNamespace(nodes=mesh.nodes, tets=mesh.tets[kept], patch=mesh.patch), materials, mesh.bottom)
-    text = text.replace("*ELEMENT,", "%d, 0, 0, 0\n*NSET, NSET=TOOL\n%d\n*ELEMENT," % (tool, tool), 1)
-    rigid = "*EQUATION\n" + "".join("2\n%d, %d, 1., %d, %d, -1.\n" % (node + 1, axis, tool, axis)
-                                   for node in mesh.patch for axis in (1, 2, 3))
-    text = text.replace("*BOUNDARY\n", rigid + "*BOUNDARY\n", 1)
-    text += "*STEP\n*GREEN, SOLVER=SPOOLES\n*CLOAD\n" + "".join("%d, %d, 1.\n" % (tool, axis) for axis in (1, 2, 3))
-    text += "*NODE PRINT, NSET=TOOL\nU\n*END STEP\n"
-    (folder / "job.inp").write_text(text)
-    done = subprocess.run(["ccx", "-i", "job"], cwd=folder, capture_output=True, text=True,
-                          env={"OMP_NUM_THREADS": "1", "PATH": "/usr/bin:/bin"})
-    rows = [line.split() for line in (folder / "job.dat").read_text().split("\n")]
-    found = np.array([[float(v) for v in row[1:]] for row in rows if len(row) == 4 and row[0] == str(tool)])
-    if done.returncode != 0 or found.shape != (3, 3):
-        raise RuntimeError("ccx failed in %s: %s" % (folder, done.stdout[-600:]))
-    # Moduli in Pa with lengths in mm: a force unit is 1e-6 N, for 1 mm.
-    return np.linalg.inv(found) * 1e-6 / 1e-3
+    return calculix.patch_stiffness(folder, types.SimpleNamespace(nodes=mesh.nodes, tets=mesh.tets[kept], patch=mesh.patch), materials,
+                                    mesh.bottom)
 
 
 def file_of(out, phantom, place, kind=""):

@@ -3,7 +3,6 @@
 closed.py OUT [CASE...] computes the contact stiffness of every place, OUT/closed/CASE/PLACE.txt (3 x 3 [N/m]; of some cases PLACE.even.txt
 with equal moduli on the same mesh), and writes the surface of each region, OUT/closed/CASE-N.stl [m]. A mesh a place, by
 Gmsh: second order, the tool's patch and the regions' boundaries imprinted, quarter points at the rim."""
-import os
 import pathlib
 import subprocess
 import sys
@@ -161,28 +160,6 @@ def materials(name, mesh, even=False):
             for k, ratio in enumerate(ratios)]
 
 
-def stiffness(folder, mesh, parts):
-    """K (3, 3) [N/m]: force on the tool = -K u. Its inverse is what unit forces on the rigid patch move it by, three right
-    sides of one factorisation (as bench/lumps)."""
-    tool = len(mesh.nodes) + 1
-    text = calculix.deck(mesh, parts, mesh.bottom)
-    text = text.replace("*ELEMENT,", "%d, 0, 0, 0\n*NSET, NSET=TOOL\n%d\n*ELEMENT," % (tool, tool), 1)
-    rigid = "*EQUATION\n" + "".join("2\n%d, %d, 1., %d, %d, -1.\n" % (node + 1, axis, tool, axis)
-                                    for node in mesh.patch for axis in (1, 2, 3))
-    text = text.replace("*BOUNDARY\n", rigid + "*BOUNDARY\n", 1)
-    text += "*STEP\n*GREEN, SOLVER=SPOOLES\n*CLOAD\n" + "".join("%d, %d, 1.\n" % (tool, axis) for axis in (1, 2, 3))
-    text += "*NODE PRINT, NSET=TOOL\nU\n*END STEP\n"
-    (folder / "job.inp").write_text(text)
-    done = subprocess.run(["ccx", "-i", "job"], cwd=folder, capture_output=True, text=True,
-                          env={**os.environ, "OMP_NUM_THREADS": "1"})
-    rows = [line.split() for line in (folder / "job.dat").read_text().split("\n")]
-    found = np.array([[float(v) for v in row[1:]] for row in rows if len(row) == 4 and row[0] == str(tool)])
-    if done.returncode != 0 or found.shape != (3, 3):
-        raise RuntimeError("ccx failed in %s: %s" % (folder, done.stdout[-600:]))
-    # Moduli in Pa with lengths in mm: a force unit is 1e-6 N, for 1 mm.
-    return np.linalg.inv(found) * 1e-6 / 1e-3
-
-
 def file_of(out, name, k, kind=""):
     return pathlib.Path(out) / "closed" / name / ("%02d%s.txt" % (k, kind))
 
@@ -197,7 +174,7 @@ def solve(out, name, k, place):
         folder = pathlib.Path(folder)
         mesh = PlaceMesh(name, place, folder)
         for kind in kinds:
-            K = stiffness(folder, mesh, materials(name, mesh, kind == ".even"))
+            K = calculix.patch_stiffness(folder, mesh, materials(name, mesh, kind == ".even"), mesh.bottom)
             target = file_of(out, name, k, kind)
             part = target.with_suffix(".part")
             np.savetxt(part, K)

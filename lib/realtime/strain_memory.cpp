@@ -6,13 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "realtime/power_table.h"
+
 namespace hapsim {
 namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int kMemoryPower = 6, kMemoryAcross = 4;
+constexpr int kMemoryAcross = 4;
 constexpr std::array<int, kMemoryAcross + 1> kMemoryDeep{6, 4, 4, 2, 1};
 constexpr double kMemoryRidge = 1e-7;  // of the columns' squares
 constexpr double kMemoryFloor = 0.05;  // of the largest force
@@ -68,18 +70,6 @@ constexpr std::array<int, kSecondTerms> second_monomials() {
 }
 constexpr std::array<int, kSecondTerms> kSecondMonomials = second_monomials();  // -1: the constant
 
-struct MemoryPowerTable {
-  explicit MemoryPowerTable(double x) noexcept {
-    f[0] = 1;
-    for (int p = 1; p <= kMemoryPower; ++p) f[p] = f[p - 1] * x;
-    for (int p = 0; p <= kMemoryPower; ++p) {
-      d[p] = p > 0 ? p * f[p - 1] : 0;
-      dd[p] = p > 1 ? p * (p - 1) * f[p - 2] : 0;
-    }
-  }
-  std::array<double, kMemoryPower + 1> f, d, dd;
-};
-
 // Least squares with a ridge on scaled columns: x = result y.
 MatrixXd ridge_inverse(const MatrixXd& A) {
   const Index rows = A.rows(), n = A.cols();
@@ -94,7 +84,7 @@ MatrixXd ridge_inverse(const MatrixXd& A) {
 }  // namespace
 
 MemoryPoint memory_point(const Vec3& v, const Vec3& rest) noexcept {
-  const MemoryPowerTable d(v[0]), p(v[1]), q(v[2]);
+  const PowerTable d(v[0]), p(v[1]), q(v[2]);
   const bool along = !rest.isZero(0);
   MemoryPoint at;
   for (int t = 0; t < kMemoryTerms; ++t) {

@@ -10,12 +10,12 @@
 
 #include "base/error.h"
 #include "contact/contact_cache.h"
+#include "realtime/power_table.h"
 #include "simulate/full_simulation.h"
 
 namespace hapsim {
 namespace {
 
-constexpr int kMostPower = 6;
 constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
 constexpr double kStrainFloor = 0.05;    // of the largest force: below, errors are over that
 constexpr double kStrainRidge = 1e-7;    // of the columns' squares
@@ -36,19 +36,6 @@ constexpr std::array<Powers, kStrainTerms> monomials() {
   return all;
 }
 constexpr std::array<Powers, kStrainTerms> kMonomials = monomials();
-
-// Powers of one coordinate with their first and second derivatives.
-struct PowerTable {
-  explicit PowerTable(double x) noexcept {
-    f[0] = 1;
-    for (int p = 1; p <= kMostPower; ++p) f[p] = f[p - 1] * x;
-    for (int p = 0; p <= kMostPower; ++p) {
-      d[p] = p > 0 ? p * f[p - 1] : 0;
-      dd[p] = p > 1 ? p * (p - 1) * f[p - 2] : 0;
-    }
-  }
-  std::array<double, kMostPower + 1> f, d, dd;
-};
 
 struct Solved {
   std::vector<Vec3> v, f;  // ways in radii and forces that move the tool, in the frame [N]
