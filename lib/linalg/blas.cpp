@@ -2,7 +2,9 @@
 
 #include <dlfcn.h>
 
+#include <cstdlib>
 #include <mutex>
+#include <string_view>
 
 namespace hapsim {
 namespace {
@@ -20,10 +22,50 @@ Function find_symbol(const char* name) {
   return reinterpret_cast<Function>(symbol);
 }
 
+using Text = char* (*)();
+
+// OpenBLAS's name of the fastest kernels that this processor can run; null when it may choose.
+const char* widest_kernels() {
+#ifdef __x86_64__
+  const auto has_avx512 = [] {
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512cd");
+  };
+  if (has_avx512()) return "SkylakeX";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+#endif
+  return nullptr;
+}
+
+// OpenBLAS goes by a table of processors. On one newer than the table it takes kernels of 2004
+// (Prescott: a fifth of the speed, Emerald Rapids with 0.3.21) or leaves AVX-512 unused (Haswell).
+// Only what is known to be slower is replaced, and nothing where the user has set
+// OPENBLAS_CORETYPE.
+bool choose_kernels() {
+  static constexpr const char* kVariable = "OPENBLAS_CORETYPE";
+  const auto core = find_symbol<Text>("openblas_get_corename");
+  const auto forget = find_symbol<void (*)()>("gotoblas_dynamic_quit");
+  const auto choose = find_symbol<void (*)()>("gotoblas_dynamic_init");
+  const char* best = widest_kernels();
+  if (!core || !forget || !choose || best == nullptr || std::getenv(kVariable) != nullptr)
+    return false;
+  const std::string_view now = core();
+  const bool old = now == "Prescott" || now == "Core2" || now == "Nehalem" || now == "Sandybridge";
+  if (now == best || !(old || now == "Haswell")) return false;
+  setenv(kVariable, best, 1);
+  forget();
+  choose();
+  unsetenv(kVariable);
+  return true;
+}
+
+// When the program or the library is loaded: no thread may be inside OpenBLAS then.
+[[maybe_unused]] const bool kKernelsChosen = choose_kernels();
+
 }  // namespace
 
 std::string blas_name() {
-  using Text = char* (*)();
   if (auto config = find_symbol<Text>("openblas_get_config")) {
     std::string name = config();
     if (auto core = find_symbol<Text>("openblas_get_corename")) name += std::string(", ") + core();

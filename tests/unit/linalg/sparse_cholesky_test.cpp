@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cstdlib>
 #include <vector>
 
 #include "base/parallel.h"
@@ -86,6 +87,15 @@ TEST(Blas, IsOpenBlas) {
   prepare_blas_for_many_threads();
   EXPECT_NE(blas_name().find("OpenBLAS"), std::string::npos)
       << blas_name() << ": install libopenblas0-pthread, else factorisation is slow";
+}
+
+// OpenBLAS by itself takes the oldest of all on a processor that is newer than it.
+TEST(Blas, HasKernelsAsWideAsTheProcessor) {
+#ifdef __x86_64__
+  if (std::getenv("OPENBLAS_CORETYPE") != nullptr) return;
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return;
+  EXPECT_EQ(blas_name().find("Prescott"), std::string::npos) << blas_name();
+#endif
 }
 
 }  // namespace
