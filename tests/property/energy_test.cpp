@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPeriod = 1e-3;
 
-SafetyLimits random_limits(Random& random) {
+SafetyLimits limits_with_energy(Random& random) {
   SafetyLimits limits;
   limits.force = std::pow(10, 2 * random.uniform() - 0.5);
   limits.ramp = 0.02 + 0.3 * random.uniform();
@@ -51,7 +51,7 @@ TEST(EnergyStreams, AHandNeverGetsMoreThanTheBound) {
   long touched = 0, whole = 0, owing = 0;
   double fullest = 0;
   for (int stream = 0; stream < 600; ++stream) {
-    const SafetyLimits limits = random_limits(random);
+    const SafetyLimits limits = limits_with_energy(random);
     SafeForce safe(limits, kPeriod);
     const double bound = limits.energy_bound(kPeriod);
     Hand hand;
@@ -115,7 +115,7 @@ TEST(EnergyStreams, WithoutItAHandGetsMore) {
   Random random(22);
   int over = 0;
   for (int stream = 0; stream < 50; ++stream) {
-    const SafetyLimits limits = random_limits(random);
+    const SafetyLimits limits = limits_with_energy(random);
     SafeForce safe(of_any_energy(limits), kPeriod);
     Vec3 x = Vec3::Zero(), way(1e-5, 0, 0);
     double work = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-SafetyLimits random_limits(Random& random) {
+SafetyLimits limits_of_a_box(Random& random) {
   SafetyLimits limits;
   limits.force = std::pow(10, 2 * random.uniform() - 0.5);
   limits.ramp = 0.02 + 0.3 * random.uniform();
@@ -36,7 +36,7 @@ TEST(SafeForceStreams, NeverLeaveTheirLimits) {
   Random random(1);
   long samples = 0, cut = 0, untouched = 0, zeros = 0;
   for (int stream = 0; stream < 400; ++stream) {
-    const SafetyLimits limits = random_limits(random);
+    const SafetyLimits limits = limits_of_a_box(random);
     SafeForce safe(limits);
     Vec3 x = Vec3::Zero(), wanted = Vec3::Zero(), before = Vec3::Zero();
     double t = 1e4 * random.uniform(), t_before = t - 1e-3, t_valid = -kInf;
@@ -105,7 +105,7 @@ TEST(SafeForceStreams, NeverLeaveTheirLimits) {
 TEST(SafeForceStreams, WithinTheLimitsNothingIsTouched) {
   Random random(2);
   for (int stream = 0; stream < 100; ++stream) {
-    SafetyLimits limits = random_limits(random);
+    SafetyLimits limits = limits_of_a_box(random);
     limits.power = kInf;
     SafeForce safe(limits);
     const double size = 0.5 * limits.force * random.uniform(), speed = limits.rate / limits.force;

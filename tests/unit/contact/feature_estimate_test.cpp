@@ -13,7 +13,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004, kNu = 0.42;
+constexpr double kEstimateRadius = 0.004, kEstimateNu = 0.42;
 
 class Estimate : public ::testing::Test {
  protected:
@@ -24,16 +24,16 @@ class Estimate : public ::testing::Test {
   }
   static const std::shared_ptr<const ContactMesh>& contact() {
     static const auto mesh = std::make_shared<const ContactMesh>(
-        make_contact_mesh(base(), {0.033, 0.024, 0.03}, kRadius, kRadius / 3, 0.6));
+        make_contact_mesh(base(), {0.033, 0.024, 0.03}, kEstimateRadius, kEstimateRadius / 3, 0.6));
     return mesh;
   }
   static const FeatureEstimate& estimate() {
-    static const FeatureEstimate estimate(contact(), *free_surface(base()), kNu);
+    static const FeatureEstimate estimate(contact(), *free_surface(base()), kEstimateNu);
     return estimate;
   }
   static Eigen::Matrix3d solved(const std::vector<BodyFeature>& features) {
     static FeaturedBody body(*contact(), free_surface(base()));
-    return body.solve({kNu, {1.0}, nullptr, features}).K;
+    return body.solve({kEstimateNu, {1.0}, nullptr, features}).K;
   }
   // Relative error of the estimated change.
   static double error(const BodyFeature& feature) {

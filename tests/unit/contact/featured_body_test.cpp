@@ -15,8 +15,8 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004;
-constexpr double kNu = 0.42;
+constexpr double kFeatureRadius = 0.004;
+constexpr double kFeatureNu = 0.42;
 
 class Featured : public ::testing::Test {
  protected:
@@ -27,10 +27,11 @@ class Featured : public ::testing::Test {
   }
   static const ContactMesh& contact() {
     static const ContactMesh mesh =
-        make_contact_mesh(base(), {0.033, 0.024, 0.03}, kRadius, kRadius / 3, 0.6);
+        make_contact_mesh(base(), {0.033, 0.024, 0.03}, kFeatureRadius, kFeatureRadius / 3, 0.6);
     return mesh;
   }
-  static FeaturedBody::Solution solve(const std::vector<BodyFeature>& features, double nu = kNu,
+  static FeaturedBody::Solution solve(const std::vector<BodyFeature>& features,
+                                      double nu = kFeatureNu,
                                       const std::vector<double>& modulus = {1e4}) {
     Material material{nu, modulus, nullptr, features};
     if (modulus.size() > 1) material.group_of = [](const Vec3& p) { return p.x() > 0.033; };
@@ -38,7 +39,7 @@ class Featured : public ::testing::Test {
     return body.solve(material);
   }
   static void expect_derivatives(const std::vector<BodyFeature>& features, double step) {
-    const auto s = solve(features, kNu, {1e4, 2e4});
+    const auto s = solve(features, kFeatureNu, {1e4, 2e4});
     const auto compare = [](const char* what, const Eigen::Matrix3d& exact,
                             const Eigen::Matrix3d& up, const Eigen::Matrix3d& down, double twice,
                             double unit) {
@@ -46,18 +47,18 @@ class Featured : public ::testing::Test {
       EXPECT_LT((exact - difference).norm(), 2e-5 * (difference.norm() + unit)) << what;
     };
     const double size = s.K.norm();
-    compare("nu", s.by_nu, solve(features, kNu + 1e-5, {1e4, 2e4}).K,
-            solve(features, kNu - 1e-5, {1e4, 2e4}).K, 2e-5, size);
-    compare("modulus 1", s.by_modulus[1], solve(features, kNu, {1e4, 2e4 + 2}).K,
-            solve(features, kNu, {1e4, 2e4 - 2}).K, 4, size / 2e4);
+    compare("nu", s.by_nu, solve(features, kFeatureNu + 1e-5, {1e4, 2e4}).K,
+            solve(features, kFeatureNu - 1e-5, {1e4, 2e4}).K, 2e-5, size);
+    compare("modulus 1", s.by_modulus[1], solve(features, kFeatureNu, {1e4, 2e4 + 2}).K,
+            solve(features, kFeatureNu, {1e4, 2e4 - 2}).K, 4, size / 2e4);
     for (std::size_t f = 0; f < features.size(); ++f)
       for (std::size_t v = 0; v < features[f].value.size(); ++v) {
         auto up = features, down = features;
         const double h = step * std::max(std::abs(features[f].value[v]), 1e-3);
         up[f].value[v] += h;
         down[f].value[v] -= h;
-        compare(std::to_string(v).c_str(), s.by_feature[f][v], solve(up, kNu, {1e4, 2e4}).K,
-                solve(down, kNu, {1e4, 2e4}).K, 2 * h, size);
+        compare(std::to_string(v).c_str(), s.by_feature[f][v], solve(up, kFeatureNu, {1e4, 2e4}).K,
+                solve(down, kFeatureNu, {1e4, 2e4}).K, 2 * h, size);
       }
   }
 };
@@ -65,8 +66,8 @@ class Featured : public ::testing::Test {
 // The order of elimination is kept for the same system and not for another.
 TEST_F(Featured, GivingBackTheMatrixChangesNoResult) {
   FeaturedBody body(contact(), free_surface(base()));
-  const Material plain{kNu, {1e4}, nullptr, {}};
-  const Material on_springs{kNu, {1e4}, nullptr, {{Feature::kSupport, {0.004, 0.3, 0.002}}}};
+  const Material plain{kFeatureNu, {1e4}, nullptr, {}};
+  const Material on_springs{kFeatureNu, {1e4}, nullptr, {{Feature::kSupport, {0.004, 0.3, 0.002}}}};
   const Eigen::Matrix3d K = body.solve(plain).K, on_K = body.solve(on_springs).K;
   EXPECT_NE(K, on_K);
   const std::size_t with_matrix = body.held_bytes();
@@ -84,7 +85,7 @@ TEST_F(Featured, WithoutFeaturesItIsTheElasticBody) {
     if (contact().mesh.fixed[n]) handle[n] = kHeldNode;
   for (const int n : contact().patch_nodes) handle[n] = 0;
   ElasticBody body(contact().mesh, handle, Dilatation::kElement);
-  body.factorise(std::vector<Lame>(contact().mesh.tets.size(), lame(1e4, kNu)));
+  body.factorise(std::vector<Lame>(contact().mesh.tets.size(), lame(1e4, kFeatureNu)));
   const Eigen::Matrix3d K = body.solve(Eigen::Matrix3d::Identity()).reaction;
   const auto s = solve({});
   EXPECT_LT((s.K - K).norm(), 1e-10 * K.norm());
@@ -119,8 +120,9 @@ TEST_F(Featured, TransverseIsotropyIsTheLawsOwn) {
   const double root = std::sqrt(ratio);
   BodyModel model;
   model.mesh = &contact().mesh;
-  model.laws = {transverse_law(
-      {1e4, 1e4 * ratio, kNu, kNu * root, 1e4 * shear * root / (2 * (1 + kNu))}, axis)};
+  model.laws = {transverse_law({1e4, 1e4 * ratio, kFeatureNu, kFeatureNu * root,
+                                1e4 * shear * root / (2 * (1 + kFeatureNu))},
+                               axis)};
   model.law_of_tet.assign(contact().mesh.tets.size(), 0);
   model.dilatation = Dilatation::kElement;
   std::vector<int> handle(contact().mesh.nodes.size(), kFreeNode);
@@ -156,9 +158,10 @@ TEST(Support, AnEdgeWithinFacesIsTheMeshThatFollowsIt) {
     return make_contact_base(mesh);
   };
   const auto stiffness = [&](const ContactBase& base, const std::vector<BodyFeature>& features) {
-    const ContactMesh contact = make_contact_mesh(base, at, kRadius, kRadius / 3, 0.8);
+    const ContactMesh contact =
+        make_contact_mesh(base, at, kFeatureRadius, kFeatureRadius / 3, 0.8);
     FeaturedBody body(contact, free_surface(base));
-    return body.solve({kNu, {1e4}, nullptr, features}).K;
+    return body.solve({kFeatureNu, {1e4}, nullptr, features}).K;
   };
   // Edges that fall between the nodes of the first body; each second body has nodes there.
   const ContactBase whole = body_of(6, 1);

@@ -11,7 +11,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004, kNu = 0.45;
+constexpr double kFieldRadius = 0.004, kFieldNu = 0.45;
 
 FieldGrid grid() {
   FieldGrid g;
@@ -31,10 +31,11 @@ TEST(FieldStiffness, WeightsOfAPointAreOneAndFollowIt) {
 
 TEST(FieldStiffness, DerivativesAreDifferencesAndSumToTheStiffness) {
   const TetMesh body = test::block_mesh({0.06, 0.06, 0.04}, 5, 5, 4, 1);
-  FieldBody field(make_contact_base(body), {0.03, 0.03, 0.04}, kRadius, 0.3 * kRadius, 0.6, grid());
+  FieldBody field(make_contact_base(body), {0.03, 0.03, 0.04}, kFieldRadius, 0.3 * kFieldRadius,
+                  0.6, grid());
   Eigen::VectorXd m(static_cast<Eigen::Index>(grid().size()));
   for (Eigen::Index i = 0; i < m.size(); ++i) m[i] = 0.4 * std::sin(1.7 * static_cast<double>(i));
-  const FieldBody::Solution s = field.solve(kNu, m, true);
+  const FieldBody::Solution s = field.solve(kFieldNu, m, true);
   const Eigen::MatrixXd by_node = field.by_node(s);
   // A common factor on the modulus is one on the stiffness.
   EXPECT_NEAR(by_node.row(2).sum(), s.K(2, 2), 1e-6 * s.K(2, 2));
@@ -44,7 +45,7 @@ TEST(FieldStiffness, DerivativesAreDifferencesAndSumToTheStiffness) {
     more[node] += kStep;
     less[node] -= kStep;
     const Eigen::Matrix3d d =
-        (field.solve(kNu, more, false).K - field.solve(kNu, less, false).K) / (2 * kStep);
+        (field.solve(kFieldNu, more, false).K - field.solve(kFieldNu, less, false).K) / (2 * kStep);
     EXPECT_NEAR(by_node(2, node), d(2, 2), 1e-5 * s.K(2, 2)) << node;
     EXPECT_NEAR(by_node(5, node), d(0, 2), 1e-5 * s.K(2, 2)) << node;
   }

@@ -17,7 +17,7 @@ double heap_in_use() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-constexpr double kRadius = 0.004;
+constexpr double kHeldRadius = 0.004;
 
 const ContactBase& base() {
   static const ContactBase base =
@@ -32,10 +32,10 @@ void expect_true(std::size_t held, double heap) {
 
 TEST(HeldBytes, OfABodysMatrixWithItsFactor) {
   const auto surface = free_surface(base());
-  ContactBodies(base(), {0.033, 0.024, 0.03}, kRadius, 0.3, surface)
+  ContactBodies(base(), {0.033, 0.024, 0.03}, kHeldRadius, 0.3, surface)
       .solve_featured({0.4, {1.0}, nullptr, {}});  // what libraries keep from the first call on
   const double before = heap_in_use();
-  ContactBodies bodies(base(), {0.033, 0.024, 0.03}, kRadius, 0.3, surface);
+  ContactBodies bodies(base(), {0.033, 0.024, 0.03}, kHeldRadius, 0.3, surface);
   EXPECT_EQ(bodies.held_bytes(), 0u);
   bodies.solve_featured({0.4, {1.0}, nullptr, {}});
   const std::size_t with_factor = bodies.held_bytes();
@@ -48,7 +48,7 @@ TEST(HeldBytes, OfABodysMatrixWithItsFactor) {
 TEST(HeldBytes, OfAnEstimateWithItsMesh) {
   const auto surface = free_surface(base());
   const auto make = [&] {
-    return ContactBodies(base(), {0.033, 0.024, 0.03}, kRadius, 0.3, surface).estimate(0.42);
+    return ContactBodies(base(), {0.033, 0.024, 0.03}, kHeldRadius, 0.3, surface).estimate(0.42);
   };
   make();  // malloc keeps some of what small parts leave
   const double before = heap_in_use();
@@ -60,7 +60,7 @@ TEST(HeldBytes, OfABodyWithAField) {
   FieldGrid grid;
   grid.count = {13, 11, 7};
   const double before = heap_in_use();
-  FieldBody body(base(), {0.033, 0.024, 0.03}, kRadius, 0.3 * kRadius, kGrowth, grid);
+  FieldBody body(base(), {0.033, 0.024, 0.03}, kHeldRadius, 0.3 * kHeldRadius, kGrowth, grid);
   body.solve(0.4, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(grid.size())), false);
   expect_true(body.held_bytes(), heap_in_use() - before);
 }
@@ -75,7 +75,7 @@ TEST(HeldBytes, BoundALibrarysMemory) {
     options.threads = 2;
     options.rim_edge = 0.3;
     options.memo = std::make_shared<Memo>(memory);
-    const ContactLibrary library(block, kRadius, options);
+    const ContactLibrary library(block, kHeldRadius, options);
     const auto contacts = library.prepare(places, 0.4, 0.4);
     std::vector<Eigen::Matrix3d> K;
     for (const double ratio : {2.0, 3.0, 2.0}) {

@@ -14,7 +14,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004, kNu = 0.42;
+constexpr double kLabelRadius = 0.004, kLabelNu = 0.42;
 const Vec3 kBall(0.03, 0.025, 0.021);
 constexpr double kBallRadius = 0.006;
 
@@ -39,11 +39,11 @@ const ContactBase& block_base() {
 }
 const ContactMesh& block_contact() {
   static const ContactMesh mesh =
-      make_contact_mesh(block_base(), {0.033, 0.024, 0.03}, kRadius, kRadius / 4, 0.5);
+      make_contact_mesh(block_base(), {0.033, 0.024, 0.03}, kLabelRadius, kLabelRadius / 4, 0.5);
   return mesh;
 }
 
-Material labelled(const TetMesh& body, const std::vector<double>& modulus, double nu = kNu) {
+Material labelled(const TetMesh& body, const std::vector<double>& modulus, double nu = kLabelNu) {
   Material material{nu, modulus, nullptr, {}, nullptr};
   material.labels = BodyRegions::of(body);
   return material;
@@ -55,7 +55,7 @@ FeaturedBody::Solution solve(const Material& material) {
 }
 
 TEST(LabelledBody, EqualModuliAreTheHomogeneousBody) {
-  const Eigen::Matrix3d plain = solve({kNu, {1e4}, nullptr, {}, nullptr}).K;
+  const Eigen::Matrix3d plain = solve({kLabelNu, {1e4}, nullptr, {}, nullptr}).K;
   const FeaturedBody::Solution s = solve(labelled(labelled_block(), {1e4, 1e4, 1e4}));
   EXPECT_LT((s.K - plain).norm(), 1e-10 * plain.norm());
 }
@@ -82,8 +82,8 @@ TEST(LabelledBody, DerivativesAreThoseOfDifferences) {
     EXPECT_LT((s.by_modulus[g] - difference).norm(), 1e-6 * difference.norm()) << g;
   }
   EXPECT_LT((sum - s.K).norm(), 1e-10 * s.K.norm());
-  const Eigen::Matrix3d by_nu = (solve(labelled(body, modulus, kNu + 1e-5)).K -
-                                 solve(labelled(body, modulus, kNu - 1e-5)).K) /
+  const Eigen::Matrix3d by_nu = (solve(labelled(body, modulus, kLabelNu + 1e-5)).K -
+                                 solve(labelled(body, modulus, kLabelNu - 1e-5)).K) /
                                 2e-5;
   EXPECT_LT((s.by_nu - by_nu).norm(), 2e-5 * s.K.norm());
 }
@@ -98,15 +98,15 @@ TEST(LabelledBody, ABallOfLabelsTendsToAnInclusion) {
     if (body.region[t] == 1) volume += tet_volume(body, t);
   const double radius = std::cbrt(3 * volume / (4 * 3.14159265358979));
   const ContactMesh fine =
-      make_contact_mesh(block_base(), block_contact().point, kRadius, kRadius / 4, 0.22);
+      make_contact_mesh(block_base(), block_contact().point, kLabelRadius, kLabelRadius / 4, 0.22);
   for (const double ratio : {0.3, 5.0}) {
     const BodyFeature ball{Feature::kInclusion, {kBall.x(), kBall.y(), kBall.z(), radius, ratio}};
     double coarse = 0;
     for (const ContactMesh* mesh : {&block_contact(), &fine}) {
       FeaturedBody solved(*mesh, free_surface(block_base()));
-      const double plain = solved.solve({kNu, {1e4}, nullptr, {}, nullptr}).K(2, 2);
+      const double plain = solved.solve({kLabelNu, {1e4}, nullptr, {}, nullptr}).K(2, 2);
       const double of_labels = solved.solve(labelled(body, {1e4, ratio * 1e4})).K(2, 2);
-      const double of_ball = solved.solve({kNu, {1e4}, nullptr, {ball}, nullptr}).K(2, 2);
+      const double of_ball = solved.solve({kLabelNu, {1e4}, nullptr, {ball}, nullptr}).K(2, 2);
       EXPECT_LT(of_labels, of_ball) << ratio;
       EXPECT_GT(std::abs(of_ball / plain - 1), 0.03) << ratio;
       const double apart = std::abs((of_labels - plain) / (of_ball - plain) - 1);
@@ -153,7 +153,7 @@ TEST(LabelledBody, TorquesAndPointsHaveTheRegions) {
   EXPECT_LT((torque.K - K).norm(), 1e-9 * K.norm());
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t g = 0; g < 3; ++g) sum += material.modulus[g] * torque.dT_dmodulus[g];
-  EXPECT_LT((sum - torque.T).norm(), 1e-9 * torque.K.norm() * kRadius);
+  EXPECT_LT((sum - torque.T).norm(), 1e-9 * torque.K.norm() * kLabelRadius);
   const std::vector<Vec3> points{{0.045, 0.024, 0.03}};
   const Eigen::Matrix3d G = solve_markers(block_contact(), material, points).G[0];
   auto up = material, down = material;

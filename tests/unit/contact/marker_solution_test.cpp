@@ -12,7 +12,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004;
+constexpr double kMarkerRadius = 0.004;
 const Vec3 kNearEdge(0.055, 0.03, 0.03);
 const std::vector<Vec3> kPoints{{0.048, 0.03, 0.03}, {0.055, 0.037, 0.03}, {0.06, 0.031, 0.024}};
 
@@ -21,24 +21,26 @@ TetMesh block() {
 }
 
 ContactMesh contact_at(const ContactBase& base, const Vec3& point) {
-  return make_contact_mesh(base, point, kRadius, kRadius / 3, 0.8);
+  return make_contact_mesh(base, point, kMarkerRadius, kMarkerRadius / 3, 0.8);
 }
 
 // A bonded disc on an incompressible half-space is a frictionless one: outside it the surface sinks
 // by 2/pi asin(a/r) of the disc's depth (Sneddon, 1965).
 TEST(MarkerSolution, IsSneddonsSurface) {
-  const double size = 200 * kRadius, depth = size / 2;
+  const double size = 200 * kMarkerRadius, depth = size / 2;
   const ContactBase base = make_contact_base(test::block_mesh({size, size, depth}, 8, 8, 6, 1));
   const Vec3 middle(size / 2, size / 2, depth);
   std::vector<Vec3> points;
   for (const double r : {1.1, 1.25, 1.5, 2.0, 3.0, 5.0})
     for (const double angle : {0.0, 1.0, 2.5, 4.0})
-      points.push_back(middle + r * kRadius * Vec3(std::cos(angle), std::sin(angle), 0));
-  const MarkerSolution s = solve_markers(make_contact_mesh(base, middle, kRadius, kRadius / 6, 0.4),
-                                         {0.4999, {1.0}, nullptr, {}}, points);
+      points.push_back(middle + r * kMarkerRadius * Vec3(std::cos(angle), std::sin(angle), 0));
+  const MarkerSolution s =
+      solve_markers(make_contact_mesh(base, middle, kMarkerRadius, kMarkerRadius / 6, 0.4),
+                    {0.4999, {1.0}, nullptr, {}}, points);
   double worst = 0;
   for (std::size_t m = 0; m < points.size(); ++m) {
-    const double exact = 2 / std::acos(-1.0) * std::asin(kRadius / (points[m] - middle).norm());
+    const double exact =
+        2 / std::acos(-1.0) * std::asin(kMarkerRadius / (points[m] - middle).norm());
     worst = std::max(worst, std::abs(s.G[m](2, 2) - exact));
   }
   std::printf("surface beside a disc: off by at most %.4f of its depth\n", worst);
@@ -94,7 +96,7 @@ TEST(MarkerSolution, InterpolatesInTheSurfacesElements) {
   EXPECT_LT(s.G[1].norm(), 1e-12);
   std::vector<Vec3> points;
   for (int k = 0; k < 40; ++k) {
-    const double angle = 0.157 * k, r = kRadius * (0.9 + 0.02 * k);
+    const double angle = 0.157 * k, r = kMarkerRadius * (0.9 + 0.02 * k);
     const Vec3 p = kNearEdge + r * Vec3(std::cos(angle), std::sin(angle), 0);
     if (p.x() < 0.06) points.push_back(p);
   }

@@ -12,27 +12,27 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004;
+constexpr double kTorqueRadius = 0.004;
 
-TetMesh block() {
+TetMesh torque_block() {
   return test::block_mesh({0.06, 0.06, 0.03}, 8, 8, 6, 1);
 }
 
-ContactMesh contact_at(const ContactBase& base, const Vec3& point) {
-  return make_contact_mesh(base, point, kRadius, kRadius / 3, 0.8);
+ContactMesh torque_contact(const ContactBase& base, const Vec3& point) {
+  return make_contact_mesh(base, point, kTorqueRadius, kTorqueRadius / 3, 0.8);
 }
 
 Eigen::Matrix3d lever(const TorqueSolution& s) {
   return s.T * s.K.inverse();
 }
 
-const Vec3 kMiddle(0.03, 0.03, 0.03), kNearEdge(0.055, 0.03, 0.03);
+const Vec3 kMiddle(0.03, 0.03, 0.03), kTorqueEdge(0.055, 0.03, 0.03);
 
 // The moment under a moved tool is the force under a turned one (Betti), from nodal tractions here
 // and from energies there.
 TEST(ToolTorque, IsReciprocal) {
-  const ContactBase base = make_contact_base(block());
-  const ContactMesh contact = contact_at(base, kNearEdge);
+  const ContactBase base = make_contact_base(torque_block());
+  const ContactMesh contact = torque_contact(base, kTorqueEdge);
   const TorqueSolution s = solve_torque(contact, {0.4, {2000.0}, nullptr, {}});
   const std::vector<Lame> constants(contact.mesh.tets.size(), lame(2000, 0.4));
   const Eigen::MatrixXd K =
@@ -45,19 +45,19 @@ TEST(ToolTorque, IsReciprocal) {
 // In the middle of a square block nothing but the moment about n x u is left; near an edge the
 // press along the normal has a moment too, and the plane of symmetry leaves its others zero.
 TEST(ToolTorque, HasTheSymmetryOfThePlace) {
-  const ContactBase base = make_contact_base(block());
+  const ContactBase base = make_contact_base(torque_block());
   const Material material{0.4, {1.0}, nullptr, {}};
-  const Eigen::Matrix3d middle = lever(solve_torque(contact_at(base, kMiddle), material));
+  const Eigen::Matrix3d middle = lever(solve_torque(torque_contact(base, kMiddle), material));
   const double sway = 0.5 * (middle(1, 0) - middle(0, 1));
-  EXPECT_GT(std::abs(sway), 0.02 * kRadius);
+  EXPECT_GT(std::abs(sway), 0.02 * kTorqueRadius);
   Eigen::Matrix3d rest = middle;
   rest(1, 0) -= sway;
   rest(0, 1) += sway;
-  EXPECT_LT(rest.cwiseAbs().maxCoeff(), 0.02 * kRadius);
-  const Eigen::Matrix3d edge = lever(solve_torque(contact_at(base, kNearEdge), material));
-  EXPECT_GT(std::abs(edge(1, 2)), 0.03 * kRadius);
+  EXPECT_LT(rest.cwiseAbs().maxCoeff(), 0.02 * kTorqueRadius);
+  const Eigen::Matrix3d edge = lever(solve_torque(torque_contact(base, kTorqueEdge), material));
+  EXPECT_GT(std::abs(edge(1, 2)), 0.03 * kTorqueRadius);
   for (const auto& [i, j] : {std::pair{0, 0}, {0, 2}, {1, 1}, {2, 0}, {2, 2}})
-    EXPECT_LT(std::abs(edge(i, j)), 0.02 * kRadius) << i << j;
+    EXPECT_LT(std::abs(edge(i, j)), 0.02 * kTorqueRadius) << i << j;
 }
 
 // Incompressible, a bonded disc on a half-space slides and tilts apart; so nearly does one on a
@@ -65,10 +65,10 @@ TEST(ToolTorque, HasTheSymmetryOfThePlace) {
 TEST(ToolTorque, OfAnIncompressibleHalfSpaceIsNone) {
   const ContactBase base = make_contact_base(test::block_mesh({0.4, 0.4, 0.2}, 8, 8, 6, 1));
   const auto sway = [&](double nu) {
-    const Eigen::Matrix3d L =
-        lever(solve_torque(make_contact_mesh(base, {0.2, 0.2, 0.2}, kRadius, kRadius / 6, 0.4),
-                           {nu, {1.0}, nullptr, {}}));
-    return 0.5 * std::abs(L(1, 0) - L(0, 1)) / kRadius;
+    const Eigen::Matrix3d L = lever(solve_torque(
+        make_contact_mesh(base, {0.2, 0.2, 0.2}, kTorqueRadius, kTorqueRadius / 6, 0.4),
+        {nu, {1.0}, nullptr, {}}));
+    return 0.5 * std::abs(L(1, 0) - L(0, 1)) / kTorqueRadius;
   };
   const double none = sway(0.4999), some = sway(0.3);
   std::printf("lever over radius: %.5f at nu 0.4999, %.5f at 0.3\n", none, some);
@@ -80,8 +80,8 @@ TEST(ToolTorque, OfAnIncompressibleHalfSpaceIsNone) {
 }
 
 TEST(ToolTorque, DerivativesAreDifferences) {
-  const ContactBase base = make_contact_base(block());
-  const ContactMesh contact = contact_at(base, kNearEdge);
+  const ContactBase base = make_contact_base(torque_block());
+  const ContactMesh contact = torque_contact(base, kTorqueEdge);
   const auto group = [](const Vec3& p) { return p.x() > 0.052 ? 1 : 0; };
   const auto solve = [&](double nu, double beside) {
     return solve_torque(contact, {nu, {1000.0, beside}, group, {}});
@@ -102,20 +102,20 @@ TEST(ToolTorque, DerivativesAreDifferences) {
 TEST(ToolTorque, TurnsWithTheBody) {
   const Eigen::Matrix3d R =
       Eigen::AngleAxisd(0.7, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
-  TetMesh turned = block();
+  TetMesh turned = torque_block();
   for (Vec3& p : turned.nodes) p = (R * p).eval();
   const Material material{0.4, {1.0}, nullptr, {}};
   const Eigen::Matrix3d L =
-      lever(solve_torque(contact_at(make_contact_base(block()), kNearEdge), material));
+      lever(solve_torque(torque_contact(make_contact_base(torque_block()), kTorqueEdge), material));
   const Eigen::Matrix3d L_turned =
-      lever(solve_torque(contact_at(make_contact_base(turned), R * kNearEdge), material));
-  EXPECT_LT((L_turned - R * L * R.transpose()).cwiseAbs().maxCoeff(), 0.02 * kRadius);
+      lever(solve_torque(torque_contact(make_contact_base(turned), R * kTorqueEdge), material));
+  EXPECT_LT((L_turned - R * L * R.transpose()).cwiseAbs().maxCoeff(), 0.02 * kTorqueRadius);
 }
 
 TEST(ToolTorque, IsAnEntryOfTheCache) {
-  const ContactBase base = make_contact_base(block());
+  const ContactBase base = make_contact_base(torque_block());
   const TorqueSolution s =
-      solve_torque(contact_at(base, kNearEdge),
+      solve_torque(torque_contact(base, kTorqueEdge),
                    {0.4, {1.0, 2.0}, [](const Vec3& p) { return p.x() > 0.05 ? 1 : 0; }, {}});
   const auto back = unpacked(packed(s));
   ASSERT_TRUE(back);

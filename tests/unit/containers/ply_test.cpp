@@ -8,7 +8,7 @@
 namespace hapsim {
 namespace {
 
-std::string failure(const std::string& bytes) {
+std::string ply_failure(const std::string& bytes) {
   return error_of([&] { parse_ply(bytes, "m.ply"); });
 }
 
@@ -95,54 +95,58 @@ TEST(Ply, KnowsBothNamesOfTypesAndCarriageReturns) {
 }
 
 TEST(Ply, RefusesWrongHeaders) {
-  EXPECT_NE(failure("solid").find("truncated"), std::string::npos);
-  EXPECT_NE(failure("obj\n").find("does not begin with 'ply'"), std::string::npos);
-  EXPECT_NE(failure("ply\nformat ascii 1.0\n").find("no 'end_header'"), std::string::npos);
-  EXPECT_NE(failure("ply\nend_header\n").find("no format line"), std::string::npos);
-  EXPECT_NE(failure(ascii("property int x\n", "")).find("precedes"), std::string::npos);
-  EXPECT_NE(failure(ascii("element vertex -1\n", "")).find("m.ply:3: the count"),
+  EXPECT_NE(ply_failure("solid").find("truncated"), std::string::npos);
+  EXPECT_NE(ply_failure("obj\n").find("does not begin with 'ply'"), std::string::npos);
+  EXPECT_NE(ply_failure("ply\nformat ascii 1.0\n").find("no 'end_header'"), std::string::npos);
+  EXPECT_NE(ply_failure("ply\nend_header\n").find("no format line"), std::string::npos);
+  EXPECT_NE(ply_failure(ascii("property int x\n", "")).find("precedes"), std::string::npos);
+  EXPECT_NE(ply_failure(ascii("element vertex -1\n", "")).find("m.ply:3: the count"),
             std::string::npos);
-  EXPECT_NE(failure(ascii("element v 1\nproperty half x\n", "")).find("unknown type 'half'"),
+  EXPECT_NE(ply_failure(ascii("element v 1\nproperty half x\n", "")).find("unknown type 'half'"),
             std::string::npos);
-  EXPECT_NE(failure(ascii("element v 1\nproperty list float int x\n", "")).find("counted by"),
+  EXPECT_NE(ply_failure(ascii("element v 1\nproperty list float int x\n", "")).find("counted by"),
             std::string::npos);
-  EXPECT_NE(failure(ascii("element v 1\nproperty int x\nproperty int x\n", "1 1")).find("twice"),
-            std::string::npos);
-  EXPECT_NE(failure(ascii("element v 1\n", "1")).find("no property"), std::string::npos);
+  EXPECT_NE(
+      ply_failure(ascii("element v 1\nproperty int x\nproperty int x\n", "1 1")).find("twice"),
+      std::string::npos);
+  EXPECT_NE(ply_failure(ascii("element v 1\n", "1")).find("no property"), std::string::npos);
 }
 
 TEST(Ply, ChecksCountsBeforeItTakesMemory) {
-  EXPECT_NE(failure(ascii("element vertex 18446744073709551615\nproperty double x\n", "1\n"))
+  EXPECT_NE(ply_failure(ascii("element vertex 18446744073709551615\nproperty double x\n", "1\n"))
                 .find("truncated"),
             std::string::npos);
   const std::string little =
       "ply\nformat binary_little_endian 1.0\nelement vertex 1000000000000\nproperty double x\n"
       "end_header\n12345678";
-  EXPECT_EQ(failure(little),
+  EXPECT_EQ(ply_failure(little),
             "m.ply: byte 94: the file is truncated: 8 bytes are left for 1000000000000 items of "
             "element 'vertex'; copy or write the file again");
   const std::string list =
       "ply\nformat binary_little_endian 1.0\nelement face 1\nproperty list uint double x\n"
       "end_header\n\xff\xff\xff\xff"
       "12345678";
-  EXPECT_NE(failure(list).find("for 4294967295 entries"), std::string::npos);
+  EXPECT_NE(ply_failure(list).find("for 4294967295 entries"), std::string::npos);
 }
 
 TEST(Ply, RefusesWrongBodies) {
-  EXPECT_EQ(failure(ascii(kVertex, "1 2 3\n4 nan 6\n")),
+  EXPECT_EQ(ply_failure(ascii(kVertex, "1 2 3\n4 nan 6\n")),
             "m.ply:9: y of vertex 1 (counted from 0) is nan; remove the vertex or give it a finite "
             "coordinate");
-  EXPECT_NE(failure(ascii(kVertex, "1 2 3\n4 1e999 6\n")).find("is inf"), std::string::npos);
-  EXPECT_NE(failure(ascii(kVertex, "1 2 3\n4 5\n")).find("truncated"), std::string::npos);
-  EXPECT_NE(failure(ascii(kVertex, "1 2 3\n4 5 6\n7\n")).find("follow the last element"),
+  EXPECT_NE(ply_failure(ascii(kVertex, "1 2 3\n4 1e999 6\n")).find("is inf"), std::string::npos);
+  EXPECT_NE(ply_failure(ascii(kVertex, "1 2 3\n4 5\n")).find("truncated"), std::string::npos);
+  EXPECT_NE(ply_failure(ascii(kVertex, "1 2 3\n4 5 6\n7\n")).find("follow the last element"),
             std::string::npos);
-  EXPECT_NE(failure(ascii(kVertex, "1 2 3\n4 x 6\n")).find("m.ply:9: 'x' is not a number"),
+  EXPECT_NE(ply_failure(ascii(kVertex, "1 2 3\n4 x 6\n")).find("m.ply:9: 'x' is not a number"),
             std::string::npos);
   const std::string byte = "element v 1\nproperty uchar b\n";
-  EXPECT_NE(failure(ascii(byte, "256\n")).find("no value of the type 'uchar'"), std::string::npos);
-  EXPECT_NE(failure(ascii(byte, "1.5\n")).find("no value of the type 'uchar'"), std::string::npos);
-  EXPECT_NE(failure(ascii("element f 1\nproperty list int int i\n", "-1 2\n")).find("-1 entries"),
+  EXPECT_NE(ply_failure(ascii(byte, "256\n")).find("no value of the type 'uchar'"),
             std::string::npos);
+  EXPECT_NE(ply_failure(ascii(byte, "1.5\n")).find("no value of the type 'uchar'"),
+            std::string::npos);
+  EXPECT_NE(
+      ply_failure(ascii("element f 1\nproperty list int int i\n", "-1 2\n")).find("-1 entries"),
+      std::string::npos);
 }
 
 TEST(Ply, LetsOtherValuesBeNan) {

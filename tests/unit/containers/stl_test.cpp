@@ -9,7 +9,7 @@
 namespace hapsim {
 namespace {
 
-std::string failure(const std::string& bytes) {
+std::string stl_failure(const std::string& bytes) {
   return error_of([&] { parse_stl(bytes, "s.stl"); });
 }
 
@@ -52,26 +52,27 @@ TEST(Stl, AsciiMayBeUpperCaseWithCarriageReturns) {
 }
 
 TEST(Stl, RefusesWrongFiles) {
-  EXPECT_NE(failure("").find("empty"), std::string::npos);
-  EXPECT_NE(failure("hello").find("no STL file"), std::string::npos);
-  EXPECT_NE(failure("\x1f\x8b" + binary()).find("gzip -dc"), std::string::npos);
-  EXPECT_NE(failure("PK\x03\x04" + binary()).find("zip file"), std::string::npos);
-  EXPECT_NE(failure("<html><body>404").find("web page"), std::string::npos);
-  EXPECT_NE(failure("\xef\xbb\xbfsolid\n" + kFacet).find("byte order mark"), std::string::npos);
-  EXPECT_NE(failure(binary().substr(0, 150)).find("claims 2 triangles (184 bytes) and has 150"),
+  EXPECT_NE(stl_failure("").find("empty"), std::string::npos);
+  EXPECT_NE(stl_failure("hello").find("no STL file"), std::string::npos);
+  EXPECT_NE(stl_failure("\x1f\x8b" + binary()).find("gzip -dc"), std::string::npos);
+  EXPECT_NE(stl_failure("PK\x03\x04" + binary()).find("zip file"), std::string::npos);
+  EXPECT_NE(stl_failure("<html><body>404").find("web page"), std::string::npos);
+  EXPECT_NE(stl_failure("\xef\xbb\xbfsolid\n" + kFacet).find("byte order mark"), std::string::npos);
+  EXPECT_NE(stl_failure(binary().substr(0, 150)).find("claims 2 triangles (184 bytes) and has 150"),
             std::string::npos);
-  EXPECT_NE(failure("solid\nendsolid\n").find("no triangle"), std::string::npos);
-  EXPECT_NE(failure("solid\n" + kFacet).find("s.stl:9: the file is truncated"), std::string::npos);
-  EXPECT_NE(failure("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n")
+  EXPECT_NE(stl_failure("solid\nendsolid\n").find("no triangle"), std::string::npos);
+  EXPECT_NE(stl_failure("solid\n" + kFacet).find("s.stl:9: the file is truncated"),
+            std::string::npos);
+  EXPECT_NE(stl_failure("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 nan\n")
                 .find("s.stl:4: 'nan' stands where a finite coordinate should"),
             std::string::npos);
   std::string huge = binary();
   std::memset(huge.data() + 80, 0xff, 4);
-  EXPECT_NE(failure(huge).find("claims 4294967295"), std::string::npos);
+  EXPECT_NE(stl_failure(huge).find("claims 4294967295"), std::string::npos);
   std::string bad = binary();
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(bad.data() + 84 + 50 + 12, &nan, 4);
-  EXPECT_NE(failure(bad).find("corner of triangle 1"), std::string::npos);
+  EXPECT_NE(stl_failure(bad).find("corner of triangle 1"), std::string::npos);
 }
 
 }  // namespace

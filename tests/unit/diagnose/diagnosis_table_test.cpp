@@ -13,9 +13,9 @@
 namespace hapsim {
 namespace {
 
-const DiagnosedFiles kFiles{"data.csv", "body.ply", "m0.csv"};
+const DiagnosedFiles kTableFiles{"data.csv", "body.ply", "m0.csv"};
 
-Finding finding(const std::string& effect, Verdict verdict) {
+Finding table_finding(const std::string& effect, Verdict verdict) {
   Finding f;
   f.effect = effect;
   f.verdict = verdict;
@@ -29,8 +29,9 @@ Diagnosis diagnosed() {
   Diagnosis d;
   d.verdict = ModelVerdict::kIncomplete;
   d.explanation = "something is missing";
-  d.findings = {finding("friction", Verdict::kMissing), finding("regions", Verdict::kPossible),
-                finding("tare", Verdict::kAbsent), finding("temperature", Verdict::kNotTestable)};
+  d.findings = {
+      table_finding("friction", Verdict::kMissing), table_finding("regions", Verdict::kPossible),
+      table_finding("tare", Verdict::kAbsent), table_finding("temperature", Verdict::kNotTestable)};
   d.findings[0].confused_with = {"slack", "shape"};
   d.findings[0].p_value = 0.004;
   d.findings[0].values = {{"mu", "1", 0.12, 0.002, 1000}};
@@ -42,7 +43,7 @@ Diagnosis diagnosed() {
 
 CsvTable written(const Diagnosis& d) {
   std::ostringstream out;
-  write_diagnosis(out, d, kFiles, "7");
+  write_diagnosis(out, d, kTableFiles, "7");
   Input input = Input::from_bytes(out.str(), "effects.csv");
   return read_csv(input);
 }
@@ -77,7 +78,7 @@ TEST(DiagnosisTable, WhatIsMissingIsReadAgain) {
 }
 
 TEST(DiagnosisTable, JsonHasTheSame) {
-  const auto json = nlohmann::json::parse(diagnosis_json(diagnosed(), kFiles));
+  const auto json = nlohmann::json::parse(diagnosis_json(diagnosed(), kTableFiles));
   EXPECT_EQ(json["verdict"], verdict_name(ModelVerdict::kIncomplete));
   ASSERT_EQ(json["effects"].size(), 4u);
   EXPECT_EQ(json["effects"][0]["verdict"], "missing");
@@ -92,7 +93,7 @@ TEST(DiagnosisTable, JsonHasTheSame) {
 TEST(DiagnosisTable, JsonOfWhatIsNotThereHasNoCommandAndNoValue) {
   Diagnosis d = diagnosed();
   d.findings[2].values = d.findings[0].values;
-  const auto json = nlohmann::json::parse(diagnosis_json(d, kFiles))["effects"];
+  const auto json = nlohmann::json::parse(diagnosis_json(d, kTableFiles))["effects"];
   EXPECT_TRUE(json[0]["command"].is_string());
   EXPECT_TRUE(json[2]["command"].is_null());
   EXPECT_TRUE(json[2]["values"].empty());
@@ -110,7 +111,7 @@ TEST(DiagnosisTable, WhatIsNotThereHasNoValueInWords) {
   absent.values = {{"mu", "1", 0.393, 0.006, 1000}};
   absent.smallest = {"mu", "1", 0.012, std::nan(""), 1000};
   const auto line_of = [&] {
-    for (const std::string& line : diagnosis_lines(d, kFiles))
+    for (const std::string& line : diagnosis_lines(d, kTableFiles))
       if (line.find("  tare ") == 0) return line;
     return std::string();
   };
@@ -121,7 +122,7 @@ TEST(DiagnosisTable, WhatIsNotThereHasNoValueInWords) {
 }
 
 TEST(DiagnosisTable, OnlyWhatIsLackingIsToBeAdded) {
-  const std::vector<std::string> lines = diagnosis_lines(diagnosed(), kFiles);
+  const std::vector<std::string> lines = diagnosis_lines(diagnosed(), kTableFiles);
   EXPECT_EQ(lines.front(), "incomplete: something is missing");
   const auto commands = std::count_if(lines.begin(), lines.end(), [](const std::string& l) {
     return l.find("add it: ") != std::string::npos;

@@ -14,7 +14,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kNoise = 2e-3, kDepth = 2e-3;
+constexpr double kPlaceNoise = 2e-3, kDepth = 2e-3;
 constexpr int kSteps = 6;
 
 // Where nothing of the approach is recorded, each press begins loaded.
@@ -48,7 +48,7 @@ Experiment places(bool approach, double late, const Vec3& zero, int along = 5) {
   const auto on_block = [&](double rim_edge, int across, int down) {
     ExperimentOptions options;
     options.rim_edge = rim_edge;
-    options.noise = kNoise;
+    options.noise = kPlaceNoise;
     options.floor = 0.02;
     options.nu_low = options.nu_high = 0.4;
     return make_experiment(test::block_mesh({0.06, 0.06, 0.03}, across, across, down, 1),
@@ -67,8 +67,8 @@ Experiment places(bool approach, double late, const Vec3& zero, int along = 5) {
                                       std::pow((d + late) / kDepth, power) * (d + late) / d
                                 : 0;
     for (int k = 0; k < 3; ++k)
-      r.f[row][k] =
-          factor * f[3 * static_cast<Eigen::Index>(row) + k] + zero[k] + kNoise * random.normal();
+      r.f[row][k] = factor * f[3 * static_cast<Eigen::Index>(row) + k] + zero[k] +
+                    kPlaceNoise * random.normal();
   }
   return w;
 }

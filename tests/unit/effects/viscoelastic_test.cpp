@@ -8,7 +8,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kStiffness = 200;  // [N/m]
+constexpr double kSpring = 200;  // [N/m]
 constexpr double kModulus = 1e4, kE1 = 6e3, kTau1 = 0.3, kE2 = 2e3, kTau2 = 5;
 
 Eigen::VectorXd relax(PressView press) {
@@ -17,7 +17,7 @@ Eigen::VectorXd relax(PressView press) {
   Signal signal;
   signal.f.resize(3 * static_cast<Eigen::Index>(press.size()));
   for (std::size_t i = 0; i < press.size(); ++i)
-    signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = -kStiffness * press.u[i];
+    signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = -kSpring * press.u[i];
   signal.df.resize(signal.f.size(), 0);
   viscoelastic_effect().apply(
       press, {{0, "E1", kE1}, {0, "tau1", kTau1}, {0, "E2", kE2}, {0, "tau2", kTau2}}, signal);
@@ -32,7 +32,7 @@ double ramp_and_hold(double t, double v, double t1) {
     double f = s;
     f += kE1 / kModulus * kTau1 * (1 - std::exp(-s / kTau1));
     f += kE2 / kModulus * kTau2 * (1 - std::exp(-s / kTau2));
-    return kStiffness * v * f;
+    return kSpring * v * f;
   };
   return ramp(t) - ramp(t - t1);
 }

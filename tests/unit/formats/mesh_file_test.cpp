@@ -23,8 +23,6 @@
 namespace hapsim {
 namespace {
 
-using test::error_of;
-
 TetMesh two_regions(int order) {
   BodyOptions options;
   options.edge = 0.02;
@@ -94,10 +92,10 @@ TEST(MeshFile, TetGenFilesStandBesideEachOther) {
       expect_same(parse_mesh(input.read_all(), input.name(), true).mesh, mesh, name);
     }
   }
-  EXPECT_EQ(error_of([] { parse_mesh("4 3 0 0\n", "stdin", true); }).first, 3);
+  EXPECT_EQ(test::error_of([] { parse_mesh("4 3 0 0\n", "stdin", true); }).first, 3);
   std::filesystem::remove(folder / "m.ele");
   Input input((folder / "m.node").string());
-  EXPECT_EQ(error_of([&] { parse_mesh(input.read_all(), input.name(), true); }).first, 5);
+  EXPECT_EQ(test::error_of([&] { parse_mesh(input.read_all(), input.name(), true); }).first, 5);
   std::filesystem::remove_all(folder);
 }
 
@@ -190,13 +188,13 @@ TEST(MeshFile, MendsOrRefusesWithThePlace) {
     EXPECT_EQ(file.repairs.doubled, 1u) << name;
     EXPECT_EQ(file.repairs.unused_nodes, 1u) << name;
     expect_same(file.mesh, good, name);
-    const auto [code, what] = error_of([&] { parse_mesh(bytes, name, false); });
+    const auto [code, what] = test::error_of([&] { parse_mesh(bytes, name, false); });
     EXPECT_EQ(code, 3);
     EXPECT_NE(what.find("is inverted; run hs-tetmesh"), std::string::npos) << what;
   }
   const auto refuse = [&](const TetMesh& mesh, const std::string& part) {
     const std::string bytes = written(kFormats[3].second, mesh);
-    const auto [code, what] = error_of([&] { parse_mesh(bytes, "m.vtu", true); });
+    const auto [code, what] = test::error_of([&] { parse_mesh(bytes, "m.vtu", true); });
     EXPECT_EQ(code, 3) << part;
     EXPECT_NE(what.find(part), std::string::npos) << what;
   };
@@ -224,7 +222,7 @@ TEST(MeshFile, MendsOrRefusesWithThePlace) {
 
 TEST(MeshFile, SaysTheLineOfWhatIsWrong) {
   const auto refuse = [](const std::string& bytes, const std::string& part) {
-    const auto [code, what] = error_of([&] { parse_mesh(bytes, "f", true); });
+    const auto [code, what] = test::error_of([&] { parse_mesh(bytes, "f", true); });
     EXPECT_EQ(code, 3) << part;
     EXPECT_NE(what.find(part), std::string::npos) << what;
   };

@@ -7,8 +7,6 @@
 namespace hapsim {
 namespace {
 
-using test::error_of;
-
 // A part of two tetrahedra and another of one; `rest` after the elements, `boundary` after the
 // mesh.
 std::string febio(const std::string& version, const std::string& section, const std::string& rest,
@@ -37,7 +35,7 @@ std::string fixed_of(const std::string& bytes) {
 }
 
 void refuse(const std::string& bytes, const std::string& part) {
-  const auto [code, what] = error_of([&] { parse_mesh(bytes, "f", true); });
+  const auto [code, what] = test::error_of([&] { parse_mesh(bytes, "f", true); });
   EXPECT_EQ(code, 3) << part;
   EXPECT_NE(what.find(part), std::string::npos) << what;
 }

@@ -236,7 +236,7 @@ TEST(LiveSession, SeveralToolsTakeNoMemoryAndNoLock) {
   }
 }
 
-Acfm springs() {
+Acfm live_springs() {
   Acfm model;
   model.positions.resize(1);
   for (AcfmAxis& axis : model.positions[0].axis) axis.value[0] = 400;
@@ -244,7 +244,7 @@ Acfm springs() {
 }
 
 TEST(LiveSession, NorDoesTheAnalyticalModel) {
-  const Acfm model = springs();
+  const Acfm model = live_springs();
   Input input = Input::from_bytes(presses_as_lines(), kName);
   MotionLines source(input);
   AcfmLoop loop(model);
@@ -252,17 +252,17 @@ TEST(LiveSession, NorDoesTheAnalyticalModel) {
 }
 
 // A stiffer body, solved beside the loop.
-class Stiffer : public SlowPress {
+class Stiff : public SlowPress {
  public:
   Vec3 step(const Vec3& u, double) override { return -500 * u; }
 };
 
 TEST(LiveSession, NorDoesTheFusedForce) {
-  const Acfm model = springs();
+  const Acfm model = live_springs();
   Input input = Input::from_bytes(presses_as_lines(), kName);
   MotionLines source(input);
   AcfmLoop fast(model);
-  FusedLoop loop(fast, [](const Vec3&) { return std::make_unique<Stiffer>(); }, {});
+  FusedLoop loop(fast, [](const Vec3&) { return std::make_unique<Stiff>(); }, {});
   answer(source, loop);
   loop.stop();
   EXPECT_EQ(loop.failure(), "");

@@ -12,7 +12,7 @@ CsvTable table_of(const std::string& text) {
   return read_csv(input);
 }
 
-std::string failure(const std::string& text) {
+std::string csv_failure(const std::string& text) {
   return error_of([&] { table_of(text); });
 }
 
@@ -51,46 +51,47 @@ TEST(Csv, GathersCommentsBetweenRows) {
 TEST(Csv, UnderstandsDecimalCommas) {
   EXPECT_EQ(table_of("x;y\n1,5;-2,5e-3\n").numbers("y"), (Numbers{-2.5e-3}));
   EXPECT_EQ(table_of("x\ty\n,5\t2\n").numbers("x"), (Numbers{0.5}));
-  EXPECT_EQ(failure("x;y\n1,5;2\n1.5;2\n"),
+  EXPECT_EQ(csv_failure("x;y\n1,5;2\n1.5;2\n"),
             "t.csv:3: decimal commas (line 2) and decimal points (line 3) are mixed; write all "
             "numbers with a point");
-  EXPECT_EQ(failure("x,y\n1,5,2,5\n"),
+  EXPECT_EQ(csv_failure("x,y\n1,5,2,5\n"),
             "t.csv:2: 4 fields where the header names 2; write decimal points, not commas, and "
             "quote text that holds a comma");
 }
 
 TEST(Csv, RefusesWrongRows) {
-  EXPECT_EQ(failure("x,y\n1,2\n3\n"),
+  EXPECT_EQ(csv_failure("x,y\n1,2\n3\n"),
             "t.csv:3: 1 fields where the header names 2; complete the row or remove it");
-  EXPECT_EQ(failure("x,y\n1,\"2\n3\n"),
+  EXPECT_EQ(csv_failure("x,y\n1,\"2\n3\n"),
             "t.csv:2: a quote opens and never closes; close it, or double it inside a field");
-  EXPECT_EQ(failure("x,y\n1,\"2\"3\n"),
+  EXPECT_EQ(csv_failure("x,y\n1,\"2\"3\n"),
             "t.csv:2: text follows a closing quote; double a quote that is part of a field");
 }
 
 TEST(Csv, NeedsAHeader) {
-  EXPECT_EQ(failure(""), "t.csv: the file is empty; the first row must name the columns");
-  EXPECT_EQ(failure("# only\n"),
+  EXPECT_EQ(csv_failure(""), "t.csv: the file is empty; the first row must name the columns");
+  EXPECT_EQ(csv_failure("# only\n"),
             "t.csv: there is no header row; the first row must name the columns");
-  EXPECT_EQ(failure("1,2,3\n4,5,6\n"),
+  EXPECT_EQ(csv_failure("1,2,3\n4,5,6\n"),
             "t.csv:1: the first row holds numbers, not names of columns; add a header row");
-  EXPECT_EQ(failure("x,y,x\n"), "t.csv:1: two columns are named 'x'; rename one of them");
-  EXPECT_EQ(failure("x,,y\n"),
+  EXPECT_EQ(csv_failure("x,y,x\n"), "t.csv:1: two columns are named 'x'; rename one of them");
+  EXPECT_EQ(csv_failure("x,,y\n"),
             "t.csv:1: column 2 has no name; name it or remove it (an index column, a separator too "
             "much?)");
   EXPECT_EQ(table_of("x,y\n").rows(), 0u);
 }
 
 TEST(Csv, SaysWhatElseTheFileIs) {
-  EXPECT_NE(failure(std::string("x\0y", 3)).find("looks like a binary file"), std::string::npos);
-  EXPECT_NE(failure("x,y\n1,\x01\n").find("t.csv:2: this looks like a binary file"),
+  EXPECT_NE(csv_failure(std::string("x\0y", 3)).find("looks like a binary file"),
             std::string::npos);
-  EXPECT_NE(failure(std::string("\xff\xfex\0,\0", 6)).find("UTF-16"), std::string::npos);
-  EXPECT_NE(failure(std::string("x\0,\0y\0", 6)).find("UTF-16"), std::string::npos);
-  EXPECT_NE(failure(std::string(6, '\0')).find("binary file"), std::string::npos);
-  EXPECT_NE(failure("ply\nformat ascii 1.0\n").find("PLY"), std::string::npos);
-  EXPECT_NE(failure("PK\x03\x04zzz").find("spreadsheet"), std::string::npos);
-  EXPECT_NE(failure("x,y\r1,2\r").find("carriage return"), std::string::npos);
+  EXPECT_NE(csv_failure("x,y\n1,\x01\n").find("t.csv:2: this looks like a binary file"),
+            std::string::npos);
+  EXPECT_NE(csv_failure(std::string("\xff\xfex\0,\0", 6)).find("UTF-16"), std::string::npos);
+  EXPECT_NE(csv_failure(std::string("x\0,\0y\0", 6)).find("UTF-16"), std::string::npos);
+  EXPECT_NE(csv_failure(std::string(6, '\0')).find("binary file"), std::string::npos);
+  EXPECT_NE(csv_failure("ply\nformat ascii 1.0\n").find("PLY"), std::string::npos);
+  EXPECT_NE(csv_failure("PK\x03\x04zzz").find("spreadsheet"), std::string::npos);
+  EXPECT_NE(csv_failure("x,y\r1,2\r").find("carriage return"), std::string::npos);
 }
 
 TEST(Csv, ListsBadCellsInOneLine) {

@@ -5,7 +5,7 @@
 namespace hapsim {
 namespace {
 
-std::string failure(const std::string& text) {
+std::string quantity_failure(const std::string& text) {
   return error_of([&] { parse_length(text, "--edge"); }, ExitCode::kUsage);
 }
 
@@ -29,10 +29,11 @@ TEST(Quantity, WithAUnitIsTheVeryNumberInSi) {
 }
 
 TEST(Quantity, SaysWhatIsWrong) {
-  EXPECT_EQ(failure("wide"), "--edge: 'wide' is no length; write for example 0.004 or 4mm");
-  EXPECT_EQ(failure(""), "--edge: '' is no length; write for example 0.004 or 4mm");
-  EXPECT_EQ(failure("4ms"), "--edge: unknown unit 'ms'; use one of: m mm cm um in");
-  EXPECT_EQ(failure("4 4mm"), "--edge: unknown unit '4mm'; use one of: m mm cm um in");
+  EXPECT_EQ(quantity_failure("wide"),
+            "--edge: 'wide' is no length; write for example 0.004 or 4mm");
+  EXPECT_EQ(quantity_failure(""), "--edge: '' is no length; write for example 0.004 or 4mm");
+  EXPECT_EQ(quantity_failure("4ms"), "--edge: unknown unit 'ms'; use one of: m mm cm um in");
+  EXPECT_EQ(quantity_failure("4 4mm"), "--edge: unknown unit '4mm'; use one of: m mm cm um in");
 }
 
 TEST(Quantity, ListsTakeTheNextUnitOfTheirKind) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "linalg/block_sparse.h"
+#include "lower_triangle.h"
 
 namespace hapsim {
 namespace {
@@ -40,21 +41,6 @@ Eigen::MatrixXd chain() {
     a.block<3, 3>(3 * far, 3 * r).setConstant(1e-3);
   }
   return a;
-}
-
-SymmetricSparse sparse(const Eigen::MatrixXd& a) {
-  SymmetricSparse s;
-  s.size = static_cast<int>(a.rows());
-  s.column_start.push_back(0);
-  for (int c = 0; c < s.size; ++c) {
-    for (int r = c; r < s.size; ++r)
-      if (!a.block<3, 3>(r / 3 * 3, c / 3 * 3).isZero(0)) {
-        s.row.push_back(r);
-        s.value.push_back(a(r, c));
-      }
-    s.column_start.push_back(static_cast<int>(s.row.size()));
-  }
-  return s;
 }
 
 BlockEnds ends() {
@@ -91,7 +77,7 @@ TEST(MidpointGrid, GivesBackWhatIsLinearBetweenCorners) {
     return 3 * order[static_cast<std::size_t>(row / 3)] + row % 3;
   };
   MidpointGrid grid;
-  grid.assemble(sparse(a), of, order);
+  grid.assemble(test::lower_triangle(a), of, order);
   ASSERT_TRUE(grid.factorise());
   for (Eigen::Index row = 0; row < size; ++row)
     for (int l = 0; l < kLanes; ++l) {

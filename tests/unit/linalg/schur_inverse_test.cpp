@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 
 #include "linalg/counts.h"
+#include "lower_triangle.h"
 
 namespace hapsim {
 namespace {
@@ -26,21 +27,6 @@ Eigen::MatrixXd chain(int blocks, unsigned seed) {
   return a;
 }
 
-SymmetricSparse sparse(const Eigen::MatrixXd& dense) {
-  SymmetricSparse matrix;
-  matrix.size = static_cast<int>(dense.rows());
-  matrix.column_start.push_back(0);
-  for (int c = 0; c < matrix.size; ++c) {
-    for (int r = c; r < matrix.size; ++r) {
-      if (dense.block<3, 3>(r / 3 * 3, c / 3 * 3).isZero()) continue;
-      matrix.row.push_back(r);
-      matrix.value.push_back(dense(r, c));
-    }
-    matrix.column_start.push_back(static_cast<int>(matrix.row.size()));
-  }
-  return matrix;
-}
-
 Eigen::MatrixXd dense_answer(const Eigen::MatrixXd& a, const std::vector<char>& kept) {
   std::vector<int> rows;
   for (std::size_t b = 0; b < kept.size(); ++b)
@@ -58,7 +44,7 @@ TEST(SchurInverse, IsTheBlockOfTheInverse) {
   cases[4][17] = 1;
   for (int b = 0; b < kBlocks; ++b) cases[5][b] = b % 3 != 1;
   const Eigen::MatrixXd a = chain(kBlocks, 5);
-  const SymmetricSparse matrix = sparse(a);
+  const SymmetricSparse matrix = test::lower_triangle(a);
   for (std::size_t k = 0; k < cases.size(); ++k) {
     SchurInverse schur(matrix, cases[k]);
     Eigen::MatrixXd inverse;
@@ -74,11 +60,11 @@ TEST(SchurInverse, TakesNewValuesOnTheSamePattern) {
   std::vector<char> kept(40, 0);
   for (int b = 10; b < 30; ++b) kept[b] = 1;
   const Eigen::MatrixXd first = chain(40, 1), second = chain(40, 2);
-  SchurInverse schur(sparse(first), kept);
+  SchurInverse schur(test::lower_triangle(first), kept);
   const long analyses = solver_counts.analyses;
   Eigen::MatrixXd inverse;
   for (const Eigen::MatrixXd& a : {first, second, first}) {
-    ASSERT_TRUE(schur.invert(sparse(a), inverse));
+    ASSERT_TRUE(schur.invert(test::lower_triangle(a), inverse));
     const Eigen::MatrixXd expected = dense_answer(a, kept);
     EXPECT_LT((inverse - expected).norm(), 1e-12 * expected.norm());
   }
@@ -89,28 +75,28 @@ TEST(SchurInverse, SolvesByTheSameFactor) {
   std::vector<char> kept(40, 0);
   for (int b = 12; b < 20; ++b) kept[b] = 1;
   const Eigen::MatrixXd a = chain(40, 3);
-  SchurInverse schur(sparse(a), kept);
+  SchurInverse schur(test::lower_triangle(a), kept);
   Eigen::MatrixXd inverse, b(a.rows(), 4);
   for (Eigen::Index i = 0; i < b.size(); ++i) b.data()[i] = std::sin(0.3 * static_cast<double>(i));
-  ASSERT_TRUE(schur.invert(sparse(a), inverse));
+  ASSERT_TRUE(schur.invert(test::lower_triangle(a), inverse));
   const Eigen::MatrixXd x = schur.solve(b);
   EXPECT_LT((a.selfadjointView<Eigen::Lower>() * x - b).norm(), 1e-11 * b.norm());
 }
 
 TEST(SchurInverse, KeepsNothingAndRefusesIndefinite) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(6, 6), inverse;
-  SchurInverse none(sparse(a), {0, 0});
-  EXPECT_TRUE(none.invert(sparse(a), inverse));
+  SchurInverse none(test::lower_triangle(a), {0, 0});
+  EXPECT_TRUE(none.invert(test::lower_triangle(a), inverse));
   EXPECT_EQ(inverse.size(), 0);
-  SchurInverse one(sparse(a), {0, 1});
+  SchurInverse one(test::lower_triangle(a), {0, 1});
   a(4, 4) = -1;
-  EXPECT_FALSE(one.invert(sparse(a), inverse));
+  EXPECT_FALSE(one.invert(test::lower_triangle(a), inverse));
 }
 
 TEST(SchurInverse, ThreadsOfTheDensePartChangeNothing) {
   std::vector<char> kept(120, 1);
   for (int b = 0; b < 120; b += 3) kept[b] = 0;
-  const SymmetricSparse matrix = sparse(chain(120, 9));
+  const SymmetricSparse matrix = test::lower_triangle(chain(120, 9));
   SchurInverse schur(matrix, kept);
   Eigen::MatrixXd one, two;
   ASSERT_TRUE(schur.invert(matrix, one, 1));

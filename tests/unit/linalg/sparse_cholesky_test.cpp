@@ -8,26 +8,10 @@
 
 #include "base/parallel.h"
 #include "linalg/blas.h"
+#include "lower_triangle.h"
 
 namespace hapsim {
 namespace {
-
-// Lower triangle of a dense symmetric matrix, zeros of whole 3x3 blocks left out.
-SymmetricSparse sparse(const Eigen::MatrixXd& dense) {
-  SymmetricSparse matrix;
-  matrix.size = static_cast<int>(dense.rows());
-  matrix.column_start.push_back(0);
-  for (int c = 0; c < matrix.size; ++c) {
-    for (int r = c; r < matrix.size; ++r) {
-      const auto block = dense.block<3, 3>(r / 3 * 3, c / 3 * 3);
-      if (block.isZero() && r != c) continue;
-      matrix.row.push_back(r);
-      matrix.value.push_back(dense(r, c));
-    }
-    matrix.column_start.push_back(static_cast<int>(matrix.row.size()));
-  }
-  return matrix;
-}
 
 TEST(SparseCholesky, SolvesAsDense) {
   std::srand(3);
@@ -36,7 +20,7 @@ TEST(SparseCholesky, SolvesAsDense) {
     const Eigen::MatrixXd m = Eigen::MatrixXd::Random(6, 6);
     a.block<6, 6>(b, b) += m * m.transpose() + Eigen::MatrixXd::Identity(6, 6);
   }
-  const SymmetricSparse matrix = sparse(a);
+  const SymmetricSparse matrix = test::lower_triangle(a);
   SparseCholesky cholesky(matrix);
   ASSERT_TRUE(cholesky.factorise(matrix));
   const Eigen::MatrixXd b = Eigen::MatrixXd::Random(30, 4);
@@ -46,7 +30,7 @@ TEST(SparseCholesky, SolvesAsDense) {
 TEST(SparseCholesky, RefusesIndefinite) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Identity(6, 6);
   a(4, 4) = -1;
-  const SymmetricSparse matrix = sparse(a);
+  const SymmetricSparse matrix = test::lower_triangle(a);
   SparseCholesky cholesky(matrix);
   EXPECT_FALSE(cholesky.factorise(matrix));
 }

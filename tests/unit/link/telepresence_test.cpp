@@ -47,10 +47,10 @@ MotionLine motion(int i, double peak = 0.003) {
   return line;
 }
 
-constexpr Secret kKey{1, 2, 3};
-constexpr std::int64_t kMs = 1'000'000;
+constexpr Secret kSharedKey{1, 2, 3};
+constexpr std::int64_t kMillisecond = 1'000'000;
 
-Terms terms() {
+Terms agreed_terms() {
   Terms t;
   t.tool_radius = 0.004;
   t.high = {0.08, 0.08, 0.04};
@@ -79,7 +79,7 @@ struct TwoEnds {
     Datagram datagram, reply;
     int moved = 0;
     for (int i = 0; moved < samples + 600 && i < samples + 20000; ++i) {
-      const std::int64_t now = kMs * (i + 1000);
+      const std::int64_t now = kMillisecond * (i + 1000);
       if (near_end.tick(now, datagram)) out.push(now, datagram);
       if (near_end.is_linked() || moved > 0) {
         if (moved < samples) {
@@ -104,12 +104,12 @@ struct TwoEnds {
     }
   }
   void restart_far(const SafetyLimits& limits) {
-    far_end = std::make_unique<TeleoperatorEnd>(kKey, terms());
-    far = std::make_unique<Teleoperator>(hidden, limits, terms().low, terms().high);
+    far_end = std::make_unique<TeleoperatorEnd>(kSharedKey, agreed_terms());
+    far = std::make_unique<Teleoperator>(hidden, limits, agreed_terms().low, agreed_terms().high);
   }
   ForceLoop hidden{body(model_of(2.2e4, 6e3))};
   UnitResponse response{body(model_of(1, 0)), {0.1}};
-  OperatorEnd near_end{kKey, terms()};
+  OperatorEnd near_end{kSharedKey, agreed_terms()};
   std::unique_ptr<TeleoperatorEnd> far_end;
   std::unique_ptr<Operator> near;
   std::unique_ptr<Teleoperator> far;
@@ -213,7 +213,7 @@ TEST(Telepresence, LateForcesGiveNoMoreEnergyThanAllowed) {
 
 TEST(Teleoperator, MakesNoImpossibleMotionAndTakesTheToolBack) {
   ForceLoop hidden(body(model_of(2e4, 6e3)));
-  Teleoperator far(hidden, {}, terms().low, terms().high);
+  Teleoperator far(hidden, {}, agreed_terms().low, agreed_terms().high);
   Received got;
   got.is_newest = got.is_anew = true;
   got.packet.first = {0.04, 0.04, 0.04};
@@ -226,29 +226,29 @@ TEST(Teleoperator, MakesNoImpossibleMotionAndTakesTheToolBack) {
     got.is_anew = false;
     return taken;
   };
-  for (int i = 0; i < 100; ++i) ASSERT_TRUE(send(kMs * i, -2e-5 * i));
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(send(kMillisecond * i, -2e-5 * i));
   const double pressed = answer.first.z();
   EXPECT_GT(pressed, 0.5);
   // Through the body, by nearly ten metres: not made.
-  ASSERT_TRUE(send(kMs * 100, -9.9));
+  ASSERT_TRUE(send(kMillisecond * 100, -9.9));
   EXPECT_EQ(answer.first.z(), pressed) << "held";
   EXPECT_NE(answer.flags & kSafeInvalid, 0);
   EXPECT_EQ(far.impossible(), 1);
   // A leap within the body is made at 1 m/s.
-  ASSERT_TRUE(send(kMs * 101, -0.03));
+  ASSERT_TRUE(send(kMillisecond * 101, -0.03));
   EXPECT_NEAR(far.displacement().z(), -2e-5 * 99 - 2e-3, 1e-6);
   EXPECT_NE(answer.flags & kSafeRate, 0);
   --got.packet.number;
   --got.packet.number;
-  EXPECT_FALSE(send(kMs * 102, -1e-3)) << "an old number is not pressed again";
+  EXPECT_FALSE(send(kMillisecond * 102, -1e-3)) << "an old number is not pressed again";
   // The operator is gone: held for 0.1 s, back within 0.2 s.
   const double held = far.displacement().z();
-  for (int ms = 102; ms < 200; ms += 2) far.idle(kMs * ms);
+  for (int ms = 102; ms < 200; ms += 2) far.idle(kMillisecond * ms);
   EXPECT_EQ(far.displacement().z(), held);
-  for (int ms = 202; ms < 290; ms += 2) far.idle(kMs * ms);
+  for (int ms = 202; ms < 290; ms += 2) far.idle(kMillisecond * ms);
   EXPECT_LT(far.displacement().z(), 0);
   EXPECT_GT(far.displacement().z(), held);
-  for (int ms = 290; ms < 410; ms += 2) far.idle(kMs * ms);
+  for (int ms = 290; ms < 410; ms += 2) far.idle(kMillisecond * ms);
   EXPECT_EQ(far.displacement(), Vec3(0, 0, 0));
   EXPECT_EQ(far.losses(), 1);
 }
@@ -263,14 +263,14 @@ TEST(Operator, FeelsNoAnswerOfAnotherPress) {
     ++force.packet.number;
     force.packet.answers = motion;
     force.packet.first = {0, 0, f};
-    near.receive(kMs, force);
+    near.receive(kMillisecond, force);
   };
-  for (int i = 0; i < 20; ++i) near.move(kMs * i, motion(i));
+  for (int i = 0; i < 20; ++i) near.move(kMillisecond * i, motion(i));
   answer(10, 0.5);
   EXPECT_EQ(near.measured().z(), 0.5);
   MotionLine other = motion(21);
   other.press = 2;
-  near.move(kMs * 21, other);
+  near.move(kMillisecond * 21, other);
   EXPECT_EQ(near.measured().z(), 0) << "a new press begins without force";
   answer(15, 0.9);
   EXPECT_EQ(near.measured().z(), 0) << "of the press before";
@@ -289,10 +289,10 @@ TEST(Operator, TakesNoMemoryHoweverLongItRuns) {
   long taken = 0;
   for (int i = 0; i < 20'000; ++i) {
     if (i == 100) taken = test::allocations;
-    const Packet sent = near.move(kMs * i, motion(i % 5000));
+    const Packet sent = near.move(kMillisecond * i, motion(i % 5000));
     ++force.packet.number;
     force.packet.answers = sent.number;
-    near.receive(kMs * i, force);
+    near.receive(kMillisecond * i, force);
   }
   EXPECT_EQ(test::allocations - taken, 0);
   EXPECT_EQ(near.record().size(), 20'000u);

@@ -16,8 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // A block held at its bottom whose top moves as one.
-struct Pressed {
-  explicit Pressed(int order, Dilatation dilatation)
+struct StretchedBlock {
+  explicit StretchedBlock(int order, Dilatation dilatation)
       : mesh(test::block_mesh({0.03, 0.02, 0.02}, 3, 2, 2, order, 0.2)) {
     std::vector<int> handle;
     for (const Vec3& p : mesh.nodes)
@@ -40,7 +40,7 @@ struct Pressed {
 TEST(StressResponse, IsOfTheForceAndItsStateAlike) {
   for (const auto& [order, dilatation] :
        {std::pair{1, Dilatation::kPatch}, {2, Dilatation::kElement}, {2, Dilatation::kPointwise}}) {
-    Pressed block(order, dilatation);
+    StretchedBlock block(order, dilatation);
     const Vec3 u(0.002, -0.001, -0.005), v(-0.001, 0.0005, -0.002);
     const StressResponse other = block.at(v), here = block.at(u);
     const VectorXd force = block.body->reaction();

@@ -16,7 +16,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRadius = 0.004;
+constexpr double kToolRadius = 0.004;
 
 Model model_of(double nu, std::vector<double> terms = {}) {
   Model model;
@@ -37,10 +37,12 @@ TetMesh coarse_block() {
 
 struct Prepared {
   explicit Prepared(const Model& model, const std::vector<KnownStiffness>& known = {})
-      : mesh(coarse_block()), body(mesh, model, options(known)), coupling(mesh, model, kRadius) {}
+      : mesh(coarse_block()),
+        body(mesh, model, options(known)),
+        coupling(mesh, model, kToolRadius) {}
   static PreparedBodyOptions options(const std::vector<KnownStiffness>& known) {
     PreparedBodyOptions options;
-    options.tool_radius = kRadius;
+    options.tool_radius = kToolRadius;
     options.most_samples = 16;
     options.rim_edge = 0.5;  // no test of it: quick
     if (!known.empty()) options.contacts = [known](const MaterialSpec&) { return known; };
@@ -81,13 +83,13 @@ TEST(SeveralTools, OneIsTheLoop) {
 // other.
 TEST(SeveralTools, PressOnEachOtherAsElementsOfBothDo) {
   for (const double apart : {2.5, 6.0}) {
-    const std::vector<Vec3> places{{0.04 - 0.5 * apart * kRadius, 0.042, 0.04},
-                                   {0.04 + 0.5 * apart * kRadius, 0.038, 0.04}};
+    const std::vector<Vec3> places{{0.04 - 0.5 * apart * kToolRadius, 0.042, 0.04},
+                                   {0.04 + 0.5 * apart * kToolRadius, 0.038, 0.04}};
     BodyOptions fine_options;
     fine_options.edge = 0.012;
     fine_options.contacts = places;
-    fine_options.tool_radius = kRadius;
-    fine_options.contact_size = kRadius / 3;
+    fine_options.tool_radius = kToolRadius;
+    fine_options.contact_size = kToolRadius / 3;
     fine_options.order = 2;
     const TetMesh fine = make_body_mesh(test::box({0.08, 0.08, 0.04}, 4), fine_options);
     const Model model = model_of(0.45);
@@ -95,7 +97,7 @@ TEST(SeveralTools, PressOnEachOtherAsElementsOfBothDo) {
     std::vector<KnownStiffness> known;
     std::vector<RigidPatch> patches;
     for (const Vec3& place : places) {
-      const FullContact c = full_contact(fine, place, kRadius);
+      const FullContact c = full_contact(fine, place, kToolRadius);
       patches.push_back({c.nodes, c.point});
       known.push_back({c.point, c.normal,
                        rigid_stiffness(fine, {patches.back()}, constants).topLeftCorner<3, 3>()});
@@ -132,13 +134,13 @@ TEST(SeveralTools, PressOnEachOtherAsElementsOfBothDo) {
           "torque by %.2f %% of the radius times it, it is %.1f %%\n",
           apart, k, 100 * (both[k].force - full[k]).norm() / norm,
           100 * (alone - full[k]).norm() / norm,
-          100 * (both[k].torque - torque).norm() / (kRadius * norm),
-          100 * torque.norm() / (kRadius * norm));
+          100 * (both[k].torque - torque).norm() / (kToolRadius * norm),
+          100 * torque.norm() / (kToolRadius * norm));
       EXPECT_LT((Vec3(exact.segment<3>(6 * k)) - full[k]).norm(), 1e-6 * norm);
       // Nearer than this the other's patch, which does not yield, stiffens the surface about it.
       EXPECT_LT((both[k].force - full[k]).norm(), (apart < 3 ? 0.03 : 0.005) * norm);
       EXPECT_LT((both[k].force - full[k]).norm(), 0.25 * (alone - full[k]).norm());
-      EXPECT_LT((both[k].torque - torque).norm(), 0.04 * kRadius * norm);
+      EXPECT_LT((both[k].torque - torque).norm(), 0.04 * kToolRadius * norm);
     }
   }
 }
@@ -159,7 +161,7 @@ TEST(SeveralTools, TorqueOfATwistIsReissnersAndRelaxes) {
   pose.point = {0.04, 0.04, 0.04};
   const double angle = 0.05, shear = 2e4 / 2.9;
   pose.turn = {0, 0, angle};
-  const double relaxed = 16.0 / 3 * shear * std::pow(kRadius, 3) * angle;
+  const double relaxed = 16.0 / 3 * shear * std::pow(kToolRadius, 3) * angle;
   EXPECT_NEAR(tools.press(0, {&pose, 1})[0].torque.z(), -2 * relaxed, 1e-9 * relaxed);
   EXPECT_NEAR(tools.press(0.5, {&pose, 1})[0].torque.z(), -(1 + std::exp(-1)) * relaxed,
               1e-9 * relaxed);

@@ -15,7 +15,7 @@ namespace hapsim {
 namespace {
 
 const Vec3 kSize(0.06, 0.06, 0.04);
-constexpr double kRadius = 0.004;
+constexpr double kFieldRadius = 0.004;
 
 // Sampled once for all tests.
 struct Sampled {
@@ -28,14 +28,14 @@ const Sampled& sampled() {
   static const Sampled made = [] {
     Sampled s;
     ContactLibraryOptions options;
-    s.library = std::make_shared<const ContactLibrary>(test::block_mesh(kSize, 4, 4, 3, 1), kRadius,
-                                                       options);
+    s.library = std::make_shared<const ContactLibrary>(test::block_mesh(kSize, 4, 4, 3, 1),
+                                                       kFieldRadius, options);
     s.material.field = {0.45, [](const Vec3&) { return 1.0; }};
     s.material.solid.nu = 0.45;
     FieldSamplingOptions how;
     how.tolerance = 0.05;
     how.most = 120;
-    s.sampling = std::make_unique<const FieldSampling>(s.library, kRadius, s.material,
+    s.sampling = std::make_unique<const FieldSampling>(s.library, kFieldRadius, s.material,
                                                        std::vector<Vec3>{}, how);
     return s;
   }();
@@ -43,7 +43,7 @@ const Sampled& sampled() {
 }
 
 StiffnessField field_with(const std::vector<KnownStiffness>& known) {
-  return {sampled().library->surface(), *sampled().sampling, known, kRadius, 2};
+  return {sampled().library->surface(), *sampled().sampling, known, kFieldRadius, 2};
 }
 
 FieldEntry at(const StiffnessField& field, const Vec3& p) {

@@ -14,7 +14,7 @@ namespace hapsim {
 namespace {
 
 // Presses of a ramp in, a hold and a ramp out, `rows` each, and forces of 200 N/m.
-Recording presses(int count, int rows, const std::function<Vec3()>& noise) {
+Recording noisy_presses(int count, int rows, const std::function<Vec3()>& noise) {
   Recording r;
   r.name = "made.csv";
   for (int p = 1; p <= count; ++p)
@@ -39,7 +39,7 @@ Recording read_at_most(const Recording& recording, std::size_t most, Thinning& t
   return read_thinned(input, true, most, noise, thinning);
 }
 
-std::function<Vec3()> white(Random& random, double sigma) {
+std::function<Vec3()> white_noise(Random& random, double sigma) {
   return [&random, sigma] {
     const double x = random.normal(), y = random.normal(), z = random.normal();
     return Vec3(sigma * Vec3(x, y, z));
@@ -48,9 +48,9 @@ std::function<Vec3()> white(Random& random, double sigma) {
 
 // Noise that each sample has from the one before, with the same variance.
 std::function<Vec3()> wandering(Random& random, double sigma, double kept) {
-  auto last = std::make_shared<Vec3>(white(random, sigma)());
+  auto last = std::make_shared<Vec3>(white_noise(random, sigma)());
   return [&random, sigma, kept, last] {
-    *last = kept * *last + std::sqrt(1 - kept * kept) * white(random, sigma)();
+    *last = kept * *last + std::sqrt(1 - kept * kept) * white_noise(random, sigma)();
     return *last;
   };
 }
@@ -64,7 +64,7 @@ double scatter(const Recording& r) {
 
 TEST(Thinning, FewRowsStayAsTheyAre) {
   Random random(1);
-  const Recording whole = presses(3, 50, white(random, 0.01));
+  const Recording whole = noisy_presses(3, 50, white_noise(random, 0.01));
   for (const std::size_t most : {std::size_t{0}, std::size_t{150}}) {
     Thinning t;
     const Recording same = read_at_most(whole, most, t);
@@ -79,7 +79,7 @@ TEST(Thinning, FewRowsStayAsTheyAre) {
 
 TEST(Thinning, MeansKeepForcesInProportionAndWhiteNoiseFalls) {
   Random random(2);
-  Recording whole = presses(10, 3001, white(random, 0.02));
+  Recording whole = noisy_presses(10, 3001, white_noise(random, 0.02));
   whole.metadata.set("force_noise", "0.02");
   Thinning t;
   const Recording r = read_at_most(whole, 2000, t);
@@ -102,7 +102,7 @@ TEST(Thinning, MeansKeepForcesInProportionAndWhiteNoiseFalls) {
 TEST(Thinning, NoiseThatWandersIsNotThoughtToBeAveraged) {
   for (const double kept : {0.8, 0.98, 0.995}) {
     Random random(3);
-    Recording whole = presses(10, 3000, wandering(random, 0.02, kept));
+    Recording whole = noisy_presses(10, 3000, wandering(random, 0.02, kept));
     whole.metadata.set("force_noise", "0.02");
     Thinning t;
     const Recording r = read_at_most(whole, 2000, t);
@@ -113,7 +113,7 @@ TEST(Thinning, NoiseThatWandersIsNotThoughtToBeAveraged) {
 
 TEST(Thinning, MeansStayWithinPressPlaceAndContact) {
   Random random(4);
-  Recording whole = presses(2, 999, white(random, 0.01));
+  Recording whole = noisy_presses(2, 999, white_noise(random, 0.01));
   for (std::size_t i = 0; i < whole.rows(); ++i) whole.contact.push_back(i % 999 < 100 ? 0 : 1);
   for (std::size_t i = 1500; i < whole.rows(); ++i) whole.position[i].x() += 0.02;
   Thinning t;
@@ -130,18 +130,18 @@ TEST(Thinning, MeansStayWithinPressPlaceAndContact) {
 
 TEST(Thinning, ShortPressesAreNotMadeShorter) {
   Random random(5);
-  Recording whole = presses(100, 25, white(random, 0.01));
+  Recording whole = noisy_presses(100, 25, white_noise(random, 0.01));
   Thinning t;
   EXPECT_EQ(read_at_most(whole, 200, t).rows(), 2500u);
   EXPECT_FALSE(t.thinned());
-  whole = presses(50, 100, white(random, 0.01));
+  whole = noisy_presses(50, 100, white_noise(random, 0.01));
   EXPECT_EQ(read_at_most(whole, 200, t).rows(), 50u * 25);
   EXPECT_EQ(t.block, 4);
 }
 
 // Readings at a sensor's end stay exactly equal, or nobody would see it.
 TEST(Thinning, EqualReadingsStayEqual) {
-  Recording whole = presses(1, 3000, [] { return Vec3(Vec3::Zero()); });
+  Recording whole = noisy_presses(1, 3000, [] { return Vec3(Vec3::Zero()); });
   for (Vec3& f : whole.f) f.z() = std::min(f.z(), 0.1 + 0.2);
   Thinning t;
   const Recording r = read_at_most(whole, 300, t);

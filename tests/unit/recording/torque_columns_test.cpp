@@ -9,7 +9,7 @@
 namespace hapsim {
 namespace {
 
-Recording read(const std::string& text) {
+Recording read_torques(const std::string& text) {
   Input input = Input::from_bytes(text, "r.csv");
   return read_recording(input);
 }
@@ -21,7 +21,7 @@ Recording pressed(const std::string& metadata, const std::string& names,
   for (int i = 1; i <= 4; ++i)
     text += "\n1,0,0,0,0,0,-0.00" + std::to_string(i) + ",0,0.1," + std::to_string(0.5 * i) + "," +
             torque;
-  return read(text + "\n");
+  return read_torques(text + "\n");
 }
 
 std::string refusal(const Recording& r) {

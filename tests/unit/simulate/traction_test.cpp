@@ -23,7 +23,7 @@ void add(Model& model, const std::string& name, const std::vector<double>& value
     }
 }
 
-Model model_of(bool relaxes) {
+Model sliding_model(bool relaxes) {
   Model model;
   add(model, "elastic", {kE, 0.4});
   if (relaxes) add(model, "viscoelastic", {kE1, kTau});
@@ -51,9 +51,9 @@ TEST(Traction, FindsTheMotionThatMadeTheForces) {
   plain.K = stiffness();
   PositionStiffness regional = plain;
   regional.relaxing = {{0.4 * stiffness(), 0.1}, {Vec3(20, 5, 60).asDiagonal(), 2}};
-  EXPECT_LT(worst_return(model_of(false), [&](std::size_t) { return plain; }), 1e-15);
-  EXPECT_LT(worst_return(model_of(true), [&](std::size_t) { return plain; }), 1e-14);
-  EXPECT_LT(worst_return(model_of(false), [&](std::size_t) { return regional; }), 1e-14);
+  EXPECT_LT(worst_return(sliding_model(false), [&](std::size_t) { return plain; }), 1e-15);
+  EXPECT_LT(worst_return(sliding_model(true), [&](std::size_t) { return plain; }), 1e-14);
+  EXPECT_LT(worst_return(sliding_model(false), [&](std::size_t) { return regional; }), 1e-14);
 }
 
 // A force that stays from t = 0 on: u = (1/E - E1 exp(-t E / (tau (E + E1))) / (E (E + E1))) F,
@@ -74,8 +74,8 @@ TEST(Traction, CreepsAsTheStandardSolid) {
     }
     PositionStiffness s;
     s.K = kE * Eigen::Matrix3d::Identity();
-    const std::vector<Vec3> u =
-        displacements_of_forces(model_of(true), make_dataset(r), [&](std::size_t) { return s; });
+    const std::vector<Vec3> u = displacements_of_forces(sliding_model(true), make_dataset(r),
+                                                        [&](std::size_t) { return s; });
     double worst = 0;
     for (std::size_t i = 0; i < u.size(); ++i) {
       const double left = kE1 * std::exp(-r.t[i] * kE / (kTau * (kE + kE1))) / (kE + kE1);
@@ -90,7 +90,7 @@ TEST(Traction, CreepsAsTheStandardSolid) {
 }
 
 TEST(Traction, RefusesWhatIsNotLinear) {
-  Model model = model_of(false);
+  Model model = sliding_model(false);
   add(model, "sensor-bias", {0.1, 0, 0});
   PositionStiffness s;
   s.K = stiffness();
@@ -99,7 +99,7 @@ TEST(Traction, RefusesWhatIsNotLinear) {
     r.f[i] = Vec3(0, 0, 0.1 * std::sin(0.1 * static_cast<double>(i)));
   EXPECT_THROW(displacements_of_forces(model, make_dataset(r), [&](std::size_t) { return s; }),
                Error);
-  Model damped = model_of(false);
+  Model damped = sliding_model(false);
   add(damped, "damper", {1});
   EXPECT_THROW(with_displacements(damped, make_dataset(r), [&](std::size_t) { return s; }), Error);
 }

@@ -14,7 +14,7 @@
 namespace hapsim {
 namespace {
 
-const Vec3 kSize(0.06, 0.05, 0.04);
+const Vec3 kPressSize(0.06, 0.05, 0.04);
 const Vec3 kMiddle(0.03, 0.025, 0.04);
 
 std::vector<Lame> uneven(const TetMesh& mesh) {
@@ -25,7 +25,7 @@ std::vector<Lame> uneven(const TetMesh& mesh) {
 }
 
 TEST(MeshPatch, HoldsTheNodesUnderTheTool) {
-  const TetMesh first = test::block_mesh(kSize, 12, 10, 8, 1), second = to_second_order(first);
+  const TetMesh first = test::block_mesh(kPressSize, 12, 10, 8, 1), second = to_second_order(first);
   for (const TetMesh* mesh : {&first, &second}) {
     const MeshPatch patch = patch_under_tool(*mesh, kMiddle + Vec3(0, 0, 0.001), 0.011);
     EXPECT_LT((patch.normal - Vec3::UnitZ()).norm(), 1e-12);
@@ -33,7 +33,7 @@ TEST(MeshPatch, HoldsTheNodesUnderTheTool) {
     std::vector<int> corners;
     for (const int n : patch.nodes) {
       const Vec3& x = mesh->nodes[n];
-      EXPECT_EQ(x.z(), kSize.z());
+      EXPECT_EQ(x.z(), kPressSize.z());
       EXPECT_LE((x - kMiddle).norm(), 0.011 + 1e-12);
       if (n < static_cast<int>(first.nodes.size())) corners.push_back(n);
     }
@@ -48,7 +48,7 @@ TEST(MeshPatch, HoldsTheNodesUnderTheTool) {
 
 TEST(MeshPress, IsTheSameTogetherApartAndIterated) {
   for (const int order : {1, 2}) {
-    const TetMesh mesh = test::block_mesh(kSize, 6, 5, 4, order, 0.15);
+    const TetMesh mesh = test::block_mesh(kPressSize, 6, 5, 4, order, 0.15);
     std::vector<MeshPatch> patches;
     for (const double x : {0.01, 0.03, 0.05})
       patches.push_back(patch_under_tool(mesh, {x, 0.02, 0.04}, 0.011));
@@ -70,7 +70,7 @@ TEST(MeshPress, IsTheSameTogetherApartAndIterated) {
 
 // By another way: the dense inverse condensed to the surface.
 TEST(MeshPress, IsTheStiffnessOfTheCondensedSurface) {
-  const TetMesh mesh = test::block_mesh(kSize, 6, 5, 4, 1, 0.15);
+  const TetMesh mesh = test::block_mesh(kPressSize, 6, 5, 4, 1, 0.15);
   SurfaceCompliance surface(mesh);
   surface.factorise(uneven(mesh));
   MeshPress press(mesh, {patch_under_tool(mesh, kMiddle, 0.011)});
@@ -81,7 +81,7 @@ TEST(MeshPress, IsTheStiffnessOfTheCondensedSurface) {
 }
 
 TEST(MeshPress, NewValuesNeedNoNewAnalysis) {
-  const TetMesh mesh = test::block_mesh(kSize, 6, 5, 4, 2);
+  const TetMesh mesh = test::block_mesh(kPressSize, 6, 5, 4, 2);
   const std::vector<MeshPatch> patches{patch_under_tool(mesh, {0.02, 0.02, 0.04}, 0.008),
                                        patch_under_tool(mesh, {0.04, 0.03, 0.04}, 0.008)};
   MeshPress press(mesh, patches, SolverKind::kDirect);
@@ -96,7 +96,7 @@ TEST(MeshPress, NewValuesNeedNoNewAnalysis) {
 TEST(MeshPress, IteratesOnSecondOrderInFewStepsHoweverFine) {
   int coarser = 0;
   for (const int n : {5, 10}) {
-    const TetMesh mesh = test::block_mesh(kSize, n, n, n, 2, 0.15);
+    const TetMesh mesh = test::block_mesh(kPressSize, n, n, n, 2, 0.15);
     const MeshPatch patch = patch_under_tool(mesh, kMiddle, 0.011);
     MeshPress direct(mesh, {patch}, SolverKind::kDirect);
     MeshPress iterated(mesh, {patch}, SolverKind::kIterative);
