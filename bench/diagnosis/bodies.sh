@@ -11,6 +11,7 @@ singles=(viscoelastic tip sensor-gain-x hyperelastic friction sensor-drift softe
   sensor-rotation damper backlash sensor-bias)
 pairs=('hyperelastic&viscoelastic' 'viscoelastic&friction' 'sensor-rotation&viscoelastic' 'softening&viscoelastic'
   'sensor-lag&hyperelastic' 'friction&sensor-drift' 'temperature&sensor-gain-x' 'sensor-drift&viscoelastic')
+mkdir -p "$out"
 for ((n = ${range%:*}; n <= ${range#*:}; ++n)); do
   truths=(nothing "${singles[n % ${#singles[@]}]}")
   ((n % 3)) || truths+=("${pairs[n / 3 % ${#pairs[@]}]}")

@@ -1,5 +1,6 @@
 #include "diagnose/round_winner.h"
 
+#include "diagnose/round_judge.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <functional>
 #include <optional>
 #include <thread>
@@ -14,11 +13,11 @@
 #include "diagnose/departures.h"
 #include "diagnose/held_out.h"
 #include "diagnose/measure.h"
+#include "diagnose/round_judge.h"
 #include "diagnose/screens.h"
 #include "diagnose/wording.h"
 #include "effects/catalogue.h"
 #include "fit/testable.h"
-#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -37,26 +36,6 @@ std::vector<double> p_values(const std::vector<Measured>& measured, int flips, R
                     ? flipped[next++]
                     : std::min(1.0, m.p_value * static_cast<double>(measured.size())));
   return p;
-}
-
-double force_change(const Fit& a, const Fit& b, const TrialGround& g) {
-  const Selection all = all_episodes(g.dataset);
-  const Eigen::VectorXd d =
-      model_forces(a, g.experiment, all, false).f - model_forces(b, g.experiment, all, false).f;
-  return std::sqrt(d.squaredNorm() / static_cast<double>(d.size()));
-}
-
-// What the model's approximate laws may leave [N]: from less, no other effect can be inferred.
-double left_by_laws(const Fit& fitted, const TrialGround& g) {
-  double most = 0;
-  for (const std::string& name : fitted.model.effects()) {
-    const double share = require_effect(name).card().form_error;
-    if (share <= 0) continue;
-    Model without = fitted.model;
-    remove_effect(without, name);
-    most = std::max(most, share * force_change(fitted, as_it_is(without, g.experiment), g));
-  }
-  return most;
 }
 
 // Worth refining: candidates whose first fit errs by less than this factor over the best one's, and
@@ -89,22 +68,6 @@ void refine_promising(std::vector<Candidate>& candidates, const Baseline& base,
   }
 }
 
-// What acts at one position is not known from the others. Where it takes away all that is beyond
-// noise, presses that are left out of positions pressed otherwise too are what it has to help.
-void judge_by_presses(const Candidate& c, const Baseline& base, const TrialGround& g,
-                      const DiagnoseOptions& options, Finding& f) {
-  constexpr double kAllOfIt = 0.9;
-  if (!c.effect->card().local || f.share < kAllOfIt ||
-      f.rmse_after.pooled > kLikeNoise * g.allowance.noise || std::isnan(f.held_out_after.pooled) ||
-      held_out_fall(f) >= kPlainFall)
-    return;
-  const Folds folds = make_press_folds(g.dataset, options.folds);
-  if (folds.held_out.empty()) return;
-  f.by_presses = true;
-  f.held_out_now = held_out_of(base.fitted, g, folds, Map::kAnew).error;
-  f.held_out_after = held_out_of(c.fitted, g, folds, Map::kAnew).error;
-}
-
 }  // namespace
 
 bool refines_relaxation(const Effect& effect) {
@@ -135,10 +98,6 @@ bool contains(const Effect& effect, const std::string& other) {
 
 bool related(const Effect& a, const Effect& b) {
   return contains(a, b.card().name) || contains(b, a.card().name);
-}
-
-double held_out_fall(const Finding& f) {
-  return f.held_out_now.pooled > 0 ? 1 - f.held_out_after.pooled / f.held_out_now.pooled : 0;
 }
 
 namespace {
@@ -299,66 +258,10 @@ Round try_all(Kind kind, const Baseline& base, const TrialGround& g, const Folds
     measured[k] = measure(round.candidates[k], base, yardstick, g);
   });
   const std::vector<double> p = p_values(measured, options.flips, random);
-  const double noise = g.allowance.noise * g.allowance.noise;
-  const double by_laws = left_by_laws(base.fitted, g);
-  const double beyond_noise = base.fitted.error.pooled * base.fitted.error.pooled - noise;
+  const RoundJudge judge(base, g, folds, options, round.candidates.size(), tell);
   round.findings.resize(round.candidates.size());
-  // Refits for held-out positions cost most, and each finding depends on its own candidate alone.
   in_parallel(round.candidates.size(), threads, [&](std::size_t k) {
-    Candidate& c = round.candidates[k];
-    const Measured& m = measured[k];
-    Finding& f = round.findings[k];
-    f.effect = c.effect->card().name;
-    f.one_more_term = c.one_more_term;
-    f.rmse_now = base.fitted.error;
-    f.rmse_after = c.fitted.error;
-    f.held_out_now = held_out_for(*c.effect, base).error;
-    f.held_out_after = {};
-    f.evidence = implausible(c.fitted.model, *c.effect, g.dataset);
-    if (!f.evidence.empty()) return;
-    f.p_value = p[k];
-    f.criterion_gain = m.criterion_gain;
-    f.memory = m.memory;
-    const double fall = base.fitted.error.pooled * base.fitted.error.pooled -
-                        c.fitted.error.pooled * c.fitted.error.pooled;
-    // Offsets of presses take away what other misfits leave as well, so only what nothing else
-    // can be counts, unless noise alone is left.
-    const bool all_of_it =
-        std::isnan(m.explained) || c.fitted.error.pooled < kLikeNoise * g.allowance.noise;
-    if (beyond_noise > 0.01 * noise)
-      f.share = std::clamp((all_of_it ? fall : m.explained) / beyond_noise, 0.0, 1.0);
-    f.hidden = m.hidden && f.share >= options.gates.share;
-    // Those refits only matter to what passes otherwise.
-    if (!c.effect->card().is_field && f.criterion_gain > options.gates.criterion_gain &&
-        f.share >= options.gates.share) {
-      tell(f.effect + " on unseen data", 0, 0);
-      hold_out(c, g, folds);
-      prefer_sites(c, base, g, folds);
-      f.every_site = c.every_site;
-      f.rmse_after = c.fitted.error;
-    }
-    f.held_out_after = c.held_out.error;
-    judge_by_presses(c, base, g, options, f);
-    // Where few presses carry an effect their signs cannot prove it, however large it is.
-    const double by_size =
-        std::min(1.0, 2 * m.p_by_size * static_cast<double>(round.candidates.size()));
-    if (f.share >= kMostOfIt && held_out_fall(f) >= kPlainFall)
-      f.p_value = std::min(f.p_value, by_size);
-    f.plain = f.share >= kMostOfIt && by_size < options.gates.p_value;
-    f.within_form = by_laws > 0 && force_change(c.fitted, base.fitted, g) < by_laws;
-    f.where = describe_where(c);
-    describe_fit(c, m, g.dataset, f);
-    if (f.within_form)
-      f.evidence += fmt::format(
-          "; changes the forces by less than the {:.2g} N that an approximate law in the model may "
-          "leave",
-          by_laws);
-    if (f.by_presses)
-      f.evidence +=
-          "; seen by too few positions for a position to be foretold from the others, so the "
-          "unseen "
-          "error is that of presses: press around it";
-    f.next_measurement = c.effect->card().separated_by;
+    round.findings[k] = judge.find(round.candidates[k], measured[k], p[k]);
   });
   return round;
 }

@@ -23,8 +23,6 @@ bool refines_relaxation(const Effect& effect);
 // Effects worth trying on top of a model: those it lacks, and one more term of those with terms;
 // never `unknown` (DiagnoseOptions).
 std::vector<const Effect*> untried(const Model& model, Kind kind, const std::string& unknown);
-// Relative fall of the error on unseen positions.
-double held_out_fall(const Finding& finding);
 // Whether `effect` includes the effect `other` as a special case.
 bool contains(const Effect& effect, const std::string& other);
 // Whether one of the two includes the other.

@@ -144,12 +144,15 @@ ln -s "$root/Makefile.pipeline" .
 cd ..
 
 # ---- And all of them run, a document in a copy of that folder.
-ran=0
+ran=0 took=$PWD/took.txt
 run() { # WHERE COMMAND: in the current folder
   excused "$2" && return
   ran=$((ran + 1))
+  local start=$EPOCHREALTIME
   timeout 300 bash -o pipefail -c "$2" >out 2>err <stream.csv
   local code=$?
+  awk -v from="$start" -v to="$EPOCHREALTIME" 'BEGIN { printf "%.1f s: ", to - from }' >>"$took"
+  printf '%s\n' "$2" >>"$took"
   case $2 in # a check may say no; other programs stand behind &&
     *--fail-above* | *--check* | *hs-check*) ((code <= 1)) && return ;;
   esac
@@ -184,5 +187,6 @@ for page in "$man"/hs*.1; do
   cd ..
 done
 ((ran > 60)) || complain "only $ran commands ran"
+echo "the slowest:" && sort -rn "$took" | sed -n 1,10p
 ((failures == 0)) && echo "documents: $understood commands understood, $ran run"
 exit $((failures > 0))
