@@ -26,10 +26,10 @@
 #include <thread>
 #include <vector>
 
+#include "base/blas.h"
 #include "base/median.h"
 #include "contact/contact_stiffness.h"
 #include "formats/surface_io.h"
-#include "linalg/blas.h"
 #include "solid/elastic_body.h"
 #include "support/block_mesh.h"
 #include "support/finer_contact.h"

@@ -1,8 +1,8 @@
 // What a contact position costs: a mesh, and one solution of its stiffness on both of them.
 #include <benchmark/benchmark.h>
 
+#include "base/blas.h"
 #include "contact/contact_stiffness.h"
-#include "linalg/blas.h"
 #include "support/block_mesh.h"
 
 namespace {

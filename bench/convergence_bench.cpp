@@ -13,9 +13,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/blas.h"
 #include "calculix_input.h"
 #include "contact/contact_stiffness.h"
-#include "linalg/blas.h"
 #include "log_plot.h"
 #include "solid/mesh_press.h"
 #include "support/objects.h"

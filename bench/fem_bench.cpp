@@ -3,8 +3,8 @@
 // Recorded in bench/results/fem.txt (bench/record.sh).
 #include <benchmark/benchmark.h>
 
+#include "base/blas.h"
 #include "contact/contact_stiffness.h"
-#include "linalg/blas.h"
 #include "material/hyperelastic_law.h"
 #include "nonlinear/nonlinear_body.h"
 #include "solid/elastic_body.h"

@@ -14,10 +14,10 @@
 #include <sstream>
 #include <thread>
 
+#include "base/blas.h"
 #include "base/median.h"
 #include "effects/catalogue.h"
 #include "formats/tetmesh_io.h"
-#include "linalg/blas.h"
 #include "linalg/sparse_cholesky.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "bare_cholmod.h"
-#include "linalg/blas.h"
+#include "base/blas.h"
 #include "log_plot.h"
 #include "solid/elastic_assembly.h"
 #include "solid/mesh_press.h"

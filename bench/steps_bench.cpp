@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "linalg/blas.h"
+#include "base/blas.h"
 #include "model/model_edit.h"
 #include "realtime/force_loop.h"
 #include "realtime/latency.h"

@@ -43,7 +43,7 @@ hapsim_quick(hapsim_pch_quick)
 
 # Rooms compiled as one unit each share what they instantiate of Eigen. Files then share one anonymous
 # namespace, and one edit compiles a room: for builds that begin from nothing.
-option(HAPSIM_WHOLE_ROOMS "Compile each room of lib at once" OFF)
+option(HAPSIM_WHOLE_ROOMS "Compile each room of lib, the tests of each and the Python module at once" OFF)
 
 # hapsim_layer(<name> [APART] [QUICK] SOURCES a.cpp ... [CGAL b.cpp ...] [CGAL_QUICK c.cpp ...] USES layer ...
 # [LINKS foreign ...]): a room of lib as a library; APART, always file by file; QUICK, see hapsim_quick. What
@@ -107,6 +107,9 @@ function(hapsim_module name)
   target_include_directories(hapsim_${name} PRIVATE ${PROJECT_SOURCE_DIR}/lib)
   target_link_libraries(hapsim_${name} PRIVATE hapsim_shared)
   hapsim_flags(hapsim_${name})
+  if(HAPSIM_WHOLE_ROOMS)
+    set_target_properties(hapsim_${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  endif()
   set_target_properties(hapsim_${name} PROPERTIES OUTPUT_NAME hapsim
     LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/python)
   install(TARGETS hapsim_${name} LIBRARY DESTINATION lib/python3/dist-packages COMPONENT python)

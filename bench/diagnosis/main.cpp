@@ -14,134 +14,22 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <set>
-#include <tuple>
 
 #include "base/error.h"
 #include "diagnose/candidate.h"
 #include "diagnose/diagnose.h"
 #include "diagnose/held_out.h"
-#include "diagnose/try_effects.h"
 #include "diagnose/wording.h"
-#include "effects/catalogue.h"
-#include "formats/tetmesh_io.h"
 #include "left_out.h"
-#include "mesh/tetmesh.h"
+#include "made_recordings.h"
 #include "shown.h"
+#include "statements.h"
 #include "summary.h"
 #include "truths.h"
 
 namespace hapsim::bench {
 namespace {
-
-constexpr double kNoise = 0.01;           // [N] per component
-constexpr double kStiffnessError = 0.01;  // relative, of each position and direction
-constexpr double kTrueRim = 0.08;         // finer than what is diagnosed
-
-Recording first_presses(const Recording& all, int count) {
-  Recording some = all;
-  const std::vector<Press> presses = all.presses();
-  std::vector<std::size_t> rows;
-  for (int k = 0; k < count; ++k)
-    rows.insert(rows.end(), presses[k].rows.begin(), presses[k].rows.end());
-  const auto keep = [&](auto& values) {
-    if (values.empty()) return;
-    const auto before = values;
-    values.resize(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) values[i] = before[rows[i]];
-  };
-  keep(some.line), keep(some.press), keep(some.t), keep(some.position), keep(some.u), keep(some.f);
-  keep(some.temp), keep(some.contact);
-  return some;
-}
-
-Recording motion(const std::string& path, const Truth& truth) {
-  Input input(path);
-  Recording r = read_recording(input, false);
-  r.f.assign(r.rows(), Vec3::Zero());
-  if (truth.open) r.contact.clear();
-  // Each press at its own temperature, in no order; the thermometer has noise.
-  Random random(5);
-  r.temp.resize(r.rows());
-  for (const Press& press : r.presses()) {
-    const double t = 20 + 10 * random.uniform();
-    for (const int row : press.rows) r.temp[row] = t + 0.05 * random.normal();
-  }
-  return truth.presses > 0 ? first_presses(r, truth.presses) : r;
-}
-
-TetMesh body(const std::string& path) {
-  Input input(path);
-  return read_body(input);
-}
-
-struct Pair {
-  Experiment truth, diagnosed;
-};
-
-// Bodies prepared once for each kind of recording.
-class Pairs {
- public:
-  Pairs(const std::string& diagnosed, const std::string& truth, const std::string& path)
-      : diagnosed_(body(diagnosed)), truth_(body(truth)), path_(path) {}
-  const Pair& of(const Truth& truth) {
-    const std::tuple<bool, int, double> kind{truth.open, truth.presses, truth.noisier};
-    if (const auto known = pairs_.find(kind); known != pairs_.end()) return known->second;
-    ExperimentOptions options;
-    options.noise = kNoise * truth.noisier;
-    options.cache = default_cache_directory();
-    ExperimentOptions finer = options;
-    finer.rim_edge = kTrueRim;
-    finer.nu_low = finer.nu_high = true_base({}).find("elastic", 0, "nu")->value;
-    options.draft = true;  // as hs-diagnose
-    const Pair pair{make_experiment(truth_, motion(path_, truth), finer),
-                    make_experiment(diagnosed_, motion(path_, truth), options)};
-    return pairs_.emplace(kind, pair).first->second;
-  }
-
- private:
-  TetMesh diagnosed_, truth_;
-  std::string path_;
-  std::map<std::tuple<bool, int, double>, Pair> pairs_;
-};
-
-// What the sensor adds.
-void add_noise(const Truth& truth, const Episode& e, Random& random,
-               Eigen::Ref<Eigen::VectorXd> f) {
-  constexpr double kMemory = 0.9, kOutliers = 0.01, kFarOff = 15;
-  Vec3 last = Vec3::Zero();
-  for (std::size_t i = 0; i < e.rows.size(); ++i) {
-    Vec3 n(random.normal(), random.normal(), random.normal());
-    if (truth.noise == NoiseKind::kCorrelated && i > 0)
-      n = kMemory * last + std::sqrt(1 - kMemory * kMemory) * n;
-    last = n;
-    if (truth.noise == NoiseKind::kOutliers && random.uniform() < kOutliers) n *= kFarOff;
-    f.segment<3>(3 * static_cast<Eigen::Index>(i)) += truth.noisier * kNoise * n;
-  }
-}
-
-// Each position's forces with a symmetric relative error, and noise.
-void measure(const Truth& truth, const Experiment& w, int seed, Eigen::VectorXd& f) {
-  Random random(static_cast<std::uint64_t>(seed));
-  std::vector<Eigen::Matrix3d> error;
-  for (std::size_t p = 0; p < w.dataset.positions.size(); ++p) {
-    Eigen::Matrix3d S;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j <= i; ++j)
-        S(i, j) = S(j, i) = kStiffnessError * (i == j ? 1 : std::sqrt(0.5)) * random.normal();
-    error.push_back(Eigen::Matrix3d::Identity() + S);
-  }
-  Eigen::Index at = 0;
-  for (const Episode& e : w.dataset.episodes) {
-    const auto n = 3 * static_cast<Eigen::Index>(e.rows.size());
-    for (Eigen::Index i = at; i < at + n; i += 3)
-      f.segment<3>(i) = (error[e.position] * f.segment<3>(i)).eval();
-    add_noise(truth, e, random, f.segment(at, n));
-    at += n;
-  }
-}
 
 struct Drawn {
   Eigen::VectorXd forces;  // empty: too small
@@ -197,56 +85,6 @@ Drawn draw(const Truth& truth, const std::vector<Truth>& all, const Experiment& 
   return draw_at(strength, truth, base, w, seed);
 }
 
-// Whether the forces would show a change of the truth's parameter: what has no effect has no size.
-bool acts(const Model& truth, const Parameter& exact, const Experiment& w) {
-  Model changed = truth;
-  Parameter& p = *changed.find(exact.effect, exact.region, exact.name);
-  const double step = parameter_card(require_effect(exact.effect), exact.name)->scale;
-  p.value += p.value + step > p.upper ? -step : step;
-  const Selection all = all_episodes(w.dataset);
-  const auto forces = [&](const Model& m) { return solved_forces(m, w, all, false).f; };
-  return (forces(changed) - forces(truth)).norm() > kNoise;
-}
-
-// How many of the sizes that were found hold the truth in their 95 % intervals, and to `path` each
-// of them with its truth, the elastic ones besides (coverage.py). Not counted: orientations, which
-// have twins (an axis and its reverse), another number of terms than the truth has, whose values
-// are other ones, and what no interval is stated for (at a bound).
-void count_sizes(const Model& found, const Model& truth, const Experiment& w,
-                 const std::string& path, Trial& trial) {
-  std::ofstream out(path, std::ios::app);
-  const auto group = [](const Effect& effect) {
-    switch (effect.card().stage) {
-      case Stage::kMotion:
-      case Stage::kSensor:
-        return "set-up";
-      case Stage::kContact:
-        return "contact";
-      default:
-        return "material";
-    }
-  };
-  const auto rows = [](const Model& model, const std::string& effect) {
-    return std::count_if(model.parameters.begin(), model.parameters.end(),
-                         [&](const Parameter& p) { return p.effect == effect; });
-  };
-  for (const Parameter& p : found.parameters) {
-    if (rows(found, p.effect) != rows(truth, p.effect)) continue;
-    if (p.state != ParameterState::kFree) continue;
-    const Parameter* exact = truth.find(p.effect, p.region, p.name);
-    const Effect& effect = require_effect(p.effect);
-    const bool solved = effect.card().solved, elastic = p.effect == "elastic";
-    if (exact == nullptr || (p.unit == "rad" && solved) || !std::isfinite(p.std_error)) continue;
-    if (!solved && !elastic && !acts(truth, *exact, w)) continue;
-    out << fmt::format("{},{},{},{},{},{:.8g},{:.8g},{:.4g}\n", trial.truth, trial.seed,
-                       elastic ? p.name : group(effect), p.effect, p.name, p.value, exact->value,
-                       p.std_error);
-    if (elastic) continue;
-    ++trial.sized;
-    trial.covered += std::abs(p.value - exact->value) <= 1.96 * p.std_error;
-  }
-}
-
 std::string joined(const std::vector<std::string>& names) {
   return fmt::format("{}", fmt::join(names, " "));
 }
@@ -259,30 +97,6 @@ struct Options {
   bool leave_out = false;  // the truth's effect is taken from the catalogue
   bool at_shown = false;   // sizes are those from which it would show
 };
-
-// What is said of each effect, and whether it is hidden, or what is hidden includes it: by which
-// the probabilities are calibrated (probabilities.py).
-void append_statements(const std::string& path, const Truth& truth, const Trial& trial,
-                       const Diagnosis& d) {
-  std::ofstream out(path, std::ios::app);
-  const auto true_of = [&](const std::string& said) {
-    return std::any_of(truth.effects.begin(), truth.effects.end(), [&](const std::string& hidden) {
-      return hidden == said || contains(require_effect(hidden), said) || is_of_kind(hidden, said);
-    });
-  };
-  for (const Finding& f : d.findings)
-    out << fmt::format("{},{:.3g},{},{},{},{:d},{:.4g},{:.4g},{:.5g},{:.3g},{:d}\n", truth.name,
-                       trial.level, trial.seed, f.effect, verdict_name(f.verdict),
-                       true_of(f.effect), f.probability, f.share_among, f.criterion_gain, f.memory,
-                       d.left.noise_alone());
-}
-
-Experiment with_forces(Experiment w, const Eigen::VectorXd& forces) {
-  const std::vector<int> rows = stacked_rows(w.dataset, all_episodes(w.dataset));
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    w.dataset.recording.f[rows[i]] = forces.segment<3>(3 * static_cast<Eigen::Index>(i));
-  return w;
-}
 
 // What is diagnosed: the base, fitted.
 Model fitted_base(const Truth& truth, const Experiment& w) {

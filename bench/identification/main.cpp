@@ -15,9 +15,9 @@
 #include <set>
 #include <thread>
 
+#include "base/blas.h"
 #include "base/error.h"
 #include "cases.h"
-#include "linalg/blas.h"
 
 namespace hapsim::bench {
 namespace {

@@ -20,6 +20,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/blas.h"
 #include "base/error.h"
 #include "base/median.h"
 #include "calculix_input.h"
@@ -28,7 +29,6 @@
 #include "fit/extend.h"
 #include "formats/tetmesh_io.h"
 #include "io/csv.h"
-#include "linalg/blas.h"
 #include "support/finer_contact.h"
 #include "support/objects.h"
 #include "tetmesh/body_mesh.h"

@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
+#include "base/blas.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "contact/contact_library.h"
 #include "formats/tetmesh_io.h"
-#include "linalg/blas.h"
 #include "mesh/surface_tree.h"
 #include "realtime/direction_doubt.h"
 #include "realtime/stiffness_field.h"

@@ -135,6 +135,10 @@ CommandLine parse_command_line(const ToolSpec& spec, int argc, char** argv) {
         line.request = Request::kCompletion;
         line.shell = shell;
       }
+    if (line.request == Request::kVersion)
+      line.verbose = std::any_of(words.begin(), words.end(), [](const std::string& other) {
+        return other == "-v" || other == "--verbose";
+      });
     if (line.request != Request::kRun) return line;
   }
   if (std::erase(words, "--parsed") > 0) line.request = Request::kParsed;

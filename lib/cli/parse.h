@@ -10,7 +10,8 @@ enum class Request { kRun, kShortHelp, kHelp, kMan, kVersion, kCompletion, kAbou
 struct CommandLine {
   Request request = Request::kRun;
   Arguments arguments;
-  std::string shell;  // kCompletion
+  std::string shell;     // kCompletion
+  bool verbose = false;  // kVersion: beside -v
 };
 
 // Throws Error(kUsage): unknown flag (with the nearest), missing or repeated value, number out of

@@ -97,7 +97,7 @@ std::vector<Option> all_options(const ToolSpec& spec) {
         std::pair{flag::verbose, "Print more about what is done."},
         std::pair{flag::help, "Print this help; -h prints a screen of it."},
         std::pair{flag::man, "Print the manual page."},
-        std::pair{flag::version, "Print the version."}})
+        std::pair{flag::version, "Print the version; with -v the BLAS in use, too."}})
     options.push_back({.flag = one, .help = help, .group = general});
   const auto place = [&groups](const Option& option) {
     return std::find(groups.begin(), groups.end(), option.group);

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "base/blas.h"
 #include "base/error.h"
 #include "cli/check.h"
 #include "cli/completion.h"
@@ -83,7 +84,8 @@ int parse_and_run(const ToolSpec& spec, int argc, char** argv,
     case Request::kMan:
       return print(man_page(spec));
     case Request::kVersion:
-      return print(spec.name + " (hapsim) " + version() + "\n");
+      return print(spec.name + " (hapsim) " + version() + "\n" +
+                   (line.verbose ? "BLAS: " + blas_name() + "\n" : ""));
     case Request::kCompletion:
       return print(completion(spec, line.shell));
     case Request::kAbout:

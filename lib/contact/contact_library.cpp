@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/blas.h"
 #include "base/error.h"
 #include "base/parallel.h"
-#include "linalg/blas.h"
 #include "tetmesh/contact_unfit.h"
 
 namespace hapsim {

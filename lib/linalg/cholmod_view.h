@@ -5,7 +5,7 @@
 
 #include <new>
 
-#include "linalg/blas.h"
+#include "base/blas.h"
 #include "linalg/sparse_cholesky.h"
 
 namespace hapsim {

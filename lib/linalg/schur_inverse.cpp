@@ -6,8 +6,8 @@
 #include <cassert>
 #include <new>
 
+#include "base/blas.h"
 #include "base/error.h"
-#include "linalg/blas.h"
 #include "linalg/cholmod_view.h"
 #include "linalg/counts.h"
 #include "linalg/metis_guard.h"

@@ -9,7 +9,7 @@
 namespace hapsim::python {
 namespace {
 
-Body read(const py::object& path) {
+Body read_body_file(const py::object& path) {
   hs_body* body = nullptr;
   const std::string file = path_of(path);
   run([&] { return hs_body_read(file.c_str(), &body); });
@@ -34,7 +34,7 @@ py::array tets(const py::object& self) {
 
 void define_body(py::module_& m) {
   py::class_<Body>(m, "Body", "Tetrahedra with fixed nodes.")
-      .def_static("read", &read, "path"_a, "Of any format that the tools read.")
+      .def_static("read", &read_body_file, "path"_a, "Of any format that the tools read.")
       .def_property_readonly("name", [](const Body& b) { return hs_body_name(b.handle.get()); })
       .def_property_readonly(
           "nodes", [](const py::object& b) { return array(b, hs_body_nodes, 3); },

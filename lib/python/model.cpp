@@ -15,7 +15,7 @@ Model adopt(hs_model* made) {
   return {owned<hs_model, hs_model_free>(made)};
 }
 
-Model read(const py::object& path) {
+Model read_model_file(const py::object& path) {
   hs_model* made = nullptr;
   require(hs_model_read(path_of(path).c_str(), &made));
   return adopt(made);
@@ -132,7 +132,7 @@ Model identify(const py::object& recordings, const py::object& bodies, const py:
 
 void define_model(py::module_& m) {
   py::class_<Model>(m, "Model", "Effects with the values of their parameters.")
-      .def_static("read", &read, "path"_a)
+      .def_static("read", &read_model_file, "path"_a)
       .def_static("parse", &parse, "text"_a, "name"_a = "model", "The text of model.csv.")
       .def("write", &write, "path"_a)
       .def("copy", [](const Model& model) { return copy(model.handle.get()); })

@@ -11,11 +11,11 @@
 namespace hapsim::python {
 namespace {
 
-void set(const Recording& r, const std::string& key, const std::string& value) {
+void set_metadata(const Recording& r, const std::string& key, const std::string& value) {
   require(hs_recording_set_metadata(r.handle.get(), key.c_str(), value.c_str()));
 }
 
-Recording read(const py::object& path, bool forces) {
+Recording read_table(const py::object& path, bool forces) {
   hs_recording* made = nullptr;
   const std::string file = path_of(path);
   run([&] { return hs_recording_read(file.c_str(), forces ? 1 : 0, &made); });
@@ -46,7 +46,7 @@ Recording make(const py::dict& columns, const py::dict& metadata) {
   const std::size_t rows = values.empty() ? 0 : static_cast<std::size_t>(values.front().size());
   require(hs_recording_make(words.data(), data.data(), names.size(), rows, forces ? 1 : 0, &made));
   Recording recording = Recording::adopt(made);
-  for (const auto& [key, value] : metadata) set(recording, py::str(key), py::str(value));
+  for (const auto& [key, value] : metadata) set_metadata(recording, py::str(key), py::str(value));
   return recording;
 }
 
@@ -86,12 +86,12 @@ py::array vectors(const py::object& self, const char* first) {
               true);
 }
 
-py::dict metadata(const Recording& r) {
+py::dict metadata_of(const Recording& r) {
   return metadata_of([&](std::size_t k) { return hs_recording_metadata_key(r.handle.get(), k); },
                      [&](const char* key) { return hs_recording_metadata(r.handle.get(), key); });
 }
 
-void write(const Recording& r, const py::object& path) {
+void write_table(const Recording& r, const py::object& path) {
   require(hs_recording_write(r.handle.get(), path_of(path).c_str()));
 }
 
@@ -105,9 +105,9 @@ void define_recording(py::module_& m) {
   py::class_<Recording>(m, "Recording", "Presses, measured or simulated, or a motion of them.")
       .def(py::init(&make), "columns"_a, "metadata"_a = py::dict(),
            "From one array a column (press, t, x, ...), checked as a file is.")
-      .def_static("read", &read, "path"_a, "forces"_a = true,
+      .def_static("read", &read_table, "path"_a, "forces"_a = true,
                   "forces=False: it may be a motion without them.")
-      .def("write", &write, "path"_a)
+      .def("write", &write_table, "path"_a)
       .def_property_readonly("name",
                              [](const Recording& r) { return hs_recording_name(r.handle.get()); })
       .def_property_readonly("columns", &columns)
@@ -124,8 +124,8 @@ void define_recording(py::module_& m) {
       .def_property_readonly(
           "f", [](const py::object& r) { return vectors(r, "fx"); },
           "n x 3, forces of the body on the tool [N]")
-      .def_property_readonly("metadata", &metadata)
-      .def("set_metadata", &set, "key"_a, "value"_a)
+      .def_property_readonly("metadata", &metadata_of)
+      .def("set_metadata", &set_metadata, "key"_a, "value"_a)
       .def("__repr__", [](const py::object& r) {
         return py::str("<hapsim.Recording {}: {} rows>").format(r.attr("name"), py::len(r));
       });

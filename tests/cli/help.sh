@@ -12,6 +12,7 @@ for path in "$bin"/hs-*; do
   tool=${path##*/}
   [[ $tool != hs-sample ]] || continue
   short=$("$path" -h) full=$("$path" --help)
+  [[ $("$path" --version -v) == *$'\n'BLAS:\ * ]] || complain "$tool --version -v does not name the BLAS"
   lines=$(wc -l <<<"$short")
   ((lines <= 30)) || complain "$tool -h has $lines lines"
   # A sentence is not cut at a dot in a name, as of (.inp.

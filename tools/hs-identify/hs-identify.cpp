@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "answer.h"
+#include "base/blas.h"
 #include "base/error.h"
 #include "base/shell_words.h"
 #include "common_options.h"
@@ -27,7 +28,6 @@
 #include "hs-identify/specification.h"
 #include "hs-identify/until.h"
 #include "identify/identify.h"
-#include "linalg/blas.h"
 #include "marked_points.h"
 #include "model/model_edit.h"
 #include "model/model_history.h"

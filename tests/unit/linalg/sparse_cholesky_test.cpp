@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "base/blas.h"
 #include "base/parallel.h"
-#include "linalg/blas.h"
 #include "lower_triangle.h"
 
 namespace hapsim {

@@ -1,12 +1,14 @@
-// Which BLAS runs under the factorisation, and its threads.
+// Which BLAS runs under the factorisation, which of its kernels, and its threads. Where OpenBLAS
+// does not know the processor, kernels as wide as the processor are chosen when this is loaded; the
+// environment's OPENBLAS_CORETYPE goes before that.
 #pragma once
 
 #include <string>
 
 namespace hapsim {
 
-// "OpenBLAS 0.3.21 ... Haswell", or "reference BLAS or another: several times slower than
-// OpenBLAS".
+// "OpenBLAS 0.3.21 ... SkylakeX", "reference BLAS or another: several times slower than OpenBLAS",
+// or "none is loaded".
 std::string blas_name();
 
 // hapsim runs contact positions side by side, so each factorisation takes one thread: OpenBLAS is

@@ -1,4 +1,4 @@
-#include "linalg/blas.h"
+#include "base/blas.h"
 
 #include <dlfcn.h>
 
@@ -71,6 +71,7 @@ std::string blas_name() {
     if (auto core = find_symbol<Text>("openblas_get_corename")) name += std::string(", ") + core();
     return name;
   }
+  if (find_symbol<void (*)()>("dgemm_") == nullptr) return "none is loaded";
   return "reference BLAS or another: several times slower than OpenBLAS";
 }
 
