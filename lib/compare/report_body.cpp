@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "compare/wording.h"
+#include "contact/element_groups.h"
 #include "experiment/forces.h"
 #include "experiment/nearest_region.h"
 
@@ -39,8 +40,11 @@ BodyLayer stiffness_layer(const Comparison& c, const ErrorMap& map) {
 BodyLayer region_layer(const Comparison& c, const ErrorMap& map, const Model& model,
                        const BodyRegions* labels) {
   const MaterialSpec material = material_of(model);
+  std::vector<BodyFeature> features;
+  for (const FeatureSpec& f : material.features) features.push_back(f.feature);
+  const std::vector<BodyRegions::Growth> growths = growths_of(features);
   const auto region_of = [&](const Vec3& p) {
-    return labels != nullptr ? labels->at(p) : region_at(material, p);
+    return labels != nullptr ? labels->at(p, growths) : region_at(material, p);
   };
   BodyLayer layer{.name = "regions",
                   .title = "region",

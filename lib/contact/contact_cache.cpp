@@ -15,8 +15,8 @@ namespace hapsim {
 namespace fs = std::filesystem;
 namespace {
 
-// Begins every entry; a new layout or a new meshing gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '1', '2'};
+// Begins every entry; a new layout, meshing or mixture gets a new number.
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '1', '3'};
 
 struct Head {
   char magic[8];
@@ -86,6 +86,7 @@ std::optional<StiffnessSolution> ContactCache::load(const std::string& key) cons
   read(s.dK_dnu.data(), sizeof s.dK_dnu);
   read(s.coarse_change.data(), sizeof s.coarse_change);
   read(s.coarse_dK_dnu.data(), sizeof s.coarse_dK_dnu);
+  read(s.mixed.data(), sizeof s.mixed);
   read(s.point.data(), sizeof s.point);
   read(s.normal.data(), sizeof s.normal);
   s.dK_dmodulus.resize(head.groups);
@@ -115,6 +116,7 @@ void ContactCache::store(const std::string& key, const StiffnessSolution& s) con
   append(bytes, s.dK_dnu.data(), sizeof s.dK_dnu);
   append(bytes, s.coarse_change.data(), sizeof s.coarse_change);
   append(bytes, s.coarse_dK_dnu.data(), sizeof s.coarse_dK_dnu);
+  append(bytes, s.mixed.data(), sizeof s.mixed);
   append(bytes, s.point.data(), sizeof s.point);
   append(bytes, s.normal.data(), sizeof s.normal);
   for (const auto& k : s.dK_dmodulus) append(bytes, k.data(), sizeof k);

@@ -82,6 +82,7 @@ ContactLibrary::ContactLibrary(const TetMesh& body, double tool_radius,
     : boundary_(body_boundary(body)),
       labels_(BodyRegions::of(body)),
       labels_key_(labels_ ? hapsim::labels_key(body) : ""),
+      inner_(labels_ ? std::make_shared<const std::vector<Surface>>(labels_->enclosed()) : nullptr),
       radius_(tool_radius),
       options_(options),
       cache_(options.cache) {
@@ -110,7 +111,7 @@ std::string ContactLibrary::bodies_key(const Vec3& position) const {
 
 std::shared_ptr<ContactBodies> ContactLibrary::fresh_bodies(const Vec3& p) const {
   const auto& surface = free_surface_.get([&] { return free_surface(base()); });
-  return std::make_shared<ContactBodies>(base(), p, radius_, options_.rim_edge, surface);
+  return std::make_shared<ContactBodies>(base(), p, radius_, options_.rim_edge, surface, inner_);
 }
 
 std::shared_ptr<ContactBodies> ContactLibrary::take_bodies(const Vec3& position) const {

@@ -141,6 +141,7 @@ class ContactLibrary {
   ClassedSurface boundary_;
   std::shared_ptr<const BodyRegions> labels_;
   std::string labels_key_;
+  std::shared_ptr<const std::vector<Surface>> inner_;  // of the labels, that meshes can follow
   double radius_;
   ContactLibraryOptions options_;
   ContactCache cache_;

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.h"
 #include "contact/feature_estimate.h"
 #include "contact/featured_body.h"
 #include "contact/marker_solution.h"
 #include "contact/tool_torque_solution.h"
 #include "solid/elastic_body.h"
+#include "tetmesh/contact_mesh_around.h"
 
 namespace hapsim {
 
@@ -40,17 +42,17 @@ PlanGrid plan_grid(const Surface& surface, int cells_along) {
 
 namespace {
 constexpr Dilatation kDilatation = Dilatation::kElement;  // soft tissue is nearly incompressible
-}
+// Of boundaries that a contact's mesh follows: each brings some ten elements with it.
+constexpr std::size_t kMostInnerFaces = 1500;
+}  // namespace
 
 struct ContactBodies::Level {
   std::shared_ptr<const ContactMesh> shared;
   const ContactMesh& contact;
   std::unique_ptr<ElasticBody> homogeneous;  // made when first asked for
 
-  Level(const ContactBase& base, const Vec3& point, double radius, double rim_edge, double growth)
-      : shared(std::make_shared<const ContactMesh>(
-            make_contact_mesh(base, point, radius, rim_edge, growth))),
-        contact(*shared) {}
+  explicit Level(ContactMesh mesh)
+      : shared(std::make_shared<const ContactMesh>(std::move(mesh))), contact(*shared) {}
 
   std::size_t held_bytes() const {
     return hapsim::held_bytes(shared) + hapsim::held_bytes(homogeneous);
@@ -76,22 +78,47 @@ std::shared_ptr<const SurfaceTree> free_surface(const ContactBase& base) {
 }
 
 ContactBodies::ContactBodies(const ContactBase& base, const Vec3& contact, double radius,
-                             double rim_edge, std::shared_ptr<const SurfaceTree> surface)
+                             double rim_edge, std::shared_ptr<const SurfaceTree> surface,
+                             std::shared_ptr<const std::vector<Surface>> inner)
     : base_(base),
       contact_(contact),
       radius_(radius),
       rim_edge_(rim_edge),
-      surface_(std::move(surface)) {}
+      surface_(std::move(surface)),
+      inner_(std::move(inner)) {}
 
 ContactBodies::~ContactBodies() = default;
 
-ContactBodies::Level& ContactBodies::level(int k) {
-  if (!levels_[k]) {
-    const double factor = k == 0 ? 1 : k == 1 ? kCoarser : kSampled;
-    levels_[k] = std::make_unique<Level>(base_, contact_, radius_, factor * rim_edge_ * radius_,
-                                         factor * kGrowth * rim_edge_ / kRimEdge);
+bool ContactBodies::follows(const Material& material) const {
+  return material.labels && inner_ && !inner_->empty() &&
+         std::none_of(material.features.begin(), material.features.end(),
+                      [](const BodyFeature& f) { return f.kind == Feature::kGrowth; });
+}
+
+ContactBodies::Level& ContactBodies::level(int k, bool follow) {
+  const bool inner = follow && !cannot_follow_[k];
+  std::unique_ptr<Level>& made = levels_[inner ? 1 : 0][k];
+  if (made) return *made;
+  const double factor = k == 0 ? 1 : k == 1 ? kCoarser : kSampled;
+  const double rim = factor * rim_edge_ * radius_, growth = factor * kGrowth * rim_edge_ / kRimEdge;
+  if (!inner) {
+    made = std::make_unique<Level>(make_contact_mesh(base_, contact_, radius_, rim, growth));
+    return *made;
   }
-  return *levels_[k];
+  try {
+    const std::vector<Surface> parts = inner_about(*inner_, contact_, radius_, growth);
+    std::size_t faces = 0;
+    for (const Surface& part : parts) faces += part.faces.size();
+    if (faces <= kMostInnerFaces) {
+      made = std::make_unique<Level>(
+          make_contact_mesh_around(base_, contact_, radius_, rim, growth, parts));
+      return *made;
+    }
+  } catch (const Error&) {
+    // Boundaries too near to each other, the surface or the tool: elements across them will do.
+  }
+  cannot_follow_[k] = true;
+  return level(k, false);
 }
 
 namespace {
@@ -167,10 +194,16 @@ double mesh_uncertainty(const StiffnessSolution& s) {
          kShare * std::abs(s.normal.dot(s.coarse_change * s.normal)) / s.normal.dot(s.K * s.normal);
 }
 
-FeaturedBody& ContactBodies::featured(int k) {
+double mixture_uncertainty(const StiffnessSolution& s) {
+  return s.normal.dot(s.mixed * s.normal) / s.normal.dot(s.K * s.normal);
+}
+
+FeaturedBody& ContactBodies::featured(int k, bool follow) {
   if (!surface_) surface_ = free_surface(base_);
-  if (!featured_[k]) featured_[k] = std::make_unique<FeaturedBody>(level(k).contact, surface_);
-  return *featured_[k];
+  const ContactMesh& contact = level(k, follow).contact;
+  auto& made = featured_[contact.follows_inner ? 1 : 0][k];
+  if (!made) made = std::make_unique<FeaturedBody>(contact, surface_);
+  return *made;
 }
 
 SampledContact ContactBodies::sample(const Material& material, ContactLevel which) {
@@ -178,7 +211,7 @@ SampledContact ContactBodies::sample(const Material& material, ContactLevel whic
   Level& own = level(k);
   SampledContact result{own.contact.point, own.contact.normal, Eigen::Matrix3d::Zero()};
   if (material.has_groups() || !material.features.empty()) {
-    result.K = featured(k).solve(material).K;
+    result.K = featured(k, follows(material)).solve(material).K;
     return result;
   }
   const Lame unit = lame(1, material.nu);
@@ -191,22 +224,25 @@ SampledContact ContactBodies::sample(const Material& material, ContactLevel whic
 }
 
 TorqueSolution ContactBodies::torque(const Material& material) {
-  TorqueSolution solution = solve_torque(level(0).contact, material);
-  const TorqueSolution coarse = solve_torque(level(1).contact, material);
+  const bool follow = follows(material);
+  TorqueSolution solution = solve_torque(level(0, follow).contact, material);
+  const TorqueSolution coarse = solve_torque(level(1, follow).contact, material);
   solution.coarse_K = coarse.K;
   solution.coarse_T = coarse.T;
   return solution;
 }
 
 MarkerSolution ContactBodies::markers(const Material& material, const std::vector<Vec3>& points) {
-  MarkerSolution solution = solve_markers(level(0).contact, material, points);
-  solution.coarse_G = solve_markers(level(1).contact, material, points).G;
+  const bool follow = follows(material);
+  MarkerSolution solution = solve_markers(level(0, follow).contact, material, points);
+  solution.coarse_G = solve_markers(level(1, follow).contact, material, points).G;
   return solution;
 }
 
 void ContactBodies::forget_systems() {
-  for (const auto& body : featured_)
-    if (body) body->forget_system();
+  for (const auto& of_kind : featured_)
+    for (const auto& body : of_kind)
+      if (body) body->forget_system();
 }
 
 std::shared_ptr<const FeatureEstimate> ContactBodies::estimate(double poisson_ratio) {
@@ -216,28 +252,33 @@ std::shared_ptr<const FeatureEstimate> ContactBodies::estimate(double poisson_ra
 
 std::size_t ContactBodies::held_bytes() const {
   std::size_t sum = 0;
-  for (const auto& body : featured_) sum += hapsim::held_bytes(body);
-  for (const auto& level : levels_) sum += hapsim::held_bytes(level);
+  for (const auto& of_kind : featured_)
+    for (const auto& body : of_kind) sum += hapsim::held_bytes(body);
+  for (const auto& of_kind : levels_)
+    for (const auto& level : of_kind) sum += hapsim::held_bytes(level);
   return sum;
 }
 
 StiffnessSolution ContactBodies::solve_featured(const Material& material) {
-  const FeaturedBody::Solution m = featured(0).solve(material);
+  const bool follow = follows(material);
+  const FeaturedBody::Solution m = featured(0, follow).solve(material);
   StiffnessSolution solution;
   solution.K = m.K;
+  solution.mixed = m.mixed;
   solution.dK_dnu = solution.coarse_dK_dnu = m.by_nu;
   solution.dK_dmodulus = m.by_modulus;
   solution.dK_dfeature = m.by_feature;
   solution.coarse_change.setZero();
-  solution.point = level(0).contact.point;
-  solution.normal = level(0).contact.normal;
+  solution.point = level(0, follow).contact.point;
+  solution.normal = level(0, follow).contact.normal;
   return solution;
 }
 
 StiffnessSolution ContactBodies::solve_corrected(const Material& material, const UnitPair& fine,
                                                  const UnitPair& coarse) {
-  const FeaturedBody::Solution m = featured(1).solve(material);
-  const ContactMesh& contact = level(1).contact;
+  const bool follow = follows(material);
+  const FeaturedBody::Solution m = featured(1, follow).solve(material);
+  const ContactMesh& contact = level(1, follow).contact;
   // S = L L_c^-1 from the Cholesky factors of both homogeneous stiffnesses, so S K_c S' = K.
   const Eigen::Matrix3d L = fine.K.llt().matrixL(), L_c = coarse.K.llt().matrixL();
   const Eigen::Matrix3d S = L * L_c.inverse();
@@ -246,6 +287,7 @@ StiffnessSolution ContactBodies::solve_corrected(const Material& material, const
   };
   StiffnessSolution solution;
   solution.K = corrected(m.K);
+  solution.mixed = corrected(m.mixed);
   // S changes with nu as well, by what the homogeneous body shows.
   solution.dK_dnu = corrected(m.by_nu) +
                     solution.K.trace() / fine.K.trace() * (fine.by_nu - corrected(coarse.by_nu));

@@ -51,6 +51,8 @@ struct StiffnessSolution {
   std::vector<std::vector<Eigen::Matrix3d>> dK_dfeature;
   Eigen::Matrix3d coarse_change;  // K of the coarser mesh minus K [N/m]
   Eigen::Matrix3d coarse_dK_dnu;  // of the coarser mesh [N/m]
+  // FeaturedBody::Solution::mixed, 0 where no boundary cuts elements [N/m].
+  Eigen::Matrix3d mixed = Eigen::Matrix3d::Zero();
   Vec3 point, normal;             // of the contact on the surface
   std::string unfit;              // why there is none (ContactUnfit); "": there is
   std::vector<float> plan_share;  // share of the strain energy by cell of the grid
@@ -74,6 +76,8 @@ constexpr double kCoarser = 1.5;
 constexpr double kSampled = 2;
 // Relative uncertainty of the normal stiffness [-]: a bound that the error keeps in 95 of 100.
 double mesh_uncertainty(const StiffnessSolution& solution);
+// The same of what elements do that boundaries cut; 0 where none are cut.
+double mixture_uncertainty(const StiffnessSolution& solution);
 
 // Which mesh of a position.
 enum class ContactLevel { kFine, kCoarse, kSample };
@@ -96,11 +100,14 @@ class FeaturedBody;
 struct TorqueSolution;
 struct MarkerSolution;
 
-// The meshes of a position, made when first needed, to be solved for several materials.
+// The meshes of a position, made when first needed, to be solved for several materials. For labels
+// that do not grow, elements end at their boundaries where those are `inner`
+// (BodyRegions::enclosed) and can be meshed so; else they are laminates where boundaries cut them.
 class ContactBodies {
  public:
   ContactBodies(const ContactBase& base, const Vec3& contact, double radius,
-                double rim_edge = kRimEdge, std::shared_ptr<const SurfaceTree> surface = nullptr);
+                double rim_edge = kRimEdge, std::shared_ptr<const SurfaceTree> surface = nullptr,
+                std::shared_ptr<const std::vector<Surface>> inner = nullptr);
   ~ContactBodies();
   // A material without features. Derivatives come from the element energies of the three unit
   // fields: no further solution.
@@ -129,14 +136,18 @@ class ContactBodies {
 
  private:
   struct Level;
-  Level& level(int k);
+  Level& level(int k, bool follow = false);
+  bool follows(const Material& material) const;
   const ContactBase& base_;
   Vec3 contact_;
   double radius_, rim_edge_;
   std::shared_ptr<const SurfaceTree> surface_;
-  FeaturedBody& featured(int k);
-  std::unique_ptr<FeaturedBody> featured_[3];
-  std::unique_ptr<Level> levels_[3];  // by ContactLevel
+  std::shared_ptr<const std::vector<Surface>> inner_;
+  FeaturedBody& featured(int k, bool follow);
+  // By whether they follow `inner_`, and by ContactLevel.
+  std::unique_ptr<FeaturedBody> featured_[2][3];
+  std::unique_ptr<Level> levels_[2][3];
+  bool cannot_follow_[3] = {};
 };
 
 }  // namespace hapsim

@@ -12,12 +12,13 @@ std::vector<BodyRegions::Growth> growths_of(const std::vector<BodyFeature>& feat
   return growths;
 }
 
-ElementGroups::ElementGroups(const TetMesh& mesh, const Material& material) {
+ElementGroups::ElementGroups(const TetMesh& mesh, const Material& material, bool follows) {
   const std::vector<BodyRegions::Growth> growths = growths_of(material.features);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (material.labels) {
+    if (material.labels && !follows) {
       for (BodyRegions::Part& p : material.labels->parts(mesh, t, growths))
         parts_.push_back({static_cast<std::size_t>(p.region), p.share, std::move(p.by_growth)});
+      if (parts_.size() > first_.back() + 1) across_[t] = material.labels->across(mesh, t);
     } else {
       const auto& n = mesh.tets[t];
       const Vec3 centre =

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "contact/contact_stiffness.h"
@@ -17,7 +19,8 @@ std::vector<BodyRegions::Growth> growths_of(const std::vector<BodyFeature>& feat
 // groups are the body's labels, of which an element at a boundary has several.
 class ElementGroups {
  public:
-  ElementGroups(const TetMesh& mesh, const Material& material);
+  // `follows`: elements end at the boundaries of the labels, so that their middles tell.
+  ElementGroups(const TetMesh& mesh, const Material& material, bool follows = false);
 
   struct Part {
     std::size_t group = 0;
@@ -31,9 +34,9 @@ class ElementGroups {
     for (std::size_t i = first_[tet]; i < first_[tet + 1]; ++i)
       visit(parts_[i].group, parts_[i].share);
   }
-  // The modulus of the mixture [Pa], which tends to sharp boundaries as the mesh is refined: the
-  // geometric mean by volume (Lichtenecker, Phys. Z. 27, 1926), between those in parallel and in
-  // series. Of one group it is that group's own.
+  // One modulus of the mixture [Pa], which tends to sharp boundaries as the mesh is refined, where
+  // a laminate (element_mixture.h) cannot be had: the geometric mean by volume (Lichtenecker, Phys.
+  // Z. 27, 1926), between those in parallel and in series. Of one group it is that group's own.
   double modulus(std::size_t tet, const std::vector<double>& of_group) const {
     if (first_[tet + 1] == first_[tet] + 1) return of_group[parts_[first_[tet]].group];
     double sum = 0;
@@ -51,6 +54,16 @@ class ElementGroups {
         sum += parts_[i].by_growth[growth] * std::log(of_group[parts_[i].group]);
     return sum * modulus(tet, of_group);
   }
+  // Calls visit(group, derivative of its share [1/m]) by a growth, numbered as above.
+  template <class Visit>
+  void for_each_growth(std::size_t tet, std::size_t growth, const Visit& visit) const {
+    for (std::size_t i = first_[tet]; i < first_[tet + 1]; ++i)
+      if (growth < parts_[i].by_growth.size()) visit(parts_[i].group, parts_[i].by_growth[growth]);
+  }
+  // Unit normals of the boundaries in an element of several groups, with weights that sum to 1.
+  const std::vector<std::pair<Vec3, double>>& across(std::size_t tet) const {
+    return across_.at(tet);
+  }
   // The group of the largest share.
   std::size_t main_group(std::size_t tet) const;
   std::size_t held_bytes() const { return hapsim::held_bytes(first_) + hapsim::held_bytes(parts_); }
@@ -58,6 +71,7 @@ class ElementGroups {
  private:
   std::vector<std::size_t> first_{0};  // of parts_, by element, and the end
   std::vector<Part> parts_;
+  std::map<std::size_t, std::vector<std::pair<Vec3, double>>> across_;  // by element
 };
 
 }  // namespace hapsim

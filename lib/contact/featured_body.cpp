@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "contact/feature_zone.h"
+#include "contact/element_mixture.h"
 #include "contact/support_springs.h"
 #include "material/unit_law.h"
 #include "solid/elasticity.h"
 #include "solid/element_moments.h"
-#include "solid/inhomogeneity.h"
 #include "solid/membrane.h"
 
 namespace hapsim {
@@ -69,13 +68,6 @@ std::vector<FaceTerm> face_terms(const Material& material, const TetMesh& mesh) 
 
 }  // namespace
 
-struct FeaturedBody::Moduli {
-  std::vector<double> modulus;   // one a tetrahedron [Pa]
-  std::vector<double> of_group;  // without zones [Pa]
-  // By the values of each feature (tetrahedra x values); no rows where it is no zone.
-  std::vector<Eigen::MatrixXd> by_feature;
-};
-
 FeaturedBody::FeaturedBody(const ContactMesh& contact,
                            std::shared_ptr<const SurfaceTree> free_surface)
     : contact_(contact), free_surface_(std::move(free_surface)) {}
@@ -91,7 +83,8 @@ void FeaturedBody::forget_system() {
 std::shared_ptr<const ElementGroups> FeaturedBody::groups(const Material& material) {
   const bool grows = find_feature(material, Feature::kGrowth) != nullptr;
   if (groups_ && material.labels && labels_ == material.labels && !grows) return groups_;
-  auto made = std::make_shared<const ElementGroups>(contact_.mesh, material);
+  auto made =
+      std::make_shared<const ElementGroups>(contact_.mesh, material, contact_.follows_inner);
   if (material.labels && !grows) {
     groups_ = made;
     labels_ = material.labels;
@@ -99,52 +92,14 @@ std::shared_ptr<const ElementGroups> FeaturedBody::groups(const Material& materi
   return made;
 }
 
-FeaturedBody::Moduli FeaturedBody::moduli(const Material& material,
-                                          const ElementGroups& groups) const {
-  const TetMesh& mesh = contact_.mesh;
-  const auto count = static_cast<Eigen::Index>(mesh.tets.size());
-  Moduli m;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    m.modulus.push_back(groups.modulus(t, material.modulus));
-  m.of_group = m.modulus;
-  std::vector<std::vector<double>> factors;
-  std::size_t growths = 0;
-  for (const BodyFeature& f : material.features) {
-    m.by_feature.emplace_back();
-    factors.emplace_back();
-    if (f.kind == Feature::kGrowth) {
-      Eigen::MatrixXd& by = m.by_feature.back();
-      by.setZero(count, 2);
-      for (Eigen::Index t = 0; t < count; ++t)
-        by(t, 1) = groups.modulus_by_growth(static_cast<std::size_t>(t), material.modulus, growths);
-      ++growths;
-      factors.back() = m.of_group;
-    }
-    if (!is_zone(f.kind)) continue;
-    const double ratio = f.value.back();
-    const InsideShares inside = inside_shares(mesh, zone_level(f, free_surface_));
-    factors.back() = stiffness_factors(inside.share, ratio);
-    Eigen::MatrixXd& by = m.by_feature.back();
-    by.resize(count, static_cast<Eigen::Index>(f.value.size()));
-    by.leftCols(by.cols() - 1) = (ratio - 1) * inside.by_parameters;
-    by.rightCols<1>() = Eigen::Map<const Eigen::VectorXd>(inside.share.data(), count);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) m.modulus[t] *= factors.back()[t];
-  }
-  for (std::size_t k = 0; k < m.by_feature.size(); ++k)
-    for (Eigen::Index t = 0; t < m.by_feature[k].rows(); ++t)
-      m.by_feature[k].row(t) *=
-          m.modulus[static_cast<std::size_t>(t)] / factors[k][static_cast<std::size_t>(t)];
-  return m;
-}
-
 FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
   const TetMesh& mesh = contact_.mesh;
   const std::size_t tets = mesh.tets.size();
   const auto group = groups(material);
-  const Moduli m = moduli(material, *group);
   const BodyFeature* transverse = find_feature(material, Feature::kTransverse);
   const UnitLaw law =
       unit_law(material.nu, transverse != nullptr ? transverse->value : std::vector<double>{});
+  const ElementMixture mixture(mesh, material, *group, free_surface_, law);
   const bool support = find_feature(material, Feature::kSupport) != nullptr;
   const std::vector<FaceTerm> on_faces = face_terms(material, mesh);
   const double base_modulus = material.modulus[0];
@@ -171,10 +126,15 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
   for (const int n : contact_.patch_nodes) phi.middleRows<3>(3 * n).setIdentity();
   Eigen::MatrixXd load = Eigen::MatrixXd::Zero(phi.rows(), 3);
   const BlockMaker block(law.D);
-  Eigen::Matrix<double, 30, 30> K;
+  Eigen::Matrix<double, 30, 30> K, more;
   for (std::size_t t = 0; t < tets; ++t) {
     const auto& n = mesh.tets[t];
-    element_matrix(element_gradients(mesh, t), block, law.kappa, m.modulus[t], K);
+    const ElementGradients gradients = element_gradients(mesh, t);
+    element_matrix(gradients, block, law.kappa, mixture.scale(t), K);
+    if (const VoigtMatrix* beyond = mixture.beyond(t)) {
+      element_matrix(gradients, BlockMaker(*beyond), 0, 1, more);
+      K += more;
+    }
     system.add(t, K);
     if (std::none_of(n.begin(), n.end(), [&](int a) { return moved[a]; })) continue;
     const Eigen::Matrix<double, 30, 3> force = K * local_fields(mesh, t, phi);
@@ -196,30 +156,17 @@ FeaturedBody::Solution FeaturedBody::solve(const Material& material) {
                   "check that the body has fixed nodes, nu < 0.5 and all moduli are positive");
   phi += system.solve(load);
 
-  Solution s{Eigen::Matrix3d::Zero(), {}, {}, {}};
+  Solution s{Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Matrix3d::Zero(), {}, {}};
   s.by_modulus.assign(material.modulus.size(), Eigen::Matrix3d::Zero());
   for (const BodyFeature& f : material.features)
     s.by_feature.emplace_back(f.value.size(), Eigen::Matrix3d::Zero());
-  FieldMoments all;
-  for (std::size_t t = 0; t < tets; ++t) {
-    const FieldMoments moments(element_gradients(mesh, t), local_fields(mesh, t, phi));
-    const Eigen::Matrix3d k = moments.energy(law.D, law.kappa);
-    all.add(m.modulus[t], moments);
-    group->for_each(t, [&](std::size_t g, double share) {
-      // Zones multiply it; of one group its own modulus drops out exactly.
-      s.by_modulus[g] +=
-          share * (m.modulus[t] / m.of_group[t]) * (m.of_group[t] / material.modulus[g]) * k;
-    });
-    s.K += m.modulus[t] * k;
-    for (std::size_t f = 0; f < m.by_feature.size(); ++f)
-      for (Eigen::Index v = 0; v < m.by_feature[f].cols(); ++v)
-        s.by_feature[f][v] += m.by_feature[f](static_cast<Eigen::Index>(t), v) * k;
-  }
-  s.by_nu = all.energy(law.D_by[0], law.kappa_by[0]);
+  std::vector<Eigen::Matrix3d> by_law(law.D_by.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t t = 0; t < tets; ++t)
+    mixture.add(t, FieldMoments(element_gradients(mesh, t), local_fields(mesh, t, phi)), s, by_law);
+  s.by_nu = by_law[0];
   for (std::size_t f = 0; f < material.features.size(); ++f)
     if (material.features[f].kind == Feature::kTransverse)
-      for (std::size_t v = 0; v < 4; ++v)
-        s.by_feature[f][v] = all.energy(law.D_by[1 + v], law.kappa_by[1 + v]);
+      for (std::size_t v = 0; v < 4; ++v) s.by_feature[f][v] = by_law[1 + v];
   for (const FaceTerm& face : on_faces) {
     const Eigen::MatrixXd fields = fields_at(face.nodes, phi);
     const Eigen::Matrix3d k = base_modulus * fields.transpose() * face.matrix * fields;

@@ -49,7 +49,7 @@ MarkerSolution solve_markers(const ContactMesh& contact, const Material& materia
     if (mesh.fixed[n]) handle[n] = kHeldNode;
   for (const int n : contact.patch_nodes) handle[static_cast<std::size_t>(n)] = 0;
   const Lame unit = lame(1, material.nu), by_nu = lame_by_poisson(1, material.nu);
-  const ElementGroups element(mesh, material);
+  const ElementGroups element(mesh, material, contact.follows_inner);
   std::vector<Lame> constants;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const double modulus = element.modulus(t, material.modulus);

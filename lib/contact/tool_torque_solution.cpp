@@ -72,7 +72,7 @@ TorqueSolution solve_torque(const ContactMesh& contact, const Material& material
   const TetMesh& mesh = contact.mesh;
   const std::size_t tets = mesh.tets.size();
   const Lame unit = lame(1, material.nu), by_nu = lame_by_poisson(1, material.nu);
-  const ElementGroups groups(mesh, material);
+  const ElementGroups groups(mesh, material, contact.follows_inner);
   std::vector<Lame> constants(tets);
   for (std::size_t t = 0; t < tets; ++t) {
     const double modulus = groups.modulus(t, material.modulus);

@@ -16,7 +16,9 @@ class Inclusion : public Effect {
         .title = "something stiffer or softer lies inside the body",
         .equation = "E(p) = E ratio where |p - (x, y, z)| < radius, else E",
         .source =
-            "finite elements, elements cut by the boundary in parallel (Voigt, 1889); thesis 3.5",
+            "finite elements, elements cut by the boundary as laminates along it (Backus, J. "
+            "Geophys. "
+            "Res. 67, 1962); thesis 3.5",
         .assumptions =
             "one ball, bonded, the body's Poisson's ratio; its size and its modulus are told apart "
             "only by presses beside and above it",

@@ -161,4 +161,18 @@ bool Linearisation::is_solved_for(const MaterialSpec& material) const {
   });
 }
 
+std::vector<double> SetupLinearisation::mixture_uncertainties() const {
+  std::vector<double> result;
+  if (solved_)
+    for (const StiffnessSolution& s : solved_->solutions) result.push_back(mixture_uncertainty(s));
+  return result;
+}
+
+std::vector<double> Linearisation::mixture_uncertainties() const {
+  std::vector<double> result;
+  for (const SetupLinearisation& setup : setups_)
+    for (const double share : setup.mixture_uncertainties()) result.push_back(share);
+  return result;
+}
+
 }  // namespace hapsim

@@ -32,6 +32,8 @@ class SetupLinearisation {
   // Whether a material of these regions and kinds of features was solved, so that at() does not
   // estimate.
   bool is_solved_for(const MaterialSpec& material) const;
+  // mixture_uncertainty() of every place of what was solved; empty of a homogeneous body.
+  std::vector<double> mixture_uncertainties() const;
 
  private:
   PositionStiffness unmoved(std::size_t position, const MaterialSpec& material) const;
@@ -68,6 +70,7 @@ class Linearisation {
     return setups_[place.setup].at(place.position, material);
   }
   bool is_solved_for(const MaterialSpec& material) const;
+  std::vector<double> mixture_uncertainties() const;  // of all bodies and tools
   bool empty() const { return setups_.empty(); }
   const SetupLinearisation& setup(std::size_t s) const { return setups_[s]; }
 

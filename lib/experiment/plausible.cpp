@@ -130,12 +130,21 @@ std::vector<std::string> doubts_of(const Model& model, std::span<const TetMesh> 
   for (const TetMesh& body : bodies)
     for (const auto& [region, thickness] : thin_regions(body))
       lines.push_back(fmt::format(
-          "region {} of the body is a sheet, some {:.2g} mm thick: where elements of the contact "
-          "meshes are thicker they take only part of it, and the stated errors do not know; "
-          "compare "
-          "with --own-mesh of a mesh that is fine there",
+          "region {} of the body is a sheet, some {:.2g} mm thick: with --full, elements thicker "
+          "than it take only part of it, and no stated error knows",
           region, 1e3 * thickness));
   return lines;
+}
+
+std::string mixture_words(const Linearisation& about) {
+  constexpr double kTold = 0.01;
+  const std::vector<double> share = about.mixture_uncertainties();
+  const auto many = std::count_if(share.begin(), share.end(), [](double s) { return s > kTold; });
+  if (many == 0) return "";
+  return fmt::format(
+      "boundaries of another stiffness cut elements of the contact meshes: at {} of {} places that "
+      "may change the force by more than {:.0f} %, by {:.2g} % at most",
+      many, share.size(), 100 * kTold, 100 * *std::max_element(share.begin(), share.end()));
 }
 
 }  // namespace hapsim

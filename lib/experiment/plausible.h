@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "experiment/forces.h"
+#include "experiment/linearisation.h"
 
 namespace hapsim {
 
@@ -35,5 +36,8 @@ std::vector<int> idle_regions(const Model& model, std::span<const TetMesh> bodie
 std::vector<std::string> doubts_of(const Model& model);
 // The same of a model on its bodies: a modulus acts nowhere, or in a sheet.
 std::vector<std::string> doubts_of(const Model& model, std::span<const TetMesh> bodies);
+
+// What mixtures in elements that boundaries cut leave open of the forces; "" where that is little.
+std::string mixture_words(const Linearisation& about);
 
 }  // namespace hapsim

@@ -147,6 +147,7 @@ std::vector<std::string> doubts(const Experiment& w, const Fit& result) {
   if (w.dataset.positions.size() == 1)
     add("all presses are at one place: how the body differs from place to place is not seen");
   add(strange_modulus(result.model));
+  add(mixture_words(result.about));
   add(result.torque.unused);
   add(result.marker.unused);
   for (const std::string& sentence : result.blind) add(sentence);

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "base/random.h"
 #include "experiment/contact_radius.h"
+#include "experiment/plausible.h"
 #include "experiment/press_clock.h"
 #include "experiment/torques.h"
 #include "io/number.h"
@@ -166,6 +168,11 @@ Simulated simulate(const TetMesh& body, const Model& model, Recording motion,
   Simulated simulated;
   simulated.mesh_uncertainty = w.places.mesh_uncertainty();
   simulated.positions = w.dataset.positions.size();
+  const Linearisation about = w.places.solve(material_of(model));
+  told(mixture_words(about));
+  if (std::vector<double> mixed = about.mixture_uncertainties(); !mixed.empty())
+    simulated.mesh_uncertainty =
+        std::hypot(simulated.mesh_uncertainty, upper_median(std::move(mixed)));
   if (control == Control::kForce) {
     simulated.recording =
         with_displacements(model, w.dataset, contact_mesh_stiffness(model, w, told));

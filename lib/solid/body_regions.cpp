@@ -11,7 +11,8 @@
 namespace hapsim {
 namespace {
 
-constexpr int kCuts = 2;  // each tetrahedron at a boundary into 8^2 parts
+constexpr int kCuts = 2;      // each tetrahedron at a boundary into 8^2 parts
+constexpr int kThinCuts = 2;  // and so often again where two boundaries pass between corners
 
 struct TetFace {
   std::array<int, 3> sorted;
@@ -43,6 +44,7 @@ struct BodyRegions::Corner {
   int region;
   double distance;  // to the nearest boundary [m]
   int face;         // of between_
+  Vec3 from;        // the nearest point of that boundary to here
 };
 
 std::shared_ptr<const BodyRegions> BodyRegions::of(const TetMesh& body) {
@@ -108,7 +110,7 @@ int BodyRegions::at(const Vec3& p, const std::vector<Growth>& growth) const {
 
 BodyRegions::Corner BodyRegions::corner(const Vec3& p) const {
   const SurfacePoint nearest = between_->nearest(p);
-  return {p, at(p), nearest.distance, nearest.face};
+  return {p, at(p), nearest.distance, nearest.face, p - nearest.point};
 }
 
 double BodyRegions::distance(const Corner& c, int region) const {
@@ -151,7 +153,13 @@ void BodyRegions::add_part(const std::array<const Corner*, 4>& x, int subdivisio
     cut.of(x[0]->region).share += weight;
     return;
   }
-  if (subdivisions == 0) return add_leaf(x, weight, cut);
+  // Two corners of one region that see boundaries in opposite directions: something thin lies
+  // between them, of which their distances know nothing.
+  bool thin = false;
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      thin = thin || (x[i]->region == x[j]->region && x[i]->from.dot(x[j]->from) < 0);
+  if (subdivisions <= (thin ? -kThinCuts : 0)) return add_leaf(x, weight, cut);
   const auto mid = [&](std::size_t i, std::size_t j) {
     return corner(0.5 * (x[i]->at + x[j]->at));
   };

@@ -42,10 +42,19 @@ class BodyRegions {
   // Of one tetrahedron of any mesh (straight between its corners), by region; shares above 0, or
   // with a derivative, that sum to 1. Near a boundary it is cut as by inside_share(), into 64 parts
   // in each of which the distance to each region's boundary is linear, and the shares of those
-  // there are scaled to 1. What grows takes from its neighbours, of two that grow into each other
-  // the one of the higher number.
+  // there are scaled to 1; into up to 64 times as many where something thinner passes between. What
+  // grows takes from its neighbours, of two that grow into each other the one of the higher number.
   std::vector<Part> parts(const TetMesh& mesh, std::size_t tetrahedron,
                           const std::vector<Growth>& growth = {}) const;
+
+  // How the boundaries lie that are nearest to a tetrahedron's corners and middle, as none has
+  // grown: principal directions of their unit normals n (eigenvectors of the mean of n n'), each
+  // with its weight, which sum to 1.
+  std::vector<std::pair<Vec3, double>> across(const TetMesh& mesh, std::size_t tetrahedron) const;
+
+  // The boundaries as closed outward surfaces, each between two regions, where all of them are such
+  // and clear of the body's own surface; else none.
+  std::vector<Surface> enclosed() const;
 
   // Distance to a region's boundary, negative inside; no parameters. Refers to this.
   LevelSet level(int region) const;

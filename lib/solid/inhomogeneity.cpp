@@ -156,17 +156,19 @@ InsideShares inside_shares(const TetMesh& mesh, const LevelSet& level, int subdi
 
 std::vector<double> stiffness_factors(const std::vector<double>& share, double ratio) {
   std::vector<double> factor;
-  for (const double s : share) factor.push_back(1 + (ratio - 1) * s);
+  for (const double s : share) factor.push_back(std::pow(ratio, s));
   return factor;
 }
 
 Eigen::MatrixXd by_inhomogeneity(const Eigen::MatrixXd& by_scale, const InsideShares& shares,
                                  double ratio) {
+  const auto count = static_cast<Eigen::Index>(shares.share.size());
+  const Eigen::VectorXd share = Eigen::Map<const Eigen::VectorXd>(shares.share.data(), count);
+  const Eigen::VectorXd factor = share.unaryExpr([ratio](double s) { return std::pow(ratio, s); });
   Eigen::MatrixXd result(by_scale.rows(), 1 + shares.by_parameters.cols());
-  result.col(0) =
-      by_scale * Eigen::Map<const Eigen::VectorXd>(shares.share.data(),
-                                                   static_cast<Eigen::Index>(shares.share.size()));
-  result.rightCols(shares.by_parameters.cols()) = (ratio - 1) * by_scale * shares.by_parameters;
+  result.col(0) = by_scale * factor.cwiseProduct(share) / ratio;
+  result.rightCols(shares.by_parameters.cols()) =
+      std::log(ratio) * by_scale * factor.asDiagonal() * shares.by_parameters;
   return result;
 }
 

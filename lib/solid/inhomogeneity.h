@@ -34,9 +34,11 @@ InsideShares inside_shares(const TetMesh& mesh, const LevelSet& level, int subdi
 double inside_share(const TetMesh& mesh, std::size_t tetrahedron, const LevelSet& level,
                     int subdivisions, Eigen::Ref<Eigen::RowVectorXd> by_parameters);
 
-// Stiffness factors 1 + (ratio - 1) share, one a tetrahedron, for BodyModel::scale and
-// NonlinearBody::set_scale: the modulus of the mixture in parallel (Voigt, 1889), which tends to
-// the sharp boundary as the mesh is refined. Several regions multiply.
+// Stiffness factors ratio^share, one a tetrahedron, for BodyModel::scale and
+// NonlinearBody::set_scale: the geometric mean by volume (Lichtenecker, Phys. Z. 27, 1926), between
+// the mixtures in parallel and in series, which tends to the sharp boundary as the mesh is refined.
+// Of laws that any direction may have, laminate.h has the better one. Several regions multiply.
+// `ratio` > 0.
 std::vector<double> stiffness_factors(const std::vector<double>& share, double ratio);
 // From by_scale of NonlinearBody::Linearisation (rows x tetrahedra): derivatives by the ratio
 // (first column) and by the boundary's parameters (the others).

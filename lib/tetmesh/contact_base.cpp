@@ -4,6 +4,7 @@
 
 #include "mesh/surface_check.h"
 #include "repair/coarsen.h"
+#include "tetmesh/contact_mesh_around.h"
 #include "tetmesh/contact_patch.h"
 
 namespace hapsim {
@@ -48,8 +49,11 @@ ContactBase make_contact_base(const TetMesh& body, double edge) {
   return make_contact_base(body_boundary(body), edge);
 }
 
-ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
-                             double growth) {
+namespace {
+
+// Coarser far from the contact, split where still longer than wanted.
+ClassedSurface graded(const ClassedSurface& surface, const Vec3& contact, double radius,
+                      double growth) {
   const double slope = std::min(growth, kFarGrowth);
   const auto wanted = [&](const Vec3& p) {
     return std::max(slope * (p - contact).norm(), kShortest);
@@ -57,7 +61,23 @@ ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, doubl
   const auto longest = [&](const Vec3& p) {
     return kLongest * kFarGrowth * std::max((p - contact).norm(), kNear * radius);
   };
-  return coarsen_surface(split_long_edges({base.surface, base.fixed_face}, longest), wanted, kFar);
+  return coarsen_surface(split_long_edges(surface, longest), wanted, kFar);
+}
+
+}  // namespace
+
+ClassedSurface surface_about(const ContactBase& base, const Vec3& contact, double radius,
+                             double growth) {
+  return graded({base.surface, base.fixed_face}, contact, radius, growth);
+}
+
+std::vector<Surface> inner_about(const std::vector<Surface>& inner, const Vec3& contact,
+                                 double radius, double growth) {
+  std::vector<Surface> result;
+  for (const Surface& s : inner)
+    result.push_back(
+        graded({s, std::vector<std::uint8_t>(s.faces.size(), 0)}, contact, radius, growth).surface);
+  return result;
 }
 
 }  // namespace hapsim

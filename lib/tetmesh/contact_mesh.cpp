@@ -40,6 +40,9 @@ constexpr Trial kTrials[] = {
     {1.5, 1.5, 80}, {2.4, 2, 75},  {1.5, 2, 80}, {2.6, 3, 75},  {1.5, 3, 80},  {4, 1, 65},
     {1.15, 1, 85},  {2.8, 4, 80},  {1.15, 2, 85}};
 
+// What lies inside is what cannot be meshed where so many have failed.
+constexpr int kInnerTrials = 4;
+
 std::string place(const Vec3& p) {
   return fmt::format("contact at ({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
@@ -161,6 +164,7 @@ ContactMesh make_contact_mesh_around(const ContactBase& base, const Vec3& contac
   check_bonded(base, contact, nearest, radius);
   const ClassedSurface coarse = surface_about(base, contact, radius, growth);
   std::string last = "the disc does not fit on the surface";
+  int failed = 0;
   for (const Trial& trial : kTrials) {
     const ContactFrame frame = contact_frame(base.fine, contact, trial.spread * radius);
     const auto region = contact_region(coarse, frame, trial.reach * radius, trial.tilt_deg,
@@ -182,9 +186,12 @@ ContactMesh make_contact_mesh_around(const ContactBase& base, const Vec3& contac
     // On a busy machine the same trial must come through: another one is another mesh.
     options.processor_time = true;
     try {
-      return finish(run_tetgen(input, options, place(contact)), frame);
+      ContactMesh mesh = finish(run_tetgen(input, options, place(contact)), frame);
+      mesh.follows_inner = !inner.empty();
+      return mesh;
     } catch (const Error& error) {
       last = error.what();
+      if (!inner.empty() && ++failed == kInnerTrials) break;
     }
   }
   throw ContactUnfit(

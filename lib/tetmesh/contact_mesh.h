@@ -32,6 +32,7 @@ struct ContactMesh {
   Vec3 point;                    // contact point projected on the surface
   Vec3 normal;                   // outward unit normal of the patch
   double patch_area = 0;         // [m^2], close to pi radius^2
+  bool follows_inner = false;    // elements end at surfaces inside the body (contact_mesh_around.h)
   std::size_t held_bytes() const {
     return hapsim::held_bytes(mesh) + hapsim::held_bytes(patch_nodes);
   }

@@ -14,4 +14,9 @@ ContactMesh make_contact_mesh_around(const ContactBase& base, const Vec3& contac
                                      double rim_edge, double growth,
                                      const std::vector<Surface>& inner);
 
+// Closed outward surfaces inside the body with edges as long as the mesh about a contact has them
+// there, finer where they bend. Error(kBadInput) when one is no manifold.
+std::vector<Surface> inner_about(const std::vector<Surface>& inner, const Vec3& contact,
+                                 double radius, double growth);
+
 }  // namespace hapsim

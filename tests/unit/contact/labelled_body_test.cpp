@@ -89,35 +89,85 @@ TEST(LabelledBody, DerivativesAreThoseOfDifferences) {
 }
 
 // The staircase of the labels is a ball of another volume: one of that is compared. Elements at the
-// boundary have the geometric mean here and the mixture in parallel there, which is stiffer; what
-// that makes of the ball's work falls with the edges.
-TEST(LabelledBody, ABallOfLabelsTendsToAnInclusion) {
+// boundary are laminates of both; what is left is how the staircase lies in them.
+TEST(LabelledBody, ABallOfLabelsIsAnInclusion) {
   TetMesh body = labelled_block(1, 0);
   double volume = 0;
   for (std::size_t t = 0; t < body.tets.size(); ++t)
     if (body.region[t] == 1) volume += tet_volume(body, t);
   const double radius = std::cbrt(3 * volume / (4 * 3.14159265358979));
-  const ContactMesh fine =
-      make_contact_mesh(block_base(), block_contact().point, kLabelRadius, kLabelRadius / 4, 0.22);
+  FeaturedBody solved(block_contact(), free_surface(block_base()));
+  const double plain = solved.solve({kLabelNu, {1e4}, nullptr, {}, nullptr}).K(2, 2);
   for (const double ratio : {0.3, 5.0}) {
     const BodyFeature ball{Feature::kInclusion, {kBall.x(), kBall.y(), kBall.z(), radius, ratio}};
-    double coarse = 0;
-    for (const ContactMesh* mesh : {&block_contact(), &fine}) {
-      FeaturedBody solved(*mesh, free_surface(block_base()));
-      const double plain = solved.solve({kLabelNu, {1e4}, nullptr, {}, nullptr}).K(2, 2);
-      const double of_labels = solved.solve(labelled(body, {1e4, ratio * 1e4})).K(2, 2);
-      const double of_ball = solved.solve({kLabelNu, {1e4}, nullptr, {ball}, nullptr}).K(2, 2);
-      EXPECT_LT(of_labels, of_ball) << ratio;
-      EXPECT_GT(std::abs(of_ball / plain - 1), 0.03) << ratio;
-      const double apart = std::abs((of_labels - plain) / (of_ball - plain) - 1);
-      std::printf("ratio %.1f: %.3f of what the ball does apart\n", ratio, apart);
-      if (mesh == &fine) {
-        EXPECT_LT(apart, 0.75 * coarse) << ratio;
-      }
-      coarse = apart;
-      EXPECT_LT(apart, 0.2) << ratio;
-    }
+    const double of_labels = solved.solve(labelled(body, {1e4, ratio * 1e4})).K(2, 2);
+    const double of_ball = solved.solve({kLabelNu, {1e4}, nullptr, {ball}, nullptr}).K(2, 2);
+    EXPECT_GT(std::abs(of_ball / plain - 1), 0.03) << ratio;
+    const double apart = std::abs((of_labels - plain) / (of_ball - plain) - 1);
+    std::printf("ratio %.1f: %.3f of what the ball does apart\n", ratio, apart);
+    EXPECT_LT(apart, 0.1) << ratio;
   }
+}
+
+// A sheet much thinner than the elements that it passes through, against elements that end at its
+// faces. (Softer by far the stiffest of the tetrahedra beside each other carry too much.)
+TEST(LabelledBody, AThinSheetIsFeltAsSuch) {
+  const TetMesh body = test::block_mesh({0.02, 0.02, 0.02}, 4, 4, 40, 1);
+  TetMesh labels = body;
+  for (std::size_t t = 0; t < body.tets.size(); ++t) {
+    double height = 0;
+    for (int k = 0; k < 4; ++k) height += body.nodes[body.tets[t][k]].z() / 4;
+    labels.region[t] = std::abs(height - 0.01225) < 0.00025;  // one row of 0.5 mm
+  }
+  const auto column = [](int rows) {
+    ContactMesh contact;
+    contact.mesh = test::block_mesh({0.02, 0.02, 0.02}, 4, 4, rows, 2);
+    for (std::size_t n = 0; n < contact.mesh.nodes.size(); ++n)
+      if (contact.mesh.nodes[n].z() > 0.02 - 1e-9)
+        contact.patch_nodes.push_back(static_cast<int>(n));
+    contact.point = {0.01, 0.01, 0.02};
+    contact.normal = Vec3::UnitZ();
+    return contact;
+  };
+  const ContactMesh coarse = column(6), conforming = column(40);
+  const auto surface = std::make_shared<const SurfaceTree>(boundary_surface(body));
+  FeaturedBody mixed(coarse, surface), exact(conforming, surface);
+  for (const double ratio : {0.3, 5.0}) {
+    const Eigen::Matrix3d K = mixed.solve(labelled(labels, {1e4, ratio * 1e4})).K;
+    const FeaturedBody::Solution truth = exact.solve(labelled(labels, {1e4, ratio * 1e4}));
+    std::printf("ratio %g: along the press %+.3f, across %+.3f\n", ratio,
+                K(2, 2) / truth.K(2, 2) - 1, K(0, 0) / truth.K(0, 0) - 1);
+    EXPECT_NEAR(K(2, 2), truth.K(2, 2), 0.06 * truth.K(2, 2)) << ratio;
+    EXPECT_NEAR(K(0, 0), truth.K(0, 0), 0.06 * truth.K(0, 0)) << ratio;
+    EXPECT_LT(truth.mixed.norm(), 1e-6 * truth.K.norm()) << ratio;  // nothing is cut
+  }
+}
+
+// Meshes that end at a region's boundary mix nothing and give nearly what laminates across it do;
+// where it reaches the surface, or grows, elements are cut.
+TEST(LabelledBody, MeshesFollowWhatIsEnclosed) {
+  const Vec3 at(0.033, 0.024, 0.03);
+  const auto solution = [&](const TetMesh& body, double ratio, bool follow, bool grows = false) {
+    Material material = labelled(body, {1e4, ratio * 1e4, 1e4});
+    if (grows) material.features = {{Feature::kGrowth, {1, 1e-5}}};
+    const auto inner = std::make_shared<const std::vector<Surface>>(material.labels->enclosed());
+    ContactBodies bodies(block_base(), at, kLabelRadius, kRimEdge, nullptr,
+                         follow ? inner : nullptr);
+    return bodies.solve_featured(material);
+  };
+  const TetMesh ball = labelled_block(1, 0);
+  for (const double ratio : {0.3, 5.0}) {
+    const StiffnessSolution followed = solution(ball, ratio, true),
+                            cut = solution(ball, ratio, false);
+    EXPECT_EQ(followed.mixed.norm(), 0) << ratio;
+    EXPECT_EQ(mixture_uncertainty(followed), 0) << ratio;
+    const double apart = cut.K(2, 2) / followed.K(2, 2) - 1, told = mixture_uncertainty(cut);
+    std::printf("ratio %g: cut %+.3f of followed, told %.3f\n", ratio, apart, told);
+    EXPECT_LT(std::abs(apart), told) << ratio;
+    EXPECT_LT(told, 0.1) << ratio;
+    EXPECT_GT(solution(ball, ratio, true, true).mixed.norm(), 0) << ratio;
+  }
+  EXPECT_GT(solution(labelled_block(), 5, true).mixed.norm(), 0);
 }
 
 // The derivative by a growth beside those by the moduli, with another feature.
@@ -145,12 +195,13 @@ TEST(LabelledBody, GrowthHasItsDerivative) {
   EXPECT_LT((s.by_modulus[1] - by_modulus).norm(), 1e-5 * by_modulus.norm());
 }
 
-// What torques and marked points come from is the same body.
+// What torques and marked points come from is the same body but for the elements at boundaries,
+// which are of one modulus there.
 TEST(LabelledBody, TorquesAndPointsHaveTheRegions) {
   const Material material = labelled(labelled_block(), {1e4, 3e4, 5e3});
   const Eigen::Matrix3d K = solve(material).K;
   const TorqueSolution torque = solve_torque(block_contact(), material);
-  EXPECT_LT((torque.K - K).norm(), 1e-9 * K.norm());
+  EXPECT_LT((torque.K - K).norm(), 0.02 * K.norm());
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t g = 0; g < 3; ++g) sum += material.modulus[g] * torque.dT_dmodulus[g];
   EXPECT_LT((sum - torque.T).norm(), 1e-9 * torque.K.norm() * kLabelRadius);

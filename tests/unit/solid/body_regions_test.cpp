@@ -169,6 +169,32 @@ TEST(BodyRegions, GrowthMovesTheBoundary) {
   }
 }
 
+// Closed and outward, of the region's own volume; one within another, too. None where a boundary
+// ends at the body's surface.
+TEST(BodyRegions, EnclosedBoundariesAreClosedSurfaces) {
+  const TetMesh block = test::block_mesh(kSize, 12, 10, 6, 1);
+  const Vec3 middle = kSize / 2;
+  const TetMesh two = numbered(block, [&](const Vec3& p) {
+    const double r = (p - middle).cwiseQuotient(kSize).cwiseAbs().maxCoeff();
+    return r < 0.15 ? 2 : r < 0.35 ? 5 : 0;
+  });
+  double inner = 0, both = 0;
+  for (std::size_t t = 0; t < two.tets.size(); ++t) {
+    if (two.region[t] == 2) inner += tet_volume(two, t);
+    if (two.region[t] != 0) both += tet_volume(two, t);
+  }
+  ASSERT_GT(inner, 0);
+  const std::vector<Surface> parts = BodyRegions(two).enclosed();
+  ASSERT_EQ(parts.size(), 2u);
+  for (const Surface& part : parts) EXPECT_TRUE(is_closed(part));
+  const double a = signed_volume(parts[0]), b = signed_volume(parts[1]);
+  EXPECT_NEAR(std::min(a, b), inner, 1e-9 * both);
+  EXPECT_NEAR(std::max(a, b), both, 1e-9 * both);
+  const TetMesh open =
+      numbered(block, [](const Vec3& p) { return p.z() > 0.02 && p.x() > 0.02 ? 1 : 0; });
+  EXPECT_TRUE(BodyRegions(open).enclosed().empty());
+}
+
 // A mesh that reaches a little beyond the body has nothing else there.
 TEST(BodyRegions, TheBodysSurfaceIsNoBoundary) {
   const TetMesh mesh = numbered(test::block_mesh(kSize, 6, 5, 3, 1),
