@@ -23,7 +23,7 @@ constexpr double kInsideDoubt = 0.3, kInsideUnknown = 0.5;
 constexpr double kMultipleFrom = 0.01;
 
 // Numbers that a loop keeps of a state that is remembered, and of each memory.
-constexpr std::size_t kStrainNumbers = kMemoryTerms + kInside * kInsideNow;
+constexpr std::size_t kStrainNumbers = kMemoryTerms + kInsideFields * kInsideNow;
 
 template <class Steps>
 LawRange law_of(const Steps& steps, double radius) {

@@ -61,8 +61,8 @@ void add_turned(const InsideMemory& of, const MemoryTurn& turn, double weight,
 
 InsideForce inside_force(const InsideMemory& inside, const MemoryPoint& at, const MemoryVector& h,
                          const InsideAmplitudes& faded, double at_once) noexcept {
-  using Square = Eigen::Matrix<double, kInside, kInside>;
-  using Way = Eigen::Matrix<double, kInside, 1>;
+  using Square = Eigen::Matrix<double, kInsideFields, kInsideFields>;
+  using Way = Eigen::Matrix<double, kInsideFields, 1>;
   const MemoryPart<kInsideNow> n(inside_now(), at);
   const MemoryPart<kInsideBefore> m(inside_before(), at);
   Eigen::Matrix<double, kInsideBefore, 1> remembered;
@@ -70,10 +70,10 @@ InsideForce inside_force(const InsideMemory& inside, const MemoryPoint& at, cons
     remembered[t] = h[inside_before().at[static_cast<std::size_t>(t)]];
 
   InsideAmplitudes g;
-  Eigen::Map<Eigen::Matrix<double, kInside * kInsideNow, 1>>(g.data()).noalias() =
+  Eigen::Map<Eigen::Matrix<double, kInsideFields * kInsideNow, 1>>(g.data()).noalias() =
       inside.g * remembered;
   Square A, G;
-  Eigen::Map<Eigen::Matrix<double, kInside * kInside, 1>> a(A.data()), s(G.data());
+  Eigen::Map<Eigen::Matrix<double, kInsideFields * kInsideFields, 1>> a(A.data()), s(G.data());
   a.noalias() = inside.stiffness * n.m;
   s.noalias() = inside.stressed * (m.m + remembered);
   const Eigen::LLT<Square> held((1 + at_once) * A + G);
@@ -85,17 +85,19 @@ InsideForce inside_force(const InsideMemory& inside, const MemoryPoint& at, cons
 
   const InsideAmplitudes z = faded + at_once * result.x;
   result.f = n.gradient * (g.transpose() * x);
-  result.f +=
-      m.gradient * (inside.w.transpose() *
-                    Eigen::Map<const Eigen::Matrix<double, kInside * kInsideNow, 1>>(z.data()));
+  result.f += m.gradient *
+              (inside.w.transpose() *
+               Eigen::Map<const Eigen::Matrix<double, kInsideFields * kInsideNow, 1>>(z.data()));
   // By the change of A with u: x A' (x + z) / 2; of G: x G' x / 2.
   const Square xz = x * (x + z.col(0)).transpose(), xx = x * x.transpose();
-  result.f += 0.5 * n.gradient *
-              (inside.stiffness.transpose() *
-               Eigen::Map<const Eigen::Matrix<double, kInside * kInside, 1>>(xz.data()));
-  result.f += 0.5 * m.gradient *
-              (inside.stressed.transpose() *
-               Eigen::Map<const Eigen::Matrix<double, kInside * kInside, 1>>(xx.data()));
+  result.f +=
+      0.5 * n.gradient *
+      (inside.stiffness.transpose() *
+       Eigen::Map<const Eigen::Matrix<double, kInsideFields * kInsideFields, 1>>(xz.data()));
+  result.f +=
+      0.5 * m.gradient *
+      (inside.stressed.transpose() *
+       Eigen::Map<const Eigen::Matrix<double, kInsideFields * kInsideFields, 1>>(xx.data()));
   if (!result.f.allFinite()) result = {Vec3::Zero(), InsideAmplitudes::Zero(), false};
   return result;
 }

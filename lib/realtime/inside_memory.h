@@ -25,13 +25,13 @@ namespace hapsim {
 //   f = x_j h_m g_jnm n'_n + x_j (A' + G(m)')_jk x_k / 2 + z_jn w_jnm m'_m + x_j A'_jk z_k0 / 2.
 // Nothing where what is remembered is a multiple of what is now. Springs under a body are left out
 // of A, as if the fields did not reach them.
-constexpr int kInside = 6, kInsideNow = 20, kInsideBefore = 19;
-using InsideAmplitudes = Eigen::Matrix<double, kInside, kInsideNow>;  // x_j n(u)
+constexpr int kInsideFields = 6, kInsideNow = 20, kInsideBefore = 19;
+using InsideAmplitudes = Eigen::Matrix<double, kInsideFields, kInsideNow>;  // x_j n(u)
 
 struct InsideMemory {
-  Eigen::Matrix<double, kInside * kInsideNow, kInsideBefore> g, w;   // rows: j + 6 n
-  Eigen::Matrix<double, kInside * kInside, kInsideNow> stiffness;    // A; rows: j + 6 k
-  Eigen::Matrix<double, kInside * kInside, kInsideBefore> stressed;  // G
+  Eigen::Matrix<double, kInsideFields * kInsideNow, kInsideBefore> g, w;         // rows: j + 6 n
+  Eigen::Matrix<double, kInsideFields * kInsideFields, kInsideNow> stiffness;    // A; rows: j + 6 k
+  Eigen::Matrix<double, kInsideFields * kInsideFields, kInsideBefore> stressed;  // G
   InsideMemory() { set_zero(); }
   void set_zero() noexcept;
   void scale(double by) noexcept;

@@ -138,7 +138,7 @@ void StressStates::fit_inside(const Eigen::VectorXd& weights, InsideMemory& insi
                  left = ridge_inverse(now) * pinned.asDiagonal(),
                  right = ridge_inverse(before) * weights.asDiagonal();
   // On the fields at i by stresses of each state, and by the fields' stresses at i on strains.
-  MatrixXd works(kInside, static_cast<Index>(states)), done = works;
+  MatrixXd works(kInsideFields, static_cast<Index>(states)), done = works;
   for (std::size_t i = 0; i < states; ++i) {
     for (std::size_t k = 0; k < states; ++k) {
       const auto column = static_cast<Index>(k);
@@ -148,10 +148,10 @@ void StressStates::fit_inside(const Eigen::VectorXd& weights, InsideMemory& insi
     const MatrixXd g = works * right.transpose() / unit_, w = done * right.transpose() / unit_;
     const auto row = static_cast<Index>(i);
     for (int n = 0; n < kInsideNow; ++n) {
-      inside.g.middleRows<kInside>(kInside * n) += left(n, row) * g;
-      inside.w.middleRows<kInside>(kInside * n) += left(n, row) * w;
+      inside.g.middleRows<kInsideFields>(kInsideFields * n) += left(n, row) * g;
+      inside.w.middleRows<kInsideFields>(kInsideFields * n) += left(n, row) * w;
     }
-    using Flat = Eigen::Map<const Eigen::Matrix<double, kInside * kInside, 1>>;
+    using Flat = Eigen::Map<const Eigen::Matrix<double, kInsideFields * kInsideFields, 1>>;
     inside.stiffness += Flat(stiffness_[i].data()) * left.col(row).transpose();
     inside.stressed += Flat(stressed_[i].data()) * right.col(row).transpose();
   }
@@ -161,10 +161,10 @@ MatrixXd inside_weights(const std::vector<Vec3>& v) {
   Eigen::VectorXd weights(static_cast<Index>(v.size()));
   for (std::size_t i = 0; i < v.size(); ++i)
     weights[static_cast<Index>(i)] = v[i].isZero(0) ? 0 : 1 / v[i].norm();
-  constexpr int kTerms = 3 + kInside;
+  constexpr int kTerms = 3 + kInsideFields;
   const MatrixXd by = ridge_inverse(weights.asDiagonal() * values_of<kTerms>(memory_set(1, 2), v)) *
                       weights.asDiagonal();
-  return by.bottomRows(kInside).transpose();
+  return by.bottomRows(kInsideFields).transpose();
 }
 
 }  // namespace hapsim

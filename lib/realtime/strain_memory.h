@@ -57,7 +57,7 @@ class StressStates {
   // n x 4, n x 3, n x 6, n x 6
   std::vector<Eigen::MatrixXf> stress_, work_, inside_work_, inside_changes_;
   std::vector<Eigen::VectorXf> strain_;
-  std::vector<Eigen::Matrix<double, kInside, kInside>> stiffness_, stressed_;
+  std::vector<Eigen::Matrix<double, kInsideFields, kInsideFields>> stiffness_, stressed_;
 };
 
 // Of states v: weights by which their stresses sum to those of InsideMemory's fields, s_bc of least

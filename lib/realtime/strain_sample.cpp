@@ -73,7 +73,7 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
   for (std::size_t i = 0; i < states.size(); ++i) {
     press.restore(states[i]);
     const Eigen::VectorXd s = press.stresses();
-    if (i == 0) stresses.setZero(s.size(), kInside);
+    if (i == 0) stresses.setZero(s.size(), kInsideFields);
     stresses += s * weights.row(static_cast<Eigen::Index>(i));
   }
   press.restore(states.front());
@@ -168,8 +168,8 @@ std::string StrainSample::bytes() const {
 std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   constexpr std::size_t kStatic = 3 + 9 + 9 + 2 + kStrainTerms, kSum = 32;
   constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms +
-                                 2 * kInside * kInsideNow * kInsideBefore +
-                                 kInside * kInside * (kInsideNow + kInsideBefore);
+                                 2 * kInsideFields * kInsideNow * kInsideBefore +
+                                 kInsideFields * kInsideFields * (kInsideNow + kInsideBefore);
   const auto size = [](std::size_t count) { return sizeof kStrainMagic + count * sizeof(double); };
   const bool remembers = bytes.size() == size(kWhole) + kSum;
   if (!remembers && bytes.size() != size(kStatic) + kSum) return std::nullopt;
