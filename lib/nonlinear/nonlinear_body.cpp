@@ -170,24 +170,36 @@ VectorXd NonlinearBody::reaction() const {
   return impl_->gather(impl_->assembly.forces());
 }
 
-StressResponse NonlinearBody::stress_response(const MatrixXd& fields, const MatrixXd& modes) const {
+StressResponse NonlinearBody::stress_response(const MatrixXd& fields,
+                                              const MatrixXd& inside) const {
   const Impl& body = *impl_;
-  StressResponse result = body.assembly.stress_response(fields);
-  if (modes.cols() == 0) return result;
-  MatrixXd y(body.u.size(), modes.cols());
-  for (Index c = 0; c < modes.cols(); ++c)
-    y.col(c) = body.system.solve(-body.assembly.forces_of(modes.col(c), body.u));
-  result.coupling.assign(static_cast<std::size_t>(fields.cols()),
-                         MatrixXd::Zero(modes.cols(), modes.cols()));
-  for (Index c = 0; c < y.cols(); ++c)
-    for (Index b = 0; b < modes.cols(); ++b) {
-      // Exact for forces of second degree.
-      const VectorXd more = body.assembly.forces_of(modes.col(b), body.u + y.col(c)),
-                     less = body.assembly.forces_of(modes.col(b), body.u - y.col(c));
-      for (Index j = 0; j < fields.cols(); ++j)
-        result.coupling[static_cast<std::size_t>(j)](b, c) = fields.col(j).dot(more - less) / 2;
-    }
+  const Index m = fields.cols(), more = inside.cols();
+  if (more == 0) return body.assembly.stress_response(fields);
+  MatrixXd both(body.u.size(), m + more);
+  both << fields, inside;
+  StressResponse result = body.assembly.stress_response(both);
+  result.inside_changes = result.changes.rightCols(more);
+  result.inside_work = result.work.rightCols(more);
+  result.changes.conservativeResize(Eigen::NoChange, m);
+  result.work.conservativeResize(Eigen::NoChange, m);
+  // Exact for forces of second degree, as those of S; of the pressure's to rounding for a small h.
+  const double h = 0.01;
+  result.inside_stressed.resize(more, more);
+  for (Index k = 0; k < more; ++k) {
+    const VectorXd by = h * inside.col(k);
+    const VectorXd change = body.assembly.forces_of(result.stress, body.u + by) -
+                            body.assembly.forces_of(result.stress, body.u - by);
+    result.inside_stressed.col(k) = inside.transpose() * change / (2 * h);
+  }
   return result;
+}
+
+MatrixXd NonlinearBody::moved_inside(const MatrixXd& stresses) const {
+  const Impl& body = *impl_;
+  MatrixXd load(body.u.size(), stresses.cols());
+  for (Index c = 0; c < stresses.cols(); ++c)
+    load.col(c) = -body.assembly.forces_of(stresses.col(c), body.u);
+  return body.system.solve(load);
 }
 
 void NonlinearBody::laws_of_stresses(std::vector<int>& of_point, std::vector<int>& of_group) const {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 namespace hapsim {
 
@@ -20,10 +19,10 @@ struct StressResponse {
   Eigen::MatrixXd changes;  // n x directions: d stress / d motion of the handle [Pa/m]
   Eigen::MatrixXd work;     // n x directions: volume times d strain / d motion [m^2]
   Eigen::VectorXd strain;   // n: volume times strain (Green's, theta - 1) [m^3]
-  // Of given stresses s_b (m of them), beside the laws': what they move inside by y_c = -K^-1 r_c,
-  // r_c the forces of s_c on the free nodes, changes the force on the handle by what the s_b then
-  // do otherwise. A direction each: m x m, of s_b and y_c [N].
-  std::vector<Eigen::MatrixXd> coupling;
+  // The same of given fields y_j inside (m of them), which leave the handles where they are: n x m
+  // by their amplitudes; and m x m what the stresses do along two of them at once, integral of
+  // S : d2E/dy_j dy_k + p d2theta [J].
+  Eigen::MatrixXd inside_changes, inside_work, inside_stressed;
 };
 
 }  // namespace hapsim

@@ -329,13 +329,18 @@ std::optional<Eigen::Matrix3d> ToolBody::stiffness(int tool) {
   const Index at = 3 * impl_->number[static_cast<std::size_t>(tool)];
   return Eigen::Matrix3d(about.K.block<3, 3>(at, at));
 }
-std::optional<StressResponse> ToolBody::stress_response(int tool, const MatrixXd& modes) {
+std::optional<StressResponse> ToolBody::stress_response(int tool, const MatrixXd& inside) {
   assert(!impl_->tools[static_cast<std::size_t>(tool)].tip);
   assert(impl_->terms == 0);
   const NonlinearBody::Linearisation about = impl_->body.linearise();
   if (!about.stable) return std::nullopt;
   const Index at = 3 * impl_->number[static_cast<std::size_t>(tool)];
-  return impl_->body.stress_response(about.fields.middleCols<3>(at), modes);
+  return impl_->body.stress_response(about.fields.middleCols<3>(at), inside);
+}
+std::optional<MatrixXd> ToolBody::moved_inside(const MatrixXd& stresses) {
+  assert(impl_->terms == 0);
+  if (!impl_->body.linearise().stable) return std::nullopt;
+  return impl_->body.moved_inside(stresses);
 }
 const ToolBody::State& ToolBody::state() const {
   return impl_->now;

@@ -57,8 +57,10 @@ class ToolBody {
   // what relaxes as stiff as in that step. Nothing where the tangent is not positive definite.
   std::optional<Eigen::Matrix3d> stiffness(int tool);
   // At the last step, by the three directions of a bonded tool, of a body that does not relax.
-  // Nothing as above. `modes`: as NonlinearBody::stress_response().
-  std::optional<StressResponse> stress_response(int tool, const Eigen::MatrixXd& modes);
+  // Nothing as above. `inside`: as NonlinearBody::stress_response().
+  std::optional<StressResponse> stress_response(int tool, const Eigen::MatrixXd& inside);
+  // NonlinearBody::moved_inside() at the last step. Nothing as above.
+  std::optional<Eigen::MatrixXd> moved_inside(const Eigen::MatrixXd& stresses);
 
   // All that the next step starts from.
   struct State {

@@ -14,10 +14,16 @@ namespace {
 // the side they stiffen with depth, so that the force is off by 7.5 % where it is worst.
 constexpr LawRange kLinearLaw{1.6, 0.5};
 
-// Of the second order of what is remembered (strain_memory.h), which is no part of the force:
-// standard uncertainty over it. Along the retreats that it was compared with on other elements,
-// written apart, the first order was 0.5 to 2 times as far off.
-constexpr double kSecondDoubt = 0.8;
+// Standard uncertainty of what the inside does otherwise (inside_memory.h), over the force of that,
+// and where it is not known at all, over the force by what is remembered.
+constexpr double kInsideDoubt = 0.3, kInsideUnknown = 0.5;
+
+// The displacement from which on a memory is taken as a multiple of what is now, squared, over the
+// tool's radius.
+constexpr double kMultipleFrom = 0.01;
+
+// Numbers that a loop keeps of a state that is remembered, and of each memory.
+constexpr std::size_t kStrainNumbers = kMemoryTerms + kInsideFields * kInsideNow;
 
 template <class Steps>
 LawRange law_of(const Steps& steps, double radius) {
@@ -73,7 +79,7 @@ ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options,
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
   if (!steps_.empty()) strain_memory_ = steps_.back().memory + steps_.back().step->memory();
   const bool remembers = body.large_strain() != nullptr && body.large_strain()->remembers();
-  const std::size_t strain = remembers ? (1 + body.terms().size()) * kMemoryTerms : 0;
+  const std::size_t strain = remembers ? (1 + body.terms().size()) * kStrainNumbers : 0;
   state_.memory.resize(strain_memory_ + strain, 0);
 }
 
@@ -170,37 +176,62 @@ Vec3 ForceLoop::regional_memory(const StepSample& sample, const Vec3& u) noexcep
   return force;
 }
 
-// Memories of the monomials that stand for the stresses of the body.
+// Memories of the monomials that stand for the stresses of the body, and of what its inside does
+// otherwise.
 void ForceLoop::strain_memory(const StepSample& sample, const Vec3& u,
                               LargeStrain::Force& f) noexcept {
   const MemoryPoint at = body_.large_strain()->memory_point(strain_, remembered_, u);
-  double* memory = state_.memory.data() + strain_memory_;
-  Eigen::Map<MemoryVector> before(memory);
+  double* const before = state_.memory.data() + strain_memory_;
+  Eigen::Map<MemoryVector> m_before(before);
+  Eigen::Map<InsideAmplitudes> x_before(before + kMemoryTerms);
+  if (sample.first) x_before.setZero();
   MemoryVector all = MemoryVector::Zero();
-  double shares = 0;
+  InsideAmplitudes faded = InsideAmplitudes::Zero();
+  double at_once = 0;
+  double* memory = before;
   for (const MaxwellTerm& term : body_.terms()) {
-    memory += kMemoryTerms;
+    memory += kStrainNumbers;
     Eigen::Map<MemoryVector> h(memory);
+    Eigen::Map<InsideAmplitudes> z(memory + kMemoryTerms);
+    const double share = moduli_ * term.share;
     if (sample.first) {
-      h = at.m;  // relaxed until now, then a jump
+      h = at.m;  // relaxed until now, then a jump, of the inside too
+      z.setZero();
+      at_once += share;
     } else {
       const MemoryStep s = memory_step(sample.dt, times_ * term.tau);
-      h = s.a * h + s.c * (at.m - before);
+      h = s.a * h + s.c * (at.m - m_before);
+      z = s.a * z - s.c * x_before;
+      at_once += share * s.c;
     }
-    all += moduli_ * term.share * h;
-    shares += moduli_ * term.share;
+    all += share * h;
+    faded += share * z;
   }
-  before = at.m;
-  const Vec3 first = at.gradient * (remembered_.at.C * all),
-             second = kSecondDoubt / (1 + shares) *
-                      second_force(remembered_.at.Q, at, all.head<3>() - shares * at.m.head<3>());
-  const Vec3 linear = remembered_.at.C.topLeftCorner<3, 3>() * all.head<3>();
+  const InsideForce inside =
+      sample.first ? InsideForce() : inside_force(remembered_.at.inside, at, all, faded, at_once);
+  memory = before;
+  for (const MaxwellTerm& term : body_.terms()) {
+    memory += kStrainNumbers;
+    Eigen::Map<InsideAmplitudes> z(memory + kMemoryTerms);
+    z += (sample.first ? 1 : memory_step(sample.dt, times_ * term.tau).c) * inside.x;
+  }
+  m_before = at.m;
+  x_before = inside.x;
+  // What is a multiple of what is now is that of the static force, which is known better.
+  const double multiple =
+      all.head<3>().dot(at.m.head<3>()) / (at.m.head<3>().squaredNorm() + kMultipleFrom);
+  const MemoryVector other = all - multiple * at.m;
+  const Vec3 first = at.gradient * (remembered_.at.C * other),
+             linear = remembered_.at.C.topLeftCorner<3, 3>() * other.head<3>();
+  const double departs =
+      inside.held ? kInsideDoubt * inside.f.norm() : kInsideUnknown * first.norm();
+  f.f *= 1 + multiple;
+  f.beyond *= 1 + multiple;
   // Of parts of the force, which may be far larger than what is left of it.
-  const double size =
-      std::hypot(f.doubt * f.f.norm(), strain_.memory * first.norm(),
-                 std::hypot(strain_.doubt * (first - linear).norm(), second.norm()));
-  f.f += remembered_.frame.transpose() * first;
-  f.beyond += remembered_.frame.transpose() * (first - linear);
+  const double size = std::hypot(f.doubt * f.f.norm(), strain_.memory * first.norm(),
+                                 std::hypot(strain_.doubt * (first - linear).norm(), departs));
+  f.f += remembered_.frame.transpose() * (first + inside.f);
+  f.beyond += remembered_.frame.transpose() * (first - linear + inside.f);
   f.doubt = f.f.isZero(0) ? 0 : size / f.f.norm();
 }
 

@@ -28,7 +28,7 @@ void LargeStrain::remember(const Place& place, const Vec3& before, Memory& memor
   }
   memory.at.C.topLeftCorner<3, 3>() += frame * place.K * frame.transpose() / place.stiffness;
   memory.at.C *= place.stiffness * a;
-  memory.at.Q *= place.stiffness * a;
+  memory.at.inside.scale(place.stiffness * a);
 }
 
 MemoryPoint LargeStrain::memory_point(const Place& place, const Memory& memory,

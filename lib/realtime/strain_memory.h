@@ -7,46 +7,23 @@
 
 #include "base/vec3.h"
 #include "nonlinear/stress_response.h"
+#include "realtime/inside_memory.h"
+#include "realtime/memory_monomials.h"
 
 namespace hapsim {
 
-// Monomials of the ways v = (d, p, q) over the tool's radius: d, p, q first, then all others of
-// degree 2 and more that d^i p^j q^k has with i to 6 where j + k = 0, to 4, 4, 2 and 1 where it is
-// 1 to 4.
-constexpr int kMemoryTerms = 53;
-using MemoryVector = Eigen::Matrix<double, kMemoryTerms, 1>;
 using MemoryMatrix = Eigen::Matrix<double, kMemoryTerms, kMemoryTerms>;
-
-// Their values and gradients at v, or along the tangent from there at v + rest. Allocates and
-// throws nothing.
-struct MemoryPoint {
-  MemoryVector m;
-  Eigen::Matrix<double, 3, kMemoryTerms> gradient;
-};
-MemoryPoint memory_point(const Vec3& v, const Vec3& rest = Vec3::Zero()) noexcept;
 
 // W(u; v) = m(u)' C m(v) is the work, over k a^2, that the stresses S of the static body at v do
 // along its strains at u: integral of S(v) : E(u). What a tool at u needs to hold a body that bears
 // those stresses is dW/du, to first order in the departure from the static body's inside, which is
-// in equilibrium. The stresses of a generalised Maxwell body at finite strain are (ToolBody) sums
-// of hereditary integrals of S over its past, so its force is m'(u)' C h with the same integrals h
-// of m over the tool's past.
-//
-// Where what is remembered is not a multiple of what is now, the inside departs from the static
-// body's, by y = -K^-1 r of the residual forces r, and the force changes by the geometric stiffness
-// of those stresses with it. Of stresses s(v) = sum of s_b v_b, straight in v by least squares,
-// that is sum of Q_abc(u) x_b x_c, Q a polynomial in the kSecondTerms monomials of degree 3 and
-// less, x the linear memories less what they would be of the present v.
-constexpr int kSecondTerms = 20;
-using SecondMatrix = Eigen::Matrix<double, 27, kSecondTerms>;  // rows: 9 b + 3 c + a
+// in equilibrium; what that departure adds is of `inside`. The stresses of a generalised Maxwell
+// body at finite strain are (ToolBody) sums of hereditary integrals of S over its past, so its
+// force is m'(u)' C h with the same integrals h of m over the tool's past.
 struct StrainMemory {
   MemoryMatrix C = MemoryMatrix::Zero();
-  SecondMatrix Q = SecondMatrix::Zero();
+  InsideMemory inside;
 };
-// Of the second order alone, over k a; in axes of v. Twice what elements do at most (the stresses
-// stiffen the inside against y) and not zero where all is a multiple of what is now: a measure of
-// what the first order leaves, not a correction.
-Vec3 second_force(const SecondMatrix& Q, const MemoryPoint& at, const Vec3& x) noexcept;
 
 // As in axes that are turned about the first: with v -> R v, R = 1 along d and orthogonal across
 // it. Allocates and throws nothing.
@@ -60,7 +37,7 @@ class StressStates {
   // unit of v [m]; `unit` the work that W is over [J].
   StressStates(const Eigen::Matrix3d& frame, double radius, double unit)
       : frame_(frame), radius_(radius), unit_(unit) {}
-  // With couplings of three modes by v where C's second order is asked for.
+  // With the fields of InsideMemory, in its order, where that is asked for.
   void add(const Vec3& v, const StressResponse& response);
   // The force at each state (3 rows) by the stresses of each (4 columns: these, and their
   // derivatives by v), over unit / radius.
@@ -72,15 +49,19 @@ class StressStates {
   StrainMemory fit(double& error) const;
 
  private:
+  void fit_inside(const Eigen::VectorXd& weights, InsideMemory& inside) const;
+
   Eigen::Matrix3d frame_;
   double radius_, unit_;
   std::vector<Vec3> v_;
-  std::vector<Eigen::MatrixXf> stress_, work_;  // n x 4 and n x 3
+  // n x 4, n x 3, n x 6, n x 6
+  std::vector<Eigen::MatrixXf> stress_, work_, inside_work_, inside_changes_;
   std::vector<Eigen::VectorXf> strain_;
-  std::vector<Eigen::Matrix<double, 27, 1>> coupling_;
+  std::vector<Eigen::Matrix<double, kInsideFields, kInsideFields>> stiffness_, stressed_;
 };
 
-// Stresses s_b of least squares, s(v) = sum of s_b v_b: n x 3.
-Eigen::MatrixXd stress_modes(const std::vector<Vec3>& v, const std::vector<Eigen::VectorXd>& s);
+// Of states v: weights by which their stresses sum to those of InsideMemory's fields, s_bc of least
+// squares relative to v: states x 6.
+Eigen::MatrixXd inside_weights(const std::vector<Vec3>& v);
 
 }  // namespace hapsim

@@ -20,7 +20,7 @@ constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
 constexpr double kStrainFloor = 0.05;    // of the largest force: below, errors are over that
 constexpr double kStrainRidge = 1e-7;    // of the columns' squares
 constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
-constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '2'};
+constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '3'};
 
 struct Powers {
   int i, j, k;
@@ -68,18 +68,26 @@ void fit(const Solved& solved, double radius, StrainSample& sample) {
 // From the states that were visited.
 void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
               const std::vector<ToolBody::State>& states, StrainSample& sample) {
-  std::vector<Eigen::VectorXd> stresses;
-  for (const ToolBody::State& state : states) {
-    press.restore(state);
-    stresses.push_back(press.stresses());
+  const Eigen::MatrixXd weights = inside_weights(visited);
+  Eigen::MatrixXd stresses;  // that move the inside
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    press.restore(states[i]);
+    const Eigen::VectorXd s = press.stresses();
+    if (i == 0) stresses.setZero(s.size(), kInsideFields);
+    stresses += s * weights.row(static_cast<Eigen::Index>(i));
   }
-  const Eigen::MatrixXd modes = stress_modes(visited, stresses);
-  stresses = {};  // some hundred MB of a large mesh
+  press.restore(states.front());
+  const std::optional<Eigen::MatrixXd> fields = press.moved_inside(stresses);
+  if (!fields) {
+    sample.into = 0;
+    return;
+  }
+  stresses.resize(0, 0);
   const Eigen::Matrix3d inside = sample.frame * sample.K * sample.frame.transpose();
   StressStates all(sample.frame, radius, inside(0, 0) * radius * radius);
   for (std::size_t i = 0; i < states.size(); ++i) {
     press.restore(states[i]);
-    if (const auto response = press.stress_response(modes)) {
+    if (const auto response = press.stress_response(*fields)) {
       all.add(visited[i], *response);
       continue;
     }
@@ -142,7 +150,13 @@ std::string StrainSample::bytes() const {
   if (memory) {
     numbers.push_back(memory_fit);
     numbers.insert(numbers.end(), memory->C.data(), memory->C.data() + memory->C.size());
-    numbers.insert(numbers.end(), memory->Q.data(), memory->Q.data() + memory->Q.size());
+    const InsideMemory& inside = memory->inside;
+    numbers.insert(numbers.end(), inside.g.data(), inside.g.data() + inside.g.size());
+    numbers.insert(numbers.end(), inside.w.data(), inside.w.data() + inside.w.size());
+    numbers.insert(numbers.end(), inside.stiffness.data(),
+                   inside.stiffness.data() + inside.stiffness.size());
+    numbers.insert(numbers.end(), inside.stressed.data(),
+                   inside.stressed.data() + inside.stressed.size());
   }
   std::string text(kStrainMagic, sizeof kStrainMagic);
   text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
@@ -153,7 +167,9 @@ std::string StrainSample::bytes() const {
 
 std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   constexpr std::size_t kStatic = 3 + 9 + 9 + 2 + kStrainTerms, kSum = 32;
-  constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms + 27 * kSecondTerms;
+  constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms +
+                                 2 * kInsideFields * kInsideNow * kInsideBefore +
+                                 kInsideFields * kInsideFields * (kInsideNow + kInsideBefore);
   const auto size = [](std::size_t count) { return sizeof kStrainMagic + count * sizeof(double); };
   const bool remembers = bytes.size() == size(kWhole) + kSum;
   if (!remembers && bytes.size() != size(kStatic) + kSum) return std::nullopt;
@@ -175,9 +191,16 @@ std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   if (remembers) {
     s.memory_fit = numbers[kStatic];
     s.memory.emplace();
-    s.memory->C = Eigen::Map<const MemoryMatrix>(numbers.data() + kStatic + 1);
-    s.memory->Q =
-        Eigen::Map<const SecondMatrix>(numbers.data() + numbers.size() - 27 * kSecondTerms);
+    const double* next = numbers.data() + kStatic + 1;
+    const auto take = [&next](auto& matrix) {
+      std::copy(next, next + matrix.size(), matrix.data());
+      next += matrix.size();
+    };
+    take(s.memory->C);
+    take(s.memory->inside.g);
+    take(s.memory->inside.w);
+    take(s.memory->inside.stiffness);
+    take(s.memory->inside.stressed);
   }
   return s;
 }

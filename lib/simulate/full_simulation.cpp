@@ -398,8 +398,11 @@ const Vec3& FullPress::normal() const {
 std::optional<Eigen::Matrix3d> FullPress::stiffness() {
   return impl_->simulation.session().body->stiffness(0);
 }
-std::optional<StressResponse> FullPress::stress_response(const Eigen::MatrixXd& modes) {
-  return impl_->simulation.session().body->stress_response(0, modes);
+std::optional<StressResponse> FullPress::stress_response(const Eigen::MatrixXd& inside) {
+  return impl_->simulation.session().body->stress_response(0, inside);
+}
+std::optional<Eigen::MatrixXd> FullPress::moved_inside(const Eigen::MatrixXd& stresses) {
+  return impl_->simulation.session().body->moved_inside(stresses);
 }
 Eigen::VectorXd FullPress::stresses() const {
   return impl_->simulation.session().body->body().elastic_stresses().numbers();

@@ -61,5 +61,59 @@ TEST(StressResponse, IsOfTheForceAndItsStateAlike) {
   }
 }
 
+// Fields inside: what they change and do work by, by differences of states that are moved along
+// them; and what given stresses move inside, by solving with a little of them added.
+TEST(StressResponse, KnowsFieldsInside) {
+  for (const auto& [order, dilatation] :
+       {std::pair{1, Dilatation::kPatch}, {2, Dilatation::kElement}, {2, Dilatation::kPointwise}}) {
+    Pressed block(order, dilatation);
+    NonlinearBody& body = *block.body;
+    const VectorXd other = block.at({-0.001, 0.0005, -0.002}).stress;
+    const StressResponse here = block.at({0.002, -0.001, -0.005});
+    const MatrixXd moved = body.moved_inside(other);
+    const NonlinearBody::State state = body.state();
+    PointStresses added = body.elastic_stresses();
+    const double little = 1e-5;
+    Eigen::Index at = 0;
+    for (Voigt& S : added.S) {
+      S = little * other.segment<6>(at);
+      at += 6;
+    }
+    for (double& p : added.pressure) p = little * other[at++];
+    body.set_added(added);
+    ASSERT_TRUE(body.solve(state.prescribed).ok());
+    EXPECT_LT(((body.field() - state.u) / little - moved.col(0)).norm(), 1e-3 * moved.norm());
+    for (Voigt& S : added.S) S.setZero();
+    for (double& p : added.pressure) p = 0;
+    body.set_added(added);
+
+    MatrixXd inside(moved.rows(), 2);  // as far as elements may be moved
+    inside << 0.001 / moved.lpNorm<Eigen::Infinity>() * moved, moved.col(0).cwiseAbs2();
+    inside.col(1) *= 0.001 / inside.col(1).lpNorm<Eigen::Infinity>();
+    body.restore(state);
+    const MatrixXd fields = body.linearise().fields;
+    const StressResponse known = body.stress_response(fields, inside);
+    EXPECT_LT((known.stress - here.stress).norm(), 1e-6 * here.stress.norm());
+    EXPECT_LT((known.work - here.work).norm(), 1e-6 * here.work.norm());
+    const double h = 1e-4;
+    for (int k = 0; k < 2; ++k) {
+      NonlinearBody::State there = state;
+      there.u += h * inside.col(k);
+      body.restore(there);
+      const StressResponse more = body.stress_response(fields, inside);
+      there.u -= 2 * h * inside.col(k);
+      body.restore(there);
+      const StressResponse less = body.stress_response(fields, inside);
+      EXPECT_LT(((more.stress - less.stress) / (2 * h) - known.inside_changes.col(k)).norm(),
+                1e-5 * known.inside_changes.norm());
+      EXPECT_LT(((more.strain - less.strain) / (2 * h) - known.inside_work.col(k)).norm(),
+                1e-5 * known.inside_work.norm());
+      for (int j = 0; j < 2; ++j)
+        EXPECT_NEAR(known.stress.dot(more.inside_work.col(j) - less.inside_work.col(j)) / (2 * h),
+                    known.inside_stressed(j, k), 1e-5 * known.inside_stressed.norm());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hapsim
