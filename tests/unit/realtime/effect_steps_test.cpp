@@ -7,7 +7,6 @@
 #include "effects/local_contact.h"
 #include "experiment/forces.h"
 #include "realtime/force_loop.h"
-#include "strained_body.h"
 #include "support/allocations.h"
 #include "support/every_effect.h"
 #include "support/live_against_batch.h"
@@ -160,26 +159,6 @@ TEST_P(EveryEffectLive, TakesNoMemoryAndStaysFinite) {
     EXPECT_EQ(test::allocations - before, 0);
     EXPECT_TRUE(finite);
     EXPECT_GT(largest, 0.1);
-  }
-}
-
-// Whether it relaxes or not, at other places in every touch.
-TEST(LargeStrain, TakesNoMemory) {
-  for (const PreparedBody* body : {&test::strained_body(), &test::relaxing_body()}) {
-    ForceLoop loop(*body);
-    const long before = test::allocations;
-    double largest = 0;
-    for (int i = 0; i < 20000; ++i) {
-      const double t = 1e-3 * i;
-      const Vec3 tool =
-          test::kStrainedPlace +
-          Vec3(0.01 * std::sin(0.9 * t), 0.01 * std::sin(1.3 * t), 0.0005 - 0.02 * std::sin(5 * t));
-      const Vec3 f = loop.step(t, tool);
-      ASSERT_TRUE(f.allFinite());
-      largest = std::max(largest, f.norm());
-    }
-    EXPECT_EQ(test::allocations - before, 0);
-    EXPECT_GT(largest, 1);
   }
 }
 

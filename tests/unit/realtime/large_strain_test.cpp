@@ -15,6 +15,7 @@
 #include "realtime/force_loop.h"
 #include "simulate/full_simulation.h"
 #include "strained_body.h"
+#include "support/allocations.h"
 
 namespace hapsim {
 namespace {
@@ -204,6 +205,26 @@ TEST(LargeStrain, IsOfModelsOfFiniteStrain) {
   Model linear = test::strained_model();
   linear.find("hyperelastic", 0, "finite")->value = 0;
   EXPECT_THROW(static_part(linear), Error);
+}
+
+// Whether it relaxes or not, at other places in every touch.
+TEST(LargeStrain, TakesNoMemory) {
+  for (const PreparedBody* body : {&test::strained_body(), &test::relaxing_body()}) {
+    ForceLoop loop(*body);
+    const long before = test::allocations;
+    double largest = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const double t = 1e-3 * i;
+      const Vec3 tool =
+          test::kStrainedPlace +
+          Vec3(0.01 * std::sin(0.9 * t), 0.01 * std::sin(1.3 * t), 0.0005 - 0.02 * std::sin(5 * t));
+      const Vec3 f = loop.step(t, tool);
+      ASSERT_TRUE(f.allFinite());
+      largest = std::max(largest, f.norm());
+    }
+    EXPECT_EQ(test::allocations - before, 0);
+    EXPECT_GT(largest, 1);
+  }
 }
 
 }  // namespace
