@@ -81,6 +81,7 @@ class LargeStrain {
   Force force(const Place& place, const Vec3& u) const noexcept;
   double energy(const Place& place, const Vec3& u) const noexcept;  // [J]; where it is within
   // Samples have it. `memory.frame`: as it was, for the normal `before`; turned to the place's.
+  // remember() at a new place took 0.5 ms of five samples, beside other work; a step a hundredth.
   bool remembers() const { return options_.memory; }
   void remember(const Place& place, const Vec3& before, Memory& memory) const noexcept;
   MemoryPoint memory_point(const Place& place, const Memory& memory, const Vec3& u) const noexcept;
