@@ -86,7 +86,7 @@ py::array vectors(const py::object& self, const char* first) {
               true);
 }
 
-py::dict metadata_of(const Recording& r) {
+py::dict all_metadata(const Recording& r) {
   return metadata_of([&](std::size_t k) { return hs_recording_metadata_key(r.handle.get(), k); },
                      [&](const char* key) { return hs_recording_metadata(r.handle.get(), key); });
 }
@@ -124,7 +124,7 @@ void define_recording(py::module_& m) {
       .def_property_readonly(
           "f", [](const py::object& r) { return vectors(r, "fx"); },
           "n x 3, forces of the body on the tool [N]")
-      .def_property_readonly("metadata", &metadata_of)
+      .def_property_readonly("metadata", &all_metadata)
       .def("set_metadata", &set_metadata, "key"_a, "value"_a)
       .def("__repr__", [](const py::object& r) {
         return py::str("<hapsim.Recording {}: {} rows>").format(r.attr("name"), py::len(r));
