@@ -66,7 +66,7 @@ TEST(StressResponse, IsOfTheForceAndItsStateAlike) {
 TEST(StressResponse, KnowsFieldsInside) {
   for (const auto& [order, dilatation] :
        {std::pair{1, Dilatation::kPatch}, {2, Dilatation::kElement}, {2, Dilatation::kPointwise}}) {
-    Pressed block(order, dilatation);
+    StretchedBlock block(order, dilatation);
     NonlinearBody& body = *block.body;
     const VectorXd other = block.at({-0.001, 0.0005, -0.002}).stress;
     const StressResponse here = block.at({0.002, -0.001, -0.005});

@@ -12,7 +12,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kNu = 0.42;
+constexpr double kLaminateNu = 0.42;
 
 VoigtMatrix full(const UnitLaw& law) {
   VoigtMatrix D = law.D;
@@ -34,11 +34,12 @@ TEST(Laminate, AlongTheLayersItIsPlaneStress) {
 
 // Backus (1962), eq. 13: the five constants of thin isotropic layers across z.
 TEST(Laminate, ItIsBackussOfThinLayers) {
-  const UnitLaw law = unit_law(kNu, {});
+  const UnitLaw law = unit_law(kLaminateNu, {});
   const double q[] = {1.0, 7.0}, share[] = {0.65, 0.35};
   double A = 0, by_H = 0, m = 0, per_m = 0, l_per_m = 0, plane = 0, per_mu = 0, mu_mean = 0;
   for (int k = 0; k < 2; ++k) {
-    const double lambda = q[k] * kNu / ((1 + kNu) * (1 - 2 * kNu)), mu = q[k] / (2 * (1 + kNu));
+    const double lambda = q[k] * kLaminateNu / ((1 + kLaminateNu) * (1 - 2 * kLaminateNu)),
+                 mu = q[k] / (2 * (1 + kLaminateNu));
     m = lambda + 2 * mu;
     A += share[k] * q[k];
     by_H += share[k] / q[k];
@@ -60,7 +61,7 @@ TEST(Laminate, ItIsBackussOfThinLayers) {
 }
 
 TEST(Laminate, ItTurnsWithItsLayers) {
-  const UnitLaw law = unit_law(kNu, {});
+  const UnitLaw law = unit_law(kLaminateNu, {});
   const PlaneLaw plane(law.D, law.kappa);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).matrix();
   const VoigtMatrix T = stress_rotation(R);
@@ -69,14 +70,15 @@ TEST(Laminate, ItTurnsWithItsLayers) {
 
 TEST(Laminate, DerivativesAreThoseOfDifferences) {
   const std::vector<double> transverse{1.8, 0.8, 0.6, 0.5};
-  const UnitLaw law = unit_law(kNu, transverse);
+  const UnitLaw law = unit_law(kLaminateNu, transverse);
   const Vec3 n = Vec3(0.3, -0.5, 0.8).normalized(), change = n.cross(Vec3(0.2, 0.9, 0.1));
   const PlaneLaw plane(law.D, law.kappa);
   const double h = 1e-6;
   const VoigtMatrix by_normal =
       (plane.at((n + h * change).normalized()) - plane.at((n - h * change).normalized())) / (2 * h);
   EXPECT_LT((plane.by_normal(n, change) - by_normal).norm(), 1e-8 * by_normal.norm());
-  const UnitLaw up = unit_law(kNu + h, transverse), down = unit_law(kNu - h, transverse);
+  const UnitLaw up = unit_law(kLaminateNu + h, transverse),
+                down = unit_law(kLaminateNu - h, transverse);
   const VoigtMatrix by_nu =
       (PlaneLaw(up.D, up.kappa).at(n) - PlaneLaw(down.D, down.kappa).at(n)) / (2 * h);
   EXPECT_LT((plane.by_law(n, law.D_by[0], law.kappa_by[0]) - by_nu).norm(), 1e-7 * by_nu.norm());
