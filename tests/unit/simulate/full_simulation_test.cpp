@@ -77,19 +77,26 @@ FullOptions coarse() {
   return options;
 }
 
-// The same mesh, so the same forces: relaxation, a layer, a support that gives, a sensor's gain.
+// The same mesh, so the same forces: relaxation, a support that gives, a direction. A layer's too,
+// but for the elements that its boundary cuts: laminates there (element_mixture.h), of one mean
+// modulus here.
 TEST(FullSimulation, LinearModelsAreTheCondensedOnes) {
-  const Rows models[] = {
-      {{"elastic", {2e4, 0.4}}, {"viscoelastic", {1e4, 0.3, 5e3, 4}}},
-      {{"elastic", {2e4, 0.4}}, {"layer", {0.003, 2}}, {"base", {0.004, 0.3, 0.002}}},
-      {{"elastic", {2e4, 0.4}}, {"anisotropic", {1.8, 0.8, 0.6, 0.5}}}};
+  struct Case {
+    Rows rows;
+    double most;
+  };
+  const Case cases[] = {
+      {{{"elastic", {2e4, 0.4}}, {"viscoelastic", {1e4, 0.3, 5e3, 4}}}, 1e-6},
+      {{{"elastic", {2e4, 0.4}}, {"base", {0.004, 0.3, 0.002}}}, 1e-6},
+      {{{"elastic", {2e4, 0.4}}, {"base", {0.004, 0.3, 0.002}}, {"layer", {0.003, 2}}}, 3e-3},
+      {{{"elastic", {2e4, 0.4}}, {"anisotropic", {1.8, 0.8, 0.6, 0.5}}}, 1e-6}};
   const Recording r = motion({{0, 0, 0}, {0, 0, -1e-3}, {2e-4, 0, -1e-3}, {2e-4, 0, -5e-4}}, 0.2);
-  for (const Rows& rows : models) {
+  for (const auto& [rows, most] : cases) {
     const Model model = model_of(rows);
     const FullResult full = simulate_full(block(), model, r, {});
     const double off = difference(full.force, condensed(model, r));
     std::printf("full and condensed, %s: %.1e apart\n", rows.back().first.c_str(), off);
-    EXPECT_LT(off, 1e-6) << rows.back().first;
+    EXPECT_LT(off, most) << rows.back().first;
   }
 }
 
