@@ -52,7 +52,8 @@ BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, co
     };
     const BoundaryGraph graph(result.lines, classify, options.key_points, 4 * tool_radius);
     const ShiftedLines moving(graph, spacing);
-    BoundaryProblem problem(result.fitted, experiment, mesh, moving, tool_radius, options);
+    BoundaryProblem problem(result.fitted, result.fitted.model, experiment, mesh, moving,
+                            tool_radius, options);
     LeastSquaresOptions search;
     search.max_iterations = 12;
     search.step_tolerance = 0.1;       // of a tenth of the spacing

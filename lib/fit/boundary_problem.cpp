@@ -42,10 +42,11 @@ FieldGrid plan_nodes(const TetMesh& mesh, double step) {
   return grid;
 }
 
-BoundaryProblem::BoundaryProblem(const Fit& fitted, const Experiment& experiment,
-                                 const TetMesh& mesh, const MovingBoundary& boundary, double step,
+BoundaryProblem::BoundaryProblem(const Fit& fitted, const Model& start,
+                                 const Experiment& experiment, const TetMesh& mesh,
+                                 const MovingBoundary& boundary, double step,
                                  const BoundaryOptions& options)
-    : model_(fitted.model),
+    : model_(start),
       dataset_(experiment.dataset),
       selection_(all_episodes(dataset_)),
       boundary_(boundary),

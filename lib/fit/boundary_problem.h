@@ -20,8 +20,10 @@ std::vector<BoundaryLine> long_boundaries(const Model& model, const TetMesh& mes
 
 class BoundaryProblem {
  public:
-  BoundaryProblem(const Fit& fitted, const Experiment& experiment, const TetMesh& mesh,
-                  const MovingBoundary& boundary, double step, const BoundaryOptions& options);
+  // `start`: the moduli to begin with and all else that the forces need; `fitted` weighs them.
+  BoundaryProblem(const Fit& fitted, const Model& start, const Experiment& experiment,
+                  const TetMesh& mesh, const MovingBoundary& boundary, double step,
+                  const BoundaryOptions& options);
 
   // The watch is told `error`.
   LeastSquaresResult minimise(LeastSquaresOptions search, double error);

@@ -68,13 +68,14 @@ BoundaryFit refined_curve(const Fit& start, const Fit& plain, RegionCurve curve,
   const int keys = std::max(options.key_points, kCurveKeys);
   BoundaryFit result{start, before, {}, {}, false};
   Fit now = plain;
-  now.model = with_moduli(plain.model, {curve.log_gain[0], curve.log_gain[1]});
+  // Without key points: where the body has numbers these moduli would be theirs, not the curve's.
+  Model from = with_moduli(plain.model, {curve.log_gain[0], curve.log_gain[1]});
   for (int round = 0; round < options.rounds && !result.fitted.stopped; ++round) {
     std::vector<PlanPoint> nodes;
     const FieldGrid grid = plan_nodes(mesh, 0.5 * tool_radius);
     for (std::size_t n = 0; n < grid.size(); ++n) nodes.emplace_back(grid.node(n).head<2>());
     const MovingCurve moving(curve, nodes, tool_radius);
-    BoundaryProblem problem(now, experiment, mesh, moving, grid.step, options);
+    BoundaryProblem problem(now, from, experiment, mesh, moving, grid.step, options);
     LeastSquaresOptions search;
     search.max_iterations = 15;
     search.step_tolerance = 1e-2;
@@ -86,7 +87,7 @@ BoundaryFit refined_curve(const Fit& start, const Fit& plain, RegionCurve curve,
     const PlaneClassifier classify = [&](const PlanPoint& p) { return curve.region(p); };
     const std::vector<BoundaryLine> lines = long_boundaries(classify, mesh, tool_radius);
     if (lines.empty()) break;
-    Model moved = problem.with_moduli(now.model, solution.x);
+    Model moved = problem.with_moduli(from, solution.x);
     std::erase_if(moved.parameters, is_of_map);
     place_key_points(moved, classify, lines, keys);
     Fit fitted = fit(moved, experiment, all_episodes(dataset), options.fit);
@@ -97,6 +98,7 @@ BoundaryFit refined_curve(const Fit& start, const Fit& plain, RegionCurve curve,
       break;
     }
     now = fitted;
+    from = fitted.model;
     // More moduli than two fit a little better whatever they are.
     const double allowed = material_of(start.model).modulus.size() > 2 && !result.better ? 1.02 : 1;
     const bool better = fitted.error.pooled < allowed * result.fitted.error.pooled;
