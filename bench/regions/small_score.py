@@ -4,7 +4,6 @@ body's label and, of spheres, as the effect inclusion; and under skins, as the e
 Columns: normal stiffness, % off; of all of the stiffness (Frobenius); what the region changes of it, %; what hs-simulate
 warns of."""
 import csv
-import os
 import pathlib
 import subprocess
 import sys
@@ -37,8 +36,8 @@ def stiffness(path):
 
 
 def simulate(binaries, motion, body, model_file, out):
-    done = subprocess.run([binaries + "/hs-simulate", motion, "--body", body, "--model", model_file, "-o", out,
-                           *os.environ.get("FLAGS", "").split()], capture_output=True, text=True)
+    done = subprocess.run([binaries + "/hs-simulate", motion, "--body", body, "--model", model_file, "-o", out],
+                          capture_output=True, text=True)
     if done.returncode != 0:
         return None, done.stderr.strip()
     said = [line.split(", by ")[1] for line in done.stderr.split("\n") if "cut elements" in line]

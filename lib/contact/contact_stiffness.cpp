@@ -114,7 +114,8 @@ ContactBodies::Level& ContactBodies::level(int k, bool follow) {
           make_contact_mesh_around(base_, contact_, radius_, rim, growth, parts));
       return *made;
     }
-  } catch (const Error&) {
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::kIo) throw;  // of the machine, not of the boundaries
     // Boundaries too near to each other, the surface or the tool: elements across them will do.
   }
   cannot_follow_[k] = true;

@@ -17,8 +17,7 @@ class Inclusion : public Effect {
         .equation = "E(p) = E ratio where |p - (x, y, z)| < radius, else E",
         .source =
             "finite elements, elements cut by the boundary as laminates along it (Backus, J. "
-            "Geophys. "
-            "Res. 67, 1962); thesis 3.5",
+            "Geophys. Res. 67, 1962); thesis 3.5",
         .assumptions =
             "one ball, bonded, the body's Poisson's ratio; its size and its modulus are told apart "
             "only by presses beside and above it",

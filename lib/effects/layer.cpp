@@ -14,8 +14,8 @@ class Layer : public Effect {
         .equation = "E(x) = E ratio where x is nearer than `thickness` to the free surface, else E",
         .source =
             "finite elements, elements cut by the boundary as laminates along it (Backus, J. "
-            "Geophys. "
-            "Res. 67, 1962); for a layer on a half-space: Burmister, J. Appl. Phys. 16, 1945",
+            "Geophys. Res. 67, 1962); for a layer on a half-space: Burmister, J. Appl. Phys. 16, "
+            "1945",
         .assumptions = "one thickness everywhere, bonded to the core, the core's Poisson's ratio",
         .parameters = {{"thickness", "m", "thickness of the skin", 0, 2e-3, 2e-4, 0.1, 1e-3, true},
                        {"ratio", "1", "modulus of the skin over that of the core", 1, 2, 0.02, 50,

@@ -9,23 +9,13 @@
 #include <memory>
 
 #include "base/error.h"
-#include "contact/element_groups.h"
-#include "contact/feature_zone.h"
-#include "contact/support_springs.h"
-#include "effects/effect.h"
 #include "experiment/dataset.h"
 #include "experiment/forces.h"
-#include "experiment/labels.h"
 #include "io/number.h"
-#include "material/hooke_law.h"
-#include "material/hyperelastic_law.h"
-#include "material/unit_law.h"
-#include "model/relaxation_steps.h"
 #include "nonlinear/tool_body.h"
+#include "simulate/full_body.h"
 #include "simulate/full_contact.h"
 #include "simulate/tool_steps.h"
-#include "solid/inhomogeneity.h"
-#include "solid/membrane.h"
 
 namespace hapsim {
 namespace {
@@ -54,36 +44,8 @@ class Simulation {
       : body_(body),
         recording_(recording),
         options_(options),
-        material_(material_of(model)),
-        regions_(regional_relaxation_of(model, material_)),
-        radius_(recording.tool_radius()) {
-    for (EffectInstance& i : effect_instances(model, false)) {
-      if (i.effect->full(i.values, material_.modulus[0], spec_)) continue;
-      const Stage stage = i.effect->card().stage;
-      if (stage != Stage::kSensor && stage != Stage::kMotion)
-        fail_input(model.name,
-                   "the full simulation has no form of the effect " + i.effect->card().name,
-                   "take it out of the model, or simulate without --full");
-      if (options.force_control)
-        fail_input(model.name,
-                   "forces are given to the body itself, without " + i.effect->card().name,
-                   "take it out of the model, or simulate displacements");
-      around_.push_back(std::move(i));
-    }
-    if (material_.shift != Vec3::Zero() || material_.rotation != Vec3::Zero())
-      fail_input(model.name, "the full simulation does not move the body",
-                 "move the contact points instead");
-    if (material_.local)
-      fail_input(model.name, "the full simulation has no contacts that feel their own region alone",
-                 "set local of regions to 0");
-    for (const FeatureSpec& f : material_.features)
-      if (f.feature.kind == Feature::kTransverse && spec_.finite)
-        fail_input(model.name, "finite strain of a transversely isotropic body is not in the model",
-                   "take hyperelastic or anisotropic out");
-    labels_ = acting_labels(material_, body);
-    base_ = options.base != nullptr ? *options.base : make_contact_base(body);
-    surface_ = free_surface(base_);
-  }
+        full_(body, model, options),
+        radius_(recording.tool_radius()) {}
 
   FullResult run() {
     result_.force.assign(recording_.rows(), Vec3::Zero());
@@ -107,10 +69,10 @@ class Simulation {
 
   // The first row's press alone, in steps from outside.
   void begin() {
-    if (!around_.empty())
+    if (!full_.around().empty())
       fail_input("",
                  "steps from outside are of the body itself, without " +
-                     around_.front().effect->card().name,
+                     full_.around().front().effect->card().name,
                  "take it out of the model");
     ToolSteps steps;
     steps.rows = {{0}};
@@ -134,7 +96,7 @@ class Simulation {
     const std::vector<std::size_t> rows = steps.first_rows();
     if (rows.size() == 1 && !options_.own_mesh) {
       s.own = make_contact_mesh(
-          base_, recording_.position[rows[0]], radius_, radius_ * options_.rim_edge,
+          full_.base(), recording_.position[rows[0]], radius_, radius_ * options_.rim_edge,
           options_.growth > 0 ? options_.growth : kGrowth * options_.rim_edge / kRimEdge);
       if (!options_.quarter_points) straighten(s.own.mesh);
       s.mesh = &s.own.mesh;
@@ -148,23 +110,26 @@ class Simulation {
                    "mesh it with hs-tetmesh --contacts, or check the contact point");
       }
     }
-    const bool bonded = spec_.curvature == 0 && !std::isfinite(spec_.friction);
+    const bool bonded = full_.spec().curvature == 0 && !std::isfinite(full_.spec().friction);
     if (bonded) refuse_shared_nodes(rows);
     std::vector<BodyTool> tools;
     for (const FullContact& c : s.contacts) {
       BodyTool tool;
       if (bonded)
         tool.nodes = c.nodes;
-      else if (spec_.curvature == 0)
-        tool.tip = SphericalTip{c.point, c.normal, kSticks, radius_ * (1 + 1e-6), spec_.friction};
-      else
+      else if (full_.spec().curvature == 0)
         tool.tip =
-            SphericalTip{c.point, c.normal, 1 / spec_.curvature, 1.6 * radius_, spec_.friction};
+            SphericalTip{c.point, c.normal, kSticks, radius_ * (1 + 1e-6), full_.spec().friction};
+      else
+        tool.tip = SphericalTip{c.point, c.normal, 1 / full_.spec().curvature, 1.6 * radius_,
+                                full_.spec().friction};
       tools.push_back(std::move(tool));
     }
     bool free_base = false;
-    const BodyModel model = body_model(*s.mesh, free_base);
-    s.body = std::make_unique<ToolBody>(model, tools, relaxation_by_law(), free_base);
+    const BodyModel model = full_.model(*s.mesh, free_base);
+    std::vector<std::vector<Relaxation>> relaxation;  // none where there is no time
+    if (!recording_.t.empty()) relaxation = full_.relaxation();
+    s.body = std::make_unique<ToolBody>(model, tools, relaxation, free_base);
     s.body->set_options(options_.solve);
     result_.unknowns = std::max(result_.unknowns, s.body->body().unknowns());
   }
@@ -181,80 +146,6 @@ class Simulation {
                      "press two radii apart, or exactly there again");
   }
 
-  // One list a region, as the laws are.
-  std::vector<std::vector<Relaxation>> relaxation_by_law() const {
-    std::vector<std::vector<Relaxation>> result;
-    if (recording_.t.empty()) return result;
-    for (const RegionRelaxation& region : regions_) {
-      result.emplace_back();
-      for (const MaxwellModulus& t : region.terms)
-        result.back().push_back({t.modulus / region.modulus, t.tau});
-    }
-    if (!regions_.empty() || spec_.terms.empty()) return result;
-    result.resize(material_.modulus.size());
-    for (std::vector<Relaxation>& law : result)
-      for (const MaxwellTerm& t : spec_.terms) law.push_back({t.share, t.tau});
-    return result;
-  }
-
-  BodyModel body_model(const TetMesh& mesh, bool& free_base) const {
-    BodyModel model;
-    model.mesh = &mesh;
-    const BodyFeature* transverse = nullptr;
-    for (const FeatureSpec& f : material_.features)
-      if (f.feature.kind == Feature::kTransverse) transverse = &f.feature;
-    for (const double E : material_.modulus) {
-      const Moduli m = moduli(E, material_.nu);
-      model.laws.push_back(spec_.finite ? exponential_law(m.mu, spec_.stiffening, m.bulk)
-                           : transverse != nullptr
-                               ? transverse_body_law(E, material_.nu, transverse->value)
-                               : isotropic_law(E, material_.nu));
-    }
-    place_regions(mesh, model);
-    if (options_.averaged)
-      model.dilatation = mesh.order == 2 ? Dilatation::kElement : Dilatation::kPatch;
-    for (const FeatureSpec& f : material_.features) {
-      if (is_zone(f.feature.kind)) {
-        const std::vector<double> factors = stiffness_factors(
-            inside_shares(mesh, zone_level(f.feature, surface_)).share, f.feature.value.back());
-        if (model.scale.empty()) model.scale.assign(factors.size(), 1.0);
-        for (std::size_t t = 0; t < factors.size(); ++t) model.scale[t] *= factors[t];
-      }
-      if (f.feature.kind == Feature::kTension)
-        for (const MembraneFace& face : free_membrane(mesh))
-          model.face_springs.push_back(
-              {face.nodes, material_.modulus[0] * f.feature.value[0] * face.matrix});
-      if (f.feature.kind != Feature::kSupport) continue;
-      free_base = true;
-      for (const SupportSprings::Face& face : SupportSprings(mesh, f.feature.value).faces)
-        model.face_springs.push_back(
-            {face.nodes, material_.modulus[0] * face.spring * face.matrix});
-    }
-    return model;
-  }
-
-  // On a mesh of its own an element at the boundary of a label is of the mixture of its moduli.
-  void place_regions(const TetMesh& mesh, BodyModel& model) const {
-    if (&mesh == &body_ || !labels_) {
-      for (const FeatureSpec& f : material_.features)
-        if (f.feature.kind == Feature::kGrowth)
-          fail_input("", "a region that has grown is not that of the body's own mesh",
-                     "take its growth out, or press with one tool and without --own-mesh");
-      for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-        model.law_of_tet.push_back(region_of_tet(material_, mesh, t));
-      return;
-    }
-    Material by_label;
-    by_label.labels = labels_;
-    for (const FeatureSpec& f : material_.features) by_label.features.push_back(f.feature);
-    const ElementGroups groups(mesh, by_label);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      const std::size_t group = groups.main_group(t);
-      model.law_of_tet.push_back(static_cast<int>(group));
-      model.scale.push_back(groups.modulus(t, material_.modulus) / material_.modulus[group]);
-    }
-  }
-
   // The press of one tool as effects see it.
   PressView view_of(const std::vector<std::size_t>& rows, std::size_t tool, int number) const {
     PressView view;
@@ -265,7 +156,7 @@ class Simulation {
     view.direction = -view.normal;
     view.number = number;
     view.radius = radius_;
-    view.modulus = material_.modulus[0];
+    view.modulus = full_.material().modulus[0];
     return view;
   }
 
@@ -279,10 +170,10 @@ class Simulation {
         if (step[k] != ToolSteps::kNoRow) rows[k].push_back(step[k]);
       views.push_back(view_of(rows[k], k, number));
       Motion motion{views[k].u, {}, 0};
-      for (const EffectInstance& i : around_) i.effect->move(views[k], i.values, motion);
+      for (const EffectInstance& i : full_.around()) i.effect->move(views[k], i.values, motion);
       views[k].u = std::move(motion.u);
     }
-    const bool tip = spec_.curvature > 0 || std::isfinite(spec_.friction);
+    const bool tip = full_.spec().curvature > 0 || std::isfinite(full_.spec().friction);
     std::vector<std::size_t> next(tools, 0);  // row of each touch
     for (std::size_t i = 0; i < steps.rows.size(); ++i) {
       const std::vector<std::size_t>& step = steps.rows[i];
@@ -327,7 +218,7 @@ class Simulation {
       signal.df.resize(signal.f.size(), 0);
       for (std::size_t i = 0; i < rows[k].size(); ++i)
         signal.f.segment<3>(3 * static_cast<Eigen::Index>(i)) = result_.force[rows[k][i]];
-      for (const EffectInstance& i : around_)
+      for (const EffectInstance& i : full_.around())
         if (i.effect->card().stage == Stage::kSensor) i.effect->apply(views[k], i.values, signal);
       for (std::size_t i = 0; i < rows[k].size(); ++i)
         result_.force[rows[k][i]] = signal.f.segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -337,14 +228,8 @@ class Simulation {
   const TetMesh& body_;
   const Recording& recording_;
   const FullOptions& options_;
-  MaterialSpec material_;
-  std::vector<RegionRelaxation> regions_;  // where they relax each in its own way
+  FullBody full_;
   double radius_;
-  FullSpec spec_;
-  std::vector<EffectInstance> around_;  // effects on the motion and of the sensor
-  ContactBase base_;
-  std::shared_ptr<const SurfaceTree> surface_;
-  std::shared_ptr<const BodyRegions> labels_;  // where they act
   std::unique_ptr<Session> session_;
   FullResult result_;
 };

@@ -75,8 +75,8 @@ inline ToolSpec simulate_specification() {
       "force: each place then has what the stresses of every state do at every other, too (some "
       "three times as long a place), and along six fields what the inside then does otherwise than "
       "at rest. What these leave, up to 1 % of the largest force where the tool leaves and the "
-      "force "
-      "passes through zero, is in the uncertainty. Friction, the sensor and all else act on that "
+      "force passes through zero, is in the uncertainty. Friction, the sensor and all else act on "
+      "that "
       "force as on the linear one, which was not compared with elements that slip. Farther than "
       "was pressed the force goes on along its tangent, with 32 in "
       "beyond.",
