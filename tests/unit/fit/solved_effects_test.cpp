@@ -50,21 +50,29 @@ TEST_F(FeaturedModel, ExtrapolationIsRightToTheSecondOrder) {
   EXPECT_LT(near, 0.35 * far);
 }
 
+// These presses hardly tell a thicker layer from a stiffer one (1.2 and 1.5 mm fit as well as 2),
+// so what is asked is that intervals hold, of eight draws of the noise; a thin layer is a long way
+// from a thick one in standard errors of its own.
 TEST_F(FeaturedModel, ALayerIsFoundFromFarAway) {
   const Model truth = test::with(test::elastic(1.5e4, 0.42), "layer", {0.002, 3});
-  test::measure(w(), truth, 0.005, 1);
   const Selection all = all_episodes(w().dataset);
-  const Fit plain = fit(test::elastic(2e4, 0.4), w(), all, options());
-  const Fit found =
-      fit_best(with_effect(plain, "layer", w(), all, {}), w(), all, options(), plain.about);
-  ASSERT_TRUE(found.converged) << found.message;
-  std::printf("elastic alone %.4f N, with a layer %.4f N (noise 0.005 N)\n", plain.error.pooled,
-              found.error.pooled);
-  EXPECT_LT(found.error.pooled, 1.05 * 0.005);
-  for (const char* name : {"thickness", "ratio"}) {
-    const Parameter& p = *found.model.find("layer", 0, name);
-    EXPECT_LT(std::abs(p.value - truth.find("layer", 0, name)->value), 4 * p.std_error) << name;
+  constexpr int kDraws = 8;
+  int inside = 0;
+  for (int draw = 1; draw <= kDraws; ++draw) {
+    test::measure(w(), truth, 0.005, static_cast<std::uint64_t>(draw));
+    const Fit plain = fit(test::elastic(2e4, 0.4), w(), all, options());
+    const Fit found =
+        fit_best(with_effect(plain, "layer", w(), all, {}), w(), all, options(), plain.about);
+    ASSERT_TRUE(found.converged) << found.message;
+    EXPECT_LT(found.error.pooled, 1.05 * 0.005);
+    for (const char* name : {"thickness", "ratio"}) {
+      const Parameter& p = *found.model.find("layer", 0, name);
+      const double off = p.value - truth.find("layer", 0, name)->value;
+      std::printf("%s %.4g, off by %.2f standard errors\n", name, p.value, off / p.std_error);
+      inside += std::abs(off) < 1.96 * p.std_error;
+    }
   }
+  EXPECT_GE(inside, 2 * kDraws - 2);
 }
 
 TEST(MoveLimits, HoldOnlyWhatTheBodyIsLinearIn) {
