@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "experiment/forces.h"
 #include "formats/tetmesh_io.h"
 
 namespace hapsim::bench {
