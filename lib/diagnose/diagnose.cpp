@@ -8,6 +8,7 @@
 #include "diagnose/few_presses.h"
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
+#include "diagnose/one_size.h"
 #include "diagnose/probability.h"
 #include "diagnose/search.h"
 #include "diagnose/shared_by_places.h"
@@ -86,6 +87,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
     search_few(base, g, options, d);
   else
     search(base, g, folds, options, d);
+  if (!few_presses) doubt_other_sizes(base, g, folds, d);
   const bool ambiguous = !d.rivals.empty();
   if (!few_presses && !ambiguous &&
       doubt_what_places_share(base, g, folds, options.gates, d.findings))
