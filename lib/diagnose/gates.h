@@ -42,7 +42,7 @@ inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
 // An effect whose size differs by more between parts of one recording (root mean square, beyond
 // chance), where more than noise is left, stands for something else.
-inline constexpr double kOneSize = 0.4;
+inline constexpr double kOneSize = 0.2;
 
 // Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
 // of effects are then judged by what the first parts of the presses foretell of the rest, whose

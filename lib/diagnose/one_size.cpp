@@ -90,8 +90,6 @@ SizeSpread size_spread(const std::string& effect, const Fit& fitted, const Trial
     const Eigen::VectorXd along = (qr.householderQ().adjoint() * residual).head(rank);
     const double beyond = along.squaredNorm() - static_cast<double>(rank) * chance;
     const double share = std::sqrt(std::max(0.0, beyond) / size);
-    if (getenv("ONE_SIZE"))
-      fprintf(stderr, "ONE_SIZE %s %s %.3f\n", effect.c_str(), parts.name, share);
     if (share > spread.share) spread = {share, parts.name};
   }
   return spread;
@@ -105,6 +103,7 @@ bool claims_a_size(const std::string& effect) {
 }
 
 void doubt(const SizeSpread& spread, Finding& f) {
+  f.doubted = f.verdict == Verdict::kMissing;
   f.verdict = Verdict::kPossible;
   f.evidence += fmt::format(
       "; more than noise is left, and its size differs by {:.0f} % between {}: it may "
@@ -148,7 +147,8 @@ void doubt_rivals(const TrialGround& g, Diagnosis& d) {
 
 void doubt_other_sizes(Baseline& base, const TrialGround& g, const Folds& folds, Diagnosis& d) {
   const bool ambiguous = !d.rivals.empty();
-  if ((ambiguous ? d.left : left_over(base.fitted, g)).noise_alone()) return;
+  const LeftOver left = ambiguous ? d.left : left_over(base.fitted, g);
+  if (left.noise_alone() || left.error < kLikeNoise) return;
   if (ambiguous) doubt_rivals(g, d);
   SizeSpread spread;
   while (d.rivals.empty()) {
