@@ -262,10 +262,11 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
     const double frequency = by_gains || left.kind != "left" ? 0 : frequency_in(residual, g);
     if (frequency > 0) {
       left.kind = kFrequency;
-      also = fmt::format(
-          ", most of it at {:.3g} Hz: look at what turns, breathes or hums at that rate, or so far "
+      also += fmt::format(
+          "{} Most of it is at {:.3g} Hz: look at what turns, breathes or hums at that rate, or so "
+          "far "
           "from a multiple of the recording's own",
-          frequency);
+          also.empty() ? "." : "", frequency);
     }
   }
   left.words = words_of(left) + also;

@@ -99,7 +99,7 @@ namespace {
 
 bool claims_a_size(const std::string& effect) {
   const EffectCard& card = require_effect(effect).card();
-  return !card.learned && !card.is_map && !card.is_field && !card.per_press;
+  return !card.learned && !card.is_map && !card.is_field;
 }
 
 void doubt(const SizeSpread& spread, Finding& f) {

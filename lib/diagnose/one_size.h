@@ -27,7 +27,7 @@ SizeSpread size_spread(const std::string& effect, const Fit& fitted, const Trial
 // Where `base`, the model with all that is missing, or with the best of the rivals, leaves more
 // than noise: names whose size differs by more than kOneSize become possible, the worst first, and
 // `base` is without them; rivals do where that is so of all of them, for a set with the truth in it
-// is true. Curves of no law, maps and offsets of presses claim no size. d.rivals, d.findings and
+// is true. Curves of no law and maps claim no size. d.rivals, d.findings and
 // `base` as the search leaves them.
 void doubt_other_sizes(Baseline& base, const TrialGround& ground, const Folds& folds, Diagnosis& d);
 
