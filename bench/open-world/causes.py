@@ -1,7 +1,7 @@
 """Causes in the set-up and in the material: what each makes of a recording that hides nothing.
 
 kind: what has to be said where no name is found; fixed before anything was diagnosed. names: of the catalogue, that
-mean the cause."""
+mean the cause. known: of the catalogue, that act beside it."""
 import copy
 
 import numpy as np
@@ -12,8 +12,9 @@ class Cause:
     forces and motion: what is measured of the forces and recorded of the motion; readings: what the sensor makes of
     forces with noise."""
 
-    def __init__(self, name, kind, names, path=None, forces=None, motion=None, head=None, noise=None, readings=None):
-        self.name, self.kind, self.names = name, kind, names
+    def __init__(self, name, kind, names, path=None, forces=None, motion=None, head=None, noise=None, readings=None,
+                 known=()):
+        self.name, self.kind, self.names, self.known = name, kind, names, known
         self.path, self.forces, self.motion, self.head, self.noise, self.readings = path, forces, motion, head, noise, readings
 
     def make(self, null, random):

@@ -2,7 +2,9 @@
 # run.sh BIN OUT [CAUSE...]: causes in the set-up, which bodies know nothing of, given one at a time to recordings that
 # CalculiX computed of a block and a ball (bench/independent), diagnosed as a user would; a table at the end. OUT may be
 # that of bench/independent/run.sh; with HAPSIM_SHARED the block's recording is the one that lies there. What is there
-# is not made again: delete OUT/worlds/diagnosed to diagnose anew. Recorded in bench/results/open-world.txt.
+# is not made again: delete OUT/worlds/diagnosed to diagnose anew. Causes that no effect of the catalogue covers
+# (strangers.py) come in three sizes over the noise (NAME-2, -4, -8). BODIES=cuboid: that body alone; THIN=1: fewer places and
+# samples, in a third of the time. Recorded in bench/results/open-world.txt.
 set -euo pipefail
 bin=$1 out=$2
 shift 2
@@ -13,7 +15,7 @@ done
 python=/usr/bin/python3 worlds=$out/worlds
 "$python" -c 'import numpy' || { echo "open-world: skipped, python3-numpy is missing" >&2; exit 0; }
 mkdir -p "$worlds/diagnosed"
-for body in cuboid ball; do
+for body in ${BODIES:-cuboid ball}; do
   null=${HAPSIM_SHARED:-}/independent/null.csv
   if [[ $body == ball || ! -e $null ]]; then
     "$python" "$here/../independent/stiffnesses.py" "$out" "$body" 4 plain >&2
@@ -21,6 +23,10 @@ for body in cuboid ball; do
   fi
   "$python" "$here/../independent/make.py" "$out" "${null:+null-$body}" 2>/dev/null
   [[ -e $out/$body-stl.ply ]] || "$bin/hs-tetmesh" -q "$out/$body.stl" -o "$out/$body-stl.ply"
+  if [[ -n ${THIN:-} ]]; then
+    "$python" "$here/thin.py" "$null" >"$out/thin-$body.csv"
+    null=$out/thin-$body.csv
+  fi
   "$python" "$here/worlds.py" "$null" "$worlds" "$body" "$@"
   for data in "$worlds/data/$body"-*.csv; do
     world=$(basename "$data" .csv) results=$worlds/diagnosed

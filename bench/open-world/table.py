@@ -2,34 +2,52 @@
 noise (of the elastic model, and with all that is named).
 
 named: what is missing is the cause, and nothing else. set: a set of at most three that are told to look alike, with
-the cause in it, nothing wrong beside it; wide: such a set of more. kind: its kind is said. open: called unexplained
-without a kind, or with another. hedged: something wrong is named, but the words say that more is left, or that the
-set-up would do the same. unseen: called complete, and the elastic model leaves no more than noise (1.1 times). wrong:
-the rest. right: a null called complete."""
+the cause in it, nothing wrong beside it; wide: such a set of more. kind: its kind is said, by what is left or by a
+curve of no law. open: called unexplained without a kind, or with another, or what acts beside it is named and more is
+said to be left. hedged: something wrong is named, but the words say that more is left, or that the set-up would do the
+same. companion: the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model
+leaves no more than noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a
+null called complete; where noise itself is the cause, no name."""
 import csv
 import json
 import pathlib
 import sys
 
 
-# Of hs-compare's words: an offset, pressed or not, is the sensor's zero; what goes with the session is time.
-KINDS = {"offset": "set-up", "drift": "time", "session-time": "time"}
+# Of hs-compare's words and of curves without a law: what each says of a cause. An offset, pressed or not, is the
+# sensor's zero; what goes with the session is time.
+SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time": "time session", "contact-time": "history",
+        "phase": "history", "cycle": "order", "rate": "speed", "position": "place", "body": "place", "place": "place",
+        "press-direction": "direction", "direction": "direction axes", "learned-depth": "depth",
+        "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",
+        "learned-place": "place"}
 
 
-def judge(names, kind, missing, alike, verdict, said, hint, error):
+def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0):
+    kinds = set(kind.split())
+    if "noise" in kinds:
+        return "right" if not missing and not alike else "hedged" if said or hint else "wrong"
     if verdict == "complete":
         return "right" if not kind else "unseen" if error < 1.1 else "wrong"
     if not kind:
         return "wrong"
-    good = set(names)
-    clean = set(missing) <= good
+
+    def tells(word):
+        return word in kinds or kinds & set(SAID.get(word, "").split())
+
+    good = set(names) | set(n for n in missing + alike if n.startswith("learned-") and tells(n))
+    clean = set(missing) <= good | set(known)
     if good & set(missing) and clean and verdict == "incomplete" and not said:
-        return "named"
+        return "named" if set(names) & set(missing) - set(SAID) else "kind"
     if good & set(alike) and clean:
         return "set" if len(alike) <= 3 else "wide"
-    if clean and not alike:
-        return "kind" if KINDS.get(said, said) == kind else "open"
-    return "hedged" if said or hint else "wrong"
+    if clean and not set(alike) - set(known):
+        if not said and known and verdict == "incomplete":
+            return "unseen" if end < 1.1 else "wrong"
+        return "kind" if said and tells(said) or good & set(missing) else "open"
+    if said or hint:
+        return "hedged"
+    return "companion" if good & set(missing) or (known and set(known) <= set(missing)) else "wrong"
 
 
 def row(out, name, truth):
@@ -42,19 +60,20 @@ def row(out, name, truth):
             found["rmse_with_missing_effects"] / found["force_noise"],
             judge(truth["names"].split(), truth["kind"], missing, alike, found["verdict"], said,
                   "before the body" in found["explanation"],
-                  found["rmse"] / found["force_noise"]))
+                  found["rmse"] / found["force_noise"], truth["known"].split(),
+                  found["rmse_with_missing_effects"] / found["force_noise"]))
 
 
 if __name__ == "__main__":
     out, wanted = pathlib.Path(sys.argv[1]), sys.argv[2:]
     truths = {t["cause"]: t for t in csv.DictReader((out / "truth.csv").open())}
-    print("%-20s %-11s %-52s %-7s %6s %6s  %s" % ("recording", "verdict", "named (alike)", "left", "before", "after", "judged"))
+    print("%-20s %-11s %-52s %-12s %6s %6s  %s" % ("recording", "verdict", "named (alike)", "left", "before", "after", "judged"))
     counts = {}
     for file in sorted((out / "diagnosed").glob("*.json")):
         truth = truths.get(file.stem.split("-", 1)[1])
         if truth is None or wanted and file.stem not in wanted:
             continue
         line = row(out, file.stem, truth)
-        print("%-20s %-11s %-52s %-7s %6.2f %6.2f  %s" % line)
+        print("%-20s %-11s %-52s %-12s %6.2f %6.2f  %s" % line)
         counts[line[-1]] = counts.get(line[-1], 0) + 1
     print("; ".join("%s %d" % c for c in sorted(counts.items())))

@@ -12,6 +12,9 @@ import zlib
 import numpy as np
 
 import causes
+import strangers
+
+EVERY = causes.every_cause() + strangers.every_stranger()
 
 
 class Null:
@@ -54,11 +57,11 @@ def write(null, body, cause, out):
 
 if __name__ == "__main__":
     null, out, body, wanted = Null(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4:]
-    for cause in causes.every_cause():
+    for cause in EVERY:
         if wanted and cause.name not in wanted:
             continue
         write(null, body, cause, out)
     with (out / "truth.csv").open("w") as truth:
-        truth.write("cause,kind,names\n")
-        for cause in causes.every_cause():
-            truth.write("%s,%s,%s\n" % (cause.name, cause.kind, " ".join(cause.names)))
+        truth.write("cause,kind,names,known\n")
+        for cause in EVERY:
+            truth.write("%s,%s,%s,%s\n" % (cause.name, cause.kind, " ".join(cause.names), " ".join(cause.known)))

@@ -8,6 +8,7 @@
 #include "diagnose/few_presses.h"
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
+#include "diagnose/one_size.h"
 #include "diagnose/probability.h"
 #include "diagnose/search.h"
 #include "diagnose/shared_by_places.h"
@@ -86,10 +87,11 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
     search_few(base, g, options, d);
   else
     search(base, g, folds, options, d);
-  const bool ambiguous = !d.rivals.empty();
-  if (!few_presses && !ambiguous &&
+  if (!few_presses && d.rivals.empty() &&
       doubt_what_places_share(base, g, folds, options.gates, d.findings))
     put_in_order(d.findings);
+  if (!few_presses) doubt_other_sizes(base, g, folds, d);
+  const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;

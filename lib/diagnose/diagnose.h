@@ -68,6 +68,7 @@ struct Finding {
   bool hidden = false;       // a law of each place, beside a learned field, could do the same
   bool within_form = false;  // no more than an approximate law in the model may leave
   bool by_presses = false;   // held_out_* are of unseen presses: it helps no unseen position
+  bool doubted = false;      // found missing, but its size is not one (diagnose/one_size.h)
   bool plain = false;        // large beyond chance by its size, whatever unseen positions say
 };
 

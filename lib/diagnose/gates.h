@@ -40,6 +40,10 @@ inline constexpr double kStrained = 1e-4;
 // five times what is asked of an effect, since nothing but the likelihood decides.
 inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
+// An effect whose size differs by more between parts of one recording (root mean square, beyond
+// chance), where more than noise is left, stands for something else.
+inline constexpr double kOneSize = 0.2;
+
 // Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
 // of effects are then judged by what the first parts of the presses foretell of the rest, whose
 // error has to fall by that share.
@@ -104,11 +108,16 @@ inline std::vector<std::string> gates_in_words() {
           "err alike, a model without missing effects is unexplained, and beside missing ones that "
           "is said: the names do not explain all; so are samples far off that come at one part of "
           "the "
-          "presses. Gains that all positions share come from the "
+          "presses. Where anything is left, a name is kept only if what it does has one size in "
+          "the "
+          "whole recording: one whose size differs by more than {:g} % between presses, depths, "
+          "times since the press began or axes (root mean square, beyond chance) stands for "
+          "another "
+          "cause and is possible at most. Gains that all positions share come from the "
           "set-up (sensor, robot, tool), those that differ by place from the body; the rest is "
           "told "
           "as hs-compare tells it.",
-          1 / kStrained),
+          1 / kStrained, 100 * kOneSize),
       "Where no effect that has a name passes (or none more) and what is left is more than noise, "
       "curves that have no law are tried and judged in the same way: over the depth "
       "(learned-depth), the time since the tool moved (learned-kernel) and the session "

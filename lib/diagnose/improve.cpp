@@ -59,10 +59,12 @@ std::string refused_of(const std::vector<ImprovementStep>& steps, std::size_t fr
 }
 
 // What is missing; also a field that is learned from what each place asks for, where the data
-// cannot tell it from a cause: it states none, and foretells.
+// cannot tell it from a cause: it states none, and foretells. What stands for another cause is no
+// name of it, and foretells as well.
 bool is_to_be_added(const Finding& finding) {
-  return finding.verdict == Verdict::kMissing || (finding.verdict == Verdict::kIndistinguishable &&
-                                                  require_effect(finding.effect).card().is_field);
+  return finding.verdict == Verdict::kMissing || finding.doubted ||
+         (finding.verdict == Verdict::kIndistinguishable &&
+          require_effect(finding.effect).card().is_field);
 }
 
 // What is to be added, in order. Of few presses, where none is: the first curve of no law that is

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "compare/structure.h"
+#include "diagnose/foreseen.h"
 #include "diagnose/gates.h"
 #include "diagnose/measure.h"
 #include "estimate/probability.h"
+#include "estimate/spectral_line.h"
 
 namespace hapsim {
 namespace {
@@ -139,19 +141,24 @@ void judge_gains(const Posterior& p, const Eigen::VectorXd& residual, const Grou
 }
 
 // What is beyond noise and mesh in the whitened residual and goes together from one sample to the
-// next: more than a fifth of the noise's square (half, where the noise was measured from
-// differences, which are too small where noise has a colour).
+// next, or is foretold by those before in any other way: more than a fifth of the noise's square
+// (half, where the noise was measured from differences, which are too small where noise has a
+// colour).
 bool is_structured(Eigen::VectorXd residual, const Ground& on) {
   const TrialGround& g = on.g;
   const double most = g.experiment.noise.measured ? 0.5 : 0.2;
   on.weights.whiten(residual);
   double product = 0;
   Eigen::Index at = 0;
-  for (const Episode& e : g.dataset.episodes)
+  std::vector<Eigen::Index> lengths;
+  for (const Episode& e : g.dataset.episodes) {
+    lengths.push_back(static_cast<Eigen::Index>(e.rows.size()));
     for (std::size_t i = 0; i < e.rows.size(); ++i, ++at)
       if (i > 0) product += residual.segment<3>(3 * at).dot(residual.segment<3>(3 * at - 3));
+  }
   const auto count = static_cast<double>(residual.size());
-  return std::min(product, residual.squaredNorm() - count) > most * count;
+  return std::min(std::max(product, foreseen_squares(residual, lengths)),
+                  residual.squaredNorm() - count) > most * count;
 }
 
 // What hs-compare finds first in the same forces.
@@ -168,6 +175,20 @@ Observation first_observation(const Eigen::VectorXd& f, const Eigen::VectorXd& b
   const auto found =
       find_structure(row_facts(recording), measured, simulated, g.allowance.noise, 1);
   return found.empty() ? Observation{} : found.front();
+}
+
+// [Hz] of a line that stands out of the session; 0: none.
+double frequency_in(const Eigen::VectorXd& residual, const TrialGround& g) {
+  std::vector<double> t;
+  std::vector<Vec3> values;
+  Eigen::Index at = 0;
+  for (const Episode& e : g.dataset.episodes)
+    for (std::size_t i = 0; i < e.rows.size(); ++i, at += 3) {
+      if (e.view.session.empty()) continue;
+      t.push_back(e.view.session[i]);
+      values.emplace_back(residual.segment<3>(at));
+    }
+  return find_line(t, values, g.dataset.episodes.size()).frequency;
 }
 
 std::string words_of(const LeftOver& left) {
@@ -238,6 +259,15 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
     const Observation seen = first_observation(f, by_gains ? p.beside : residual, g);
     if (!by_gains && !seen.kind.empty()) left.kind = seen.kind;
     if (!seen.sentence.empty()) also = ". " + seen.sentence;
+    const double frequency = by_gains || left.kind != "left" ? 0 : frequency_in(residual, g);
+    if (frequency > 0) {
+      left.kind = kFrequency;
+      also += fmt::format(
+          "{} Most of it is at {:.3g} Hz: look at what turns, breathes or hums at that rate, or so "
+          "far "
+          "from a multiple of the recording's own",
+          also.empty() ? "." : "", frequency);
+    }
   }
   left.words = words_of(left) + also;
   if (left.words.back() != '.') left.words += '.';

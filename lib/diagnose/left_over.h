@@ -9,7 +9,8 @@
 
 namespace hapsim {
 
-inline constexpr const char *kSetUp = "set-up", *kBody = "body";  // LeftOver::kind
+// Kinds of LeftOver.
+inline constexpr const char *kSetUp = "set-up", *kBody = "body", *kFrequency = "frequency";
 
 // The allowance for mesh and shape error is a prior of the six gains c_p of each position
 // (experiment/weights.h), of standard deviation delta. What the forces say of them is tested: with
@@ -28,11 +29,11 @@ struct LeftOver {
   double common_share = 0;    // of the strain that goes with the gains that all share
   Vec3 where = Vec3::Zero();  // the position of the largest |c_p| [m]
   bool strained = false;    // by all positions, by their mean or by one, beyond chance (kStrained)
-  bool structured = false;  // beside the allowance: more than noise, and neighbours err alike
+  bool structured = false;  // beside the allowance: more than noise, and samples foretell samples
   LockedEvents events;      // looked for where neither is the case
   // "": noise alone; "set-up", "body", "place" (one) where the allowance is strained, "event"
-  // of single samples at one part of the presses, else what hs-compare tells of it: "depth",
-  // "contact-time", "offset", ...
+  // of single samples at one part of the presses, "frequency" of a line that stands out where
+  // hs-compare tells nothing, else what it tells: "depth", "contact-time", "offset", ...
   std::string kind;
 
   bool noise_alone() const { return !strained && !structured && !events.found; }

@@ -234,8 +234,9 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   Baseline other_base = base;
   Diagnosis other = d;
   search_from(Kind::kNamed, Rivals::kGoOn, base, g, folds, options, d);
-  const bool explained =
-      d.rivals.empty() ? left_over(base.fitted, g).noise_alone() : d.left.noise_alone();
+  // What the allowance for mesh and shape swallows may be what a wrong name leaves.
+  const LeftOver left = d.rivals.empty() ? left_over(base.fitted, g) : d.left;
+  const bool explained = left.noise_alone() && left.error < kLikeNoise;
   bool any = false, offsets = false;
   for (const Finding& f : d.findings) {
     if (f.verdict != Verdict::kMissing && f.verdict != Verdict::kIndistinguishable) continue;

@@ -215,6 +215,22 @@ std::string learned_words(const Diagnosis& d) {
 
 }  // namespace
 
+namespace {
+
+// What passed and is not stood by.
+std::string doubted_words(const Diagnosis& d) {
+  std::string names;
+  for (const Finding& f : d.findings)
+    if (f.doubted && names.find(f.effect) == std::string::npos)
+      names += (names.empty() ? "" : ", ") + f.effect;
+  return names.empty() ? ""
+                       : " " + names +
+                             " would take a part of it away, but not with one size in the whole "
+                             "recording: that is no name of the cause.";
+}
+
+}  // namespace
+
 std::string describe_verdict(const Diagnosis& d) {
   std::string missing, rivals;
   for (const Finding& f : d.findings) {
@@ -225,13 +241,14 @@ std::string describe_verdict(const Diagnosis& d) {
   const std::string left = d.left.noise_alone() ? "" : " Beside that " + d.left.words;
   switch (d.verdict) {
     case ModelVerdict::kIncomplete:
-      return "missing: " + missing + "." + learned_words(d) + set_up_words(d) + left;
+      return "missing: " + missing + "." + learned_words(d) + set_up_words(d) + left +
+             doubted_words(d);
     case ModelVerdict::kAmbiguous:
       return (missing.empty() ? "" : "missing: " + missing + "; beyond that ") +
              "the data cannot tell " + rivals + " apart; see the next measurement." +
              set_up_words(d) + (left.empty() ? "" : " None of them explains all: " + d.left.words);
     case ModelVerdict::kUnexplained:
-      return "none of the effects it knows explains the error: " + d.left.words;
+      return "none of the effects it knows explains the error: " + d.left.words + doubted_words(d);
     default:
       return kNothingMissing +
              (d.left.error < kLikeNoise

@@ -77,15 +77,31 @@ TEST(LeftOver, OnePositionAloneIsToldWithItsPlace) {
 }
 
 // A hum: the allowance does not hold it, and hs-compare finds nothing that it goes with.
-TEST(LeftOver, WhatIsNoStiffnessIsToldAsHsCompareTellsIt) {
+TEST(LeftOver, AHumIsToldByItsFrequency) {
   int sample = 0;
   const LeftOver left = left_of(0.01, [&](int, const Vec3& f) {
     return Vec3(f + 0.03 * std::sin(0.8 * ++sample) * Vec3::Ones());
   });
   EXPECT_TRUE(left.structured);
   EXPECT_FALSE(left.strained);
-  EXPECT_EQ(left.kind, "left") << left.words;
+  EXPECT_EQ(left.kind, "frequency") << left.words;
+  EXPECT_NE(left.words.find(" Hz: "), std::string::npos) << left.words;
   EXPECT_NE(left.words.find("is no noise"), std::string::npos) << left.words;
+}
+
+// Of neighbours that err otherwise, and at no frequency: a sensor that shows every reading twice,
+// with the sign changed.
+TEST(LeftOver, WhatSamplesForetellIsNoNoiseWhereNeighboursDiffer) {
+  Random random(5);
+  Vec3 last = Vec3::Zero();
+  int sample = 0;
+  const LeftOver left = left_of(0.01, [&](int, const Vec3& f) {
+    last = sample++ % 2 == 0 ? Vec3(0.03 * Vec3(random.normal(), random.normal(), random.normal()))
+                             : Vec3(-last);
+    return Vec3(f + last);
+  });
+  EXPECT_TRUE(left.structured);
+  EXPECT_FALSE(left.noise_alone());
 }
 
 }  // namespace

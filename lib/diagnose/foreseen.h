@@ -1,0 +1,17 @@
+// What a linear forecast takes off a residual: whatever has a memory, of any shape.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hapsim {
+
+// Squares of stretches of samples one after the other (three components a sample, the same law for
+// all) that the eight samples before each foretell, by least squares (autoregression: Yule,
+// Phil. Trans. A 226, 1927), less what as many coefficients take of white noise. Neighbours that
+// err alike are foreseen, and so are a hum that is sampled at a few points a period and samples
+// that err in turns, whose neighbours do not. `lengths` of the stretches, in samples; those of
+// fewer than seventeen say nothing. At least 0.
+double foreseen_squares(const Eigen::VectorXd& residual, const std::vector<Eigen::Index>& lengths);
+
+}  // namespace hapsim
