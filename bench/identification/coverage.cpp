@@ -87,7 +87,7 @@ void run(const char* effect, const Model& truth, const char* const names[2], int
       const Parameter& a = *found.model.find(effect, 0, names[k]);
       const Parameter& b = *walked.model.find(effect, 0, names[k]);
       before[k] += !(std::abs(a.value - right) > 1.96 * a.std_error);
-      const Interval interval = interval95(b);
+      const ParameterInterval interval = interval95(b);
       after[k] += !(right < interval.lower || right > interval.upper);
       unstated[k] += !std::isfinite(b.std_error);
       if (std::isfinite(b.std_error)) factor[k].push_back(interval.upper / b.value);

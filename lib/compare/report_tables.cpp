@@ -115,7 +115,7 @@ void add_parameters(const Model& model, Report& report) {
       t.caption += fmt::format(" The first {} of {}.", kMost, model.parameters.size());
       break;
     }
-    const Interval interval = interval95(p);
+    const ParameterInterval interval = interval95(p);
     const bool known = interval.known();
     t.rows.push_back({p.effect, std::to_string(p.region), p.name, fmt::format("{:.4g}", p.value),
                       known ? fmt::format("{:.2g}", p.std_error) : "",

@@ -43,7 +43,7 @@ struct FittedValue {
   double value = 0;
   double std_error = std::numeric_limits<double>::quiet_NaN();  // NaN: not estimated
   double identity = 0;                                          // where it does nothing
-  Interval interval;                                            // 95 %, by the curvature
+  ParameterInterval interval;                                   // 95 %, by the curvature
   bool logarithmic = false;                                     // that interval is a factor
 };
 

@@ -20,7 +20,7 @@ bool is_logarithmic(const Parameter& p) {
   return card != nullptr && card->logarithmic && p.value > 0;
 }
 
-Interval interval95(double value, double std_error, bool logarithmic) {
+ParameterInterval interval95(double value, double std_error, bool logarithmic) {
   if (!std::isfinite(std_error)) return {};
   const double half = kHalf95 * std_error;
   if (!logarithmic || !(value > 0)) return {value - half, value + half};
@@ -28,10 +28,10 @@ Interval interval95(double value, double std_error, bool logarithmic) {
   return {value / factor, value * factor};
 }
 
-Interval interval95(const Parameter& p) {
+ParameterInterval interval95(const Parameter& p) {
   if (p.state == ParameterState::kFixed) return {};
   const bool logarithmic = is_logarithmic(p);
-  Interval interval = interval95(p.value, p.std_error, logarithmic);
+  ParameterInterval interval = interval95(p.value, p.std_error, logarithmic);
   if (!logarithmic || !interval.known()) return interval;
   if (p.lower <= p.value) interval.lower = std::max(interval.lower, p.lower);
   if (p.upper >= p.value) interval.upper = std::min(interval.upper, p.upper);
@@ -43,7 +43,7 @@ bool tells_interval(double value, double std_error, bool logarithmic) {
 }
 
 std::string with_interval(double value, const std::string& unit, double std_error,
-                          const Interval& interval, bool logarithmic, int digits,
+                          const ParameterInterval& interval, bool logarithmic, int digits,
                           int error_digits) {
   const std::string after = unit == "1" ? "" : " " + unit;
   if (!std::isfinite(std_error)) return fmt::format("{:.{}g}{}", value, digits, after);

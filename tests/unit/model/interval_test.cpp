@@ -14,10 +14,10 @@ Parameter thickness(double value, double std_error) {
 
 // Log-normal quantiles: exp(1.95996 x 0.5) = 2.66441.
 TEST(Interval, OfASizeIsAFactorAndWithinItsBounds) {
-  const Interval wide = interval95(thickness(1e-3, 0.5e-3));
+  const ParameterInterval wide = interval95(thickness(1e-3, 0.5e-3));
   EXPECT_NEAR(wide.upper, 2.66441e-3, 1e-8);
   EXPECT_NEAR(wide.lower, 1e-3 / 2.66441, 1e-8);
-  const Interval held = interval95(thickness(0.4e-3, 0.4e-3));
+  const ParameterInterval held = interval95(thickness(0.4e-3, 0.4e-3));
   EXPECT_EQ(held.lower, 2e-4);
   EXPECT_NEAR(held.upper, 0.4e-3 * 7.09907, 1e-7);
 }
