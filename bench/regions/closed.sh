@@ -56,7 +56,8 @@ for name in "${names[@]}"; do
   awk -F, 'NR == FNR { if ($3 == "E") e[$2] = $4; next }
     $3 == "E" { printf "two           found: E of region %d %.0f +- %.0f Pa of %.0f, %.1f %% off, %.1f standard errors\n",
       $2, $4, $6, e[$2], 100 * ($4 / e[$2] - 1), ($4 - e[$2]) / $6 }' "$of.csv" "$of-found.csv"
-  # Regions that were drawn 1.5 mm too small all around: moduli and growth together, which takes more than 400 s.
+  # Regions that were drawn 1.5 mm too small all around: moduli and growth together, which hardly differ in what they do: ten
+  # rounds or so of finite elements, half a second of a processor a place each (72 s in all).
   [[ ${GROWTH-} == yes ]] || continue
   if [[ ! -e $of-small.ply ]]; then
     /usr/bin/python3 -c "import closed; closed.write_surfaces('$out', '$name', 1.5)"

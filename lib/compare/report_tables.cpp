@@ -7,6 +7,7 @@
 
 #include "compare/gain_sentences.h"
 #include "compare/wording.h"
+#include "model/interval.h"
 
 namespace hapsim {
 namespace {
@@ -104,7 +105,8 @@ void add_diagnosis(const CsvTable& table, const std::string& version, Report& re
 void add_parameters(const Model& model, Report& report) {
   ReportTable& t = report.parameters;
   t.caption =
-      "± is one standard error; in 95 of 100 recordings the interval holds the value that "
+      "± is one standard error, of sizes and moduli that of their logarithm times the value; in 95 "
+      "of 100 recordings the interval holds the value that "
       "this kind of model would have.";
   t.columns = {"effect", "region", "parameter", "value", "±", "95 % interval", "unit", "state"};
   constexpr std::size_t kMost = 60;
@@ -113,12 +115,11 @@ void add_parameters(const Model& model, Report& report) {
       t.caption += fmt::format(" The first {} of {}.", kMost, model.parameters.size());
       break;
     }
-    const bool known = p.state != ParameterState::kFixed && std::isfinite(p.std_error);
+    const ParameterInterval interval = interval95(p);
+    const bool known = interval.known();
     t.rows.push_back({p.effect, std::to_string(p.region), p.name, fmt::format("{:.4g}", p.value),
                       known ? fmt::format("{:.2g}", p.std_error) : "",
-                      known ? fmt::format("{:.4g} to {:.4g}", p.value - 1.96 * p.std_error,
-                                          p.value + 1.96 * p.std_error)
-                            : "",
+                      known ? fmt::format("{:.4g} to {:.4g}", interval.lower, interval.upper) : "",
                       p.unit == "1" ? "" : p.unit,
                       p.state == ParameterState::kFree      ? "fitted"
                       : p.state == ParameterState::kDerived ? "derived"

@@ -195,8 +195,13 @@ double mesh_uncertainty(const StiffnessSolution& s) {
          kShare * std::abs(s.normal.dot(s.coarse_change * s.normal)) / s.normal.dot(s.K * s.normal);
 }
 
+// Of the direction in which they do most: under a thin skin that is sideways, and the normal one
+// says nothing of it.
 double mixture_uncertainty(const StiffnessSolution& s) {
-  return s.normal.dot(s.mixed * s.normal) / s.normal.dot(s.K * s.normal);
+  if (s.mixed.isZero(0)) return 0;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> worst(
+      0.5 * (s.mixed + s.mixed.transpose()), 0.5 * (s.K + s.K.transpose()), Eigen::EigenvaluesOnly);
+  return worst.eigenvalues()[2];
 }
 
 FeaturedBody& ContactBodies::featured(int k, bool follow) {

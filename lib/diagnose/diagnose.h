@@ -13,6 +13,7 @@
 #include "diagnose/torque_left.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
+#include "model/interval.h"
 
 namespace hapsim {
 
@@ -42,6 +43,8 @@ struct FittedValue {
   double value = 0;
   double std_error = std::numeric_limits<double>::quiet_NaN();  // NaN: not estimated
   double identity = 0;                                          // where it does nothing
+  ParameterInterval interval;                                   // 95 %, by the curvature
+  bool logarithmic = false;                                     // that interval is a factor
 };
 
 // One effect of the catalogue, tried on top of the model (and of the effects found before it).

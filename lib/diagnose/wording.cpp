@@ -8,6 +8,7 @@
 #include "effects/catalogue.h"
 #include "experiment/learned_curves.h"
 #include "fit/learned_field.h"
+#include "model/interval.h"
 #include "model/model_edit.h"
 #include "recording/ceiling.h"
 
@@ -15,12 +16,6 @@ namespace hapsim {
 namespace {
 
 constexpr double kByChance = 0.5;  // this often errors of random sign lose as much
-
-std::string with_error(double value, double error, const std::string& unit) {
-  const std::string number = std::isnan(error) ? fmt::format("{:.3g}", value)
-                                               : fmt::format("{:.3g} ± {:.1g}", value, error);
-  return unit == "1" ? number : number + " " + unit;
-}
 
 // Where a field is stiffest and softest, of the places that it was learned from.
 std::string extremes_of(const PlaceField& field) {
@@ -118,13 +113,18 @@ bool does_nothing(const EffectCard& card, const Parameter& row) {
   });
 }
 
-std::string values_words(const std::vector<FittedValue>& values) {
+std::string values_words(const std::vector<FittedValue>& values, bool solved) {
   constexpr std::size_t kMost = 6;
+  bool uneven = false;
   std::string text;
   for (std::size_t k = 0; k < std::min(kMost, values.size()); ++k)
     text += fmt::format("{}{} = {}", k == 0 ? "" : "; ", values[k].name,
-                        with_error(values[k].value, values[k].std_error, values[k].unit));
-  return text;
+                        with_interval(values[k].value, values[k].unit, values[k].std_error,
+                                      values[k].interval, values[k].logarithmic, 3, 1));
+  for (const FittedValue& v : values)
+    uneven = uneven || tells_interval(v.value, v.std_error, v.logarithmic);
+  // Trials are not profiled, which costs as much as all of them.
+  return solved && uneven ? text + ", by the curvature alone" : text;
 }
 
 // The smallest size is that about the fitted value. Where this lies far from the one that does
@@ -137,7 +137,7 @@ std::string shows_words(const Finding& f) {
   if (f.verdict == Verdict::kAbsent && !f.values.empty() &&
       std::abs(f.values.front().value - least.identity) > kFar * least.value)
     return "";
-  const std::string size = with_error(least.value, std::nan(""), least.unit);
+  const std::string size = with_interval(least.value, least.unit, std::nan(""), {}, false, 3, 1);
   return fmt::format("would show from {} = {}{}", least.name,
                      least.identity == 0 ? "" : fmt::format("{:g} ± ", least.identity), size);
 }
@@ -160,9 +160,10 @@ void describe_fit(const Candidate& candidate, const Measured& measured, const Da
   const ParameterState shown = first.fixed ? ParameterState::kFixed : ParameterState::kFree;
   for (const Parameter& p : candidate.fitted.model.parameters)
     if (p.effect == card.name && p.state == shown && !does_nothing(card, p))
-      finding.values.push_back({p.name, p.unit, p.value, p.std_error, identity_of(card, p.name)});
-  finding.fitted =
-      card.learned ? curves_words(candidate.fitted.model, card.name) : values_words(finding.values);
+      finding.values.push_back({p.name, p.unit, p.value, p.std_error, identity_of(card, p.name),
+                                interval95(p), is_logarithmic(p)});
+  finding.fitted = card.learned ? curves_words(candidate.fitted.model, card.name)
+                                : values_words(finding.values, card.solved);
   if (!first.fixed && !ends_nowhere(first) && measured.smallest_seen > 0 &&
       std::isfinite(measured.smallest_seen))
     finding.smallest = {first.name, first.unit, measured.smallest_seen, std::nan(""),

@@ -12,13 +12,10 @@
 #include "model/body_parameters.h"
 
 namespace hapsim {
-namespace {
 
 std::string parameter_label(const Parameter& p) {
   return p.effect + " " + p.name + (p.region > 0 ? " of region " + std::to_string(p.region) : "");
 }
-
-}  // namespace
 
 std::vector<Unknown> unknowns(const Model& model) {
   std::vector<Unknown> result;
@@ -38,13 +35,18 @@ std::vector<Unknown> unknowns(const Model& model) {
   return result;
 }
 
-void set_standard_errors(Fit& result, const LeastSquaresResult& solution, const Signal& signal,
-                         const Experiment& experiment, const Selection& selection,
-                         const FitOptions& options, double variance,
-                         const Eigen::VectorXd& shared) {
+void set_unknowns(Model& model, const Eigen::VectorXd& x) {
+  const std::vector<int> free = model.free_parameters();
+  for (std::size_t c = 0; c < free.size(); ++c)
+    model.parameters[free[c]].value = x[static_cast<Eigen::Index>(c)];
+}
+
+Eigen::MatrixXd error_covariance(const Eigen::MatrixXd& bread, const Signal& signal,
+                                 const Experiment& experiment, const Selection& selection,
+                                 const FitOptions& options, double variance,
+                                 const Eigen::VectorXd& shared) {
   // The robust covariance has the misfit in it.
-  Eigen::MatrixXd covariance =
-      options.robust == RobustLoss::kNone ? variance * solution.covariance : solution.covariance;
+  Eigen::MatrixXd covariance = options.robust == RobustLoss::kNone ? variance * bread : bread;
   if (options.floor > 0) {
     // What each position may err by, carried through to the parameters (sandwich).
     const std::vector<GainBlock> blocks = gain_directions(experiment.dataset, selection, signal.f);
@@ -52,13 +54,16 @@ void set_standard_errors(Fit& result, const LeastSquaresResult& solution, const 
       const Eigen::MatrixXd rows = signal.df(block.rows, Eigen::all);
       const double floor =
           experiment.dataset.floor_at(static_cast<std::size_t>(block.position), options.floor);
-      const Eigen::MatrixXd through = solution.covariance *
-                                      (rows.transpose() * block.deviations(floor)) /
-                                      (options.noise * options.noise);
+      const Eigen::MatrixXd through =
+          bread * (rows.transpose() * block.deviations(floor)) / (options.noise * options.noise);
       covariance += through * through.transpose();
     }
   }
-  covariance += shared * shared.transpose();
+  return covariance + shared * shared.transpose();
+}
+
+void set_standard_errors(Fit& result, const LeastSquaresResult& solution,
+                         const Eigen::MatrixXd& covariance) {
   const std::vector<int> free = result.model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c) {
     Parameter& p = result.model.parameters[free[c]];

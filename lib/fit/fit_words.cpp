@@ -14,6 +14,7 @@
 #include "fit/constraints.h"
 #include "fit/marker_words.h"
 #include "model/body_parameters.h"
+#include "model/interval.h"
 #include "model/model_edit.h"
 
 namespace hapsim {
@@ -95,11 +96,12 @@ std::vector<std::string> known_words(const Model& model, const Dataset& dataset)
 namespace {
 
 std::string value_words(const Parameter& p) {
-  const std::string unit = p.unit == "1" ? "" : " " + p.unit;
-  return fmt::format(
-      "{}{} = {:.4g}{} ± {}", p.name, p.region > 0 ? fmt::format(" (region {})", p.region) : "",
-      p.value, unit,
-      std::isnan(p.std_error) ? "not estimated" : fmt::format("{:.2g}", p.std_error));
+  const std::string name = p.region > 0 ? fmt::format("{} (region {})", p.name, p.region) : p.name;
+  if (std::isnan(p.std_error))
+    return fmt::format("{} = {:.4g}{} ± not estimated", name, p.value,
+                       p.unit == "1" ? "" : " " + p.unit);
+  return name + " = " +
+         with_interval(p.value, p.unit, p.std_error, interval95(p), is_logarithmic(p), 4, 2);
 }
 
 // A paragraph an effect, of the free parameters; `values` has all of them.

@@ -19,12 +19,6 @@
 namespace hapsim {
 namespace {
 
-void set_values(Model& model, const Eigen::VectorXd& x) {
-  const std::vector<int> free = model.free_parameters();
-  for (std::size_t c = 0; c < free.size(); ++c)
-    model.parameters[free[c]].value = x[static_cast<Eigen::Index>(c)];
-}
-
 // The range over which starts are spread, within the bounds: moduli from a thousandth to ten times
 // the one that the gain of the forces asks for, times in seconds from half a sample's step to twice
 // the longest press. Bounds alone leave 24 and 9 decades, nearly all of which say nothing of the
@@ -94,7 +88,7 @@ Fitting::Fitting(const Model& start, const Experiment& experiment, const Selecti
   // Steps of a linearised body have a reach, within which the constraints are to have a point.
   if (constraints_.empty() || !is_linearised_) return;
   if (const auto point = feasible_point(unknowns(result_.model), constraints_))
-    set_values(result_.model, *point);
+    set_unknowns(result_.model, *point);
 }
 
 void Fitting::search() {
@@ -124,7 +118,7 @@ void Fitting::minimise_with_field() {
 ResidualFunction Fitting::residuals_of(Model model) const {
   return [this, model = std::move(model)](const Eigen::VectorXd& x, Eigen::VectorXd& r,
                                           Eigen::MatrixXd* J) mutable {
-    set_values(model, x);
+    set_unknowns(model, x);
     Signal signal;
     try {
       signal = model_forces(model, experiment_, result_.about, selection_, J != nullptr);
@@ -158,7 +152,7 @@ bool Fitting::go_on(double sum) {
 void Fitting::keep_search(const LeastSquaresResult& best, int starts_done) const {
   if (!options_.after_start || starts_done == 0) return;
   Model model = result_.model;
-  set_values(model, best.x);
+  set_unknowns(model, best.x);
   options_.after_start(model, starts_done);
 }
 
@@ -169,7 +163,7 @@ std::vector<Unknown> Fitting::open_within(double reach) const {
 
 void Fitting::take(LeastSquaresResult solution) {
   solution_ = std::move(solution);
-  set_values(result_.model, solution_.x);
+  set_unknowns(result_.model, solution_.x);
   result_.stopped = solution_.stopped;
   if (options_.keep)
     options_.keep(result_.model, options_.noise * std::sqrt(solution_.sum_of_squares /
@@ -245,7 +239,7 @@ void Fitting::minimise_within(double reach) {
   }
   if (!options_.keep_apart || result_.stopped) return;
   keep_terms_apart(result_.model, open, residuals, solution_);
-  set_values(result_.model, solution_.x);
+  set_unknowns(result_.model, solution_.x);
 }
 
 double Fitting::solved_sum() {
@@ -257,7 +251,7 @@ double Fitting::solved_sum() {
   const std::vector<Unknown> open = unknowns(result_.model);
   if (material.modulus.size() == 1) {
     const LeastSquaresResult rest = solve(within_reach(open, result_.model, 0), residuals);
-    set_values(result_.model, rest.x);
+    set_unknowns(result_.model, rest.x);
     return rest.sum_of_squares;
   }
   Eigen::VectorXd x(static_cast<Eigen::Index>(open.size())), r;

@@ -8,6 +8,7 @@
 #include "estimate/under_constraints.h"
 #include "fit/fit.h"
 #include "fit/marker_rows.h"
+#include "fit/ridge.h"
 #include "fit/torque_rows.h"
 
 namespace hapsim {
@@ -60,7 +61,18 @@ class Fitting {
   // What the parameters follow of a gain of `floor` that all positions share: mesh, surface and
   // tool err alike everywhere too, and that no number of positions averages away (on bodies of
   // another solver all of E was 0.2 to 1.8 % off). One position has it in its own.
-  Eigen::VectorXd by_gain_of_all(const Signal& signal) const;
+  // `bread`: the covariance by noise alone, of the forces as they are weighed.
+  Eigen::VectorXd by_gain_of_all(const Signal& signal, const Eigen::MatrixXd& bread) const;
+  // FitOptions::ridges, once all else is told (fitting_ridge.cpp). False: a better fit was met on
+  // the way, and result_ is there.
+  bool tell_ridges(const Signal& signal, const FitOptions& errors, double variance);
+  std::vector<Eigen::Index> ridges(const Eigen::MatrixXd& covariance) const;
+  // The ridge of a parameter of that error in its logarithm, from where result_ is, to a rise of
+  // the sum of squares by `threshold`.
+  Ridge walk(Eigen::Index which, double error, double threshold);
+  // The least sum of squares with a parameter held at a value, from where result_ is, to `settled`;
+  // goes there.
+  double fit_beside(Eigen::Index which, double value, double settled);
   // What the active ones cost, and what they leave to be known.
   void tell_constraints(const Eigen::MatrixXd& J, double variance);
 
@@ -81,6 +93,9 @@ class Fitting {
   LeastSquaresResult solution_;
   UnderConstraints under_;  // of the last search, where there are constraints
   Fit result_;
+  bool walked_on_ = false;  // a walk has led to a better fit
+  double lowest_ = 0;       // the least rise of the last walk over its threshold's root, and where
+  Fit lowest_at_;
 };
 
 }  // namespace hapsim

@@ -31,8 +31,19 @@ Fit Fitting::end() {
   const double variance = std::max(1.0, solution_.sum_of_squares / freedom);
   FitOptions errors = options_;
   if (force_weights_) errors.floor = 0;  // of each position: it is in the weights
-  set_standard_errors(result_, solution_, signal, experiment_, selection_, errors, variance,
-                      by_gain_of_all(signal));
+  set_standard_errors(
+      result_, solution_,
+      error_covariance(solution_.covariance, signal, experiment_, selection_, errors, variance,
+                       by_gain_of_all(signal, solution_.covariance)));
+  if (!tell_ridges(signal, errors, variance)) {  // a better fit was met on the way: from there
+    walked_on_ = true;
+    result_.at_bound.clear();
+    result_.undetermined.clear();
+    result_.blind.clear();
+    minimise_in_rounds();
+    return end();
+  }
+  if (result_.stopped) result_.converged = false, result_.message = "interrupted";
   Eigen::VectorXd whitened = residual / options_.noise;
   Eigen::MatrixXd J = signal.df / options_.noise;
   torques_.append(result_.model, result_.about, signal, whitened, &J);
@@ -48,7 +59,7 @@ Fit Fitting::end() {
   return std::move(result_);
 }
 
-Eigen::VectorXd Fitting::by_gain_of_all(const Signal& signal) const {
+Eigen::VectorXd Fitting::by_gain_of_all(const Signal& signal, const Eigen::MatrixXd& bread) const {
   std::set<int> positions;
   for (const int e : selection_) positions.insert(dataset_.episodes[e].position);
   if (positions.size() < 2 || !(options_.floor > 0)) return Eigen::VectorXd::Zero(signal.df.cols());
@@ -61,7 +72,7 @@ Eigen::VectorXd Fitting::by_gain_of_all(const Signal& signal) const {
     J /= options_.noise;
     f /= options_.noise;
   }
-  return options_.floor * (solution_.covariance * (J.transpose() * f));
+  return options_.floor * (bread * (J.transpose() * f));
 }
 
 void Fitting::tell_constraints(const Eigen::MatrixXd& J, double variance) {

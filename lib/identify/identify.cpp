@@ -12,6 +12,7 @@
 #include "fit/fit_words.h"
 #include "fit/held_out_band.h"
 #include "fit/marker_rows.h"
+#include "fit/ridge.h"
 #include "fit/torque_rows.h"
 #include "io/number.h"
 #include "model/model_edit.h"
@@ -78,6 +79,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
   final_options.noise = fit_options.noise;
   final_options.floor = fit_options.floor;
   final_options.torques = true;
+  final_options.ridges = true;
   ExtendOptions extend;
   extend.regions = request.regions;
   extend.terms = request.fit.terms.count;
@@ -95,8 +97,9 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
     unseen = improvement.steps.back().held_out;
     result.band = improvement.steps.back().band;
     // The search compares effects by their forces; what it has found is fitted to torques and
-    // points as well.
-    if ((has_torques(w.dataset.recording) || final_options.markers != nullptr) &&
+    // points as well, and sizes that hardly show have errors that hold.
+    if ((has_torques(w.dataset.recording) || final_options.markers != nullptr ||
+         has_ridges(result.fitted.model)) &&
         !improvement.stopped) {
       final_options.starts = 1;
       final_options.skip = 0;

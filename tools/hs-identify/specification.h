@@ -300,7 +300,12 @@ inline ToolSpec identify_specification() {
         {"parameter", "name of the parameter"},
         {"value", "in SI units"},
         {"unit", "SI unit"},
-        {"std_error", "standard error, empty when not estimated"},
+        {"std_error",
+         "standard error, empty when not estimated; of moduli, times and sizes it is the value "
+         "times that of its logarithm: 95 % are the value over and times exp(1.96 std_error / "
+         "value). Where finite elements are solved for a size that is hardly known (a layer's "
+         "thickness, the radius of an inclusion), from the profile of its likelihood, the bodies "
+         "solved anew along it, and its longer side; not with --constrain or --robust"},
         {"lower, upper", "bounds"},
         {"state", "free, fixed or derived"}}},
       {"Model of --acfm (output)",

@@ -170,6 +170,17 @@ TEST(LabelledBody, MeshesFollowWhatIsEnclosed) {
   EXPECT_GT(solution(labelled_block(), 5, true).mixed.norm(), 0);
 }
 
+// By hand: of diag(K) = (1, 2, 4) and a doubt of diag (0.5, 0.1, 0.1) the normal knows 2.5 %.
+TEST(MixtureUncertainty, IsOfTheDirectionThatKnowsLeast) {
+  StiffnessSolution s;
+  s.normal = Vec3::UnitZ();
+  s.K = Eigen::Vector3d(1, 2, 4).asDiagonal();
+  s.mixed = Eigen::Vector3d(0.5, 0.1, 0.1).asDiagonal();
+  EXPECT_NEAR(mixture_uncertainty(s), 0.5, 1e-12);
+  s.mixed.setZero();
+  EXPECT_EQ(mixture_uncertainty(s), 0);
+}
+
 // The derivative by a growth beside those by the moduli, with another feature.
 TEST(LabelledBody, GrowthHasItsDerivative) {
   Material material = labelled(labelled_block(), {1e4, 3e4, 5e3});

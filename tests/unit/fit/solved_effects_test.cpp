@@ -2,6 +2,7 @@
 // objects that moved.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "experiment/registration.h"
@@ -73,6 +74,41 @@ TEST_F(FeaturedModel, ALayerIsFoundFromFarAway) {
     }
   }
   EXPECT_GE(inside, 2 * kDraws - 2);
+}
+
+// A layer that trades its thickness for its stiffness: at the end of the interval's longer side,
+// here the lower one, the least sum of squares, solved by a fit of its own, has risen as chi
+// squared's 95 % ask (Venzon and Moolgavkar, 1988). The parabola's end is far from there.
+TEST_F(FeaturedModel, TheIntervalOfALayerIsThatOfItsProfile) {
+  const Model truth = test::with(test::elastic(1.5e4, 0.42), "layer", {0.002, 3});
+  const Selection all = all_episodes(w().dataset);
+  test::measure(w(), truth, 0.005, 2);
+  FitOptions o{0.005, 0, true};
+  const Fit plain = fit(truth, w(), all, o);
+  o.ridges = true;
+  const Fit found = fit(plain.model, w(), all, o, plain.about);
+  ASSERT_TRUE(found.converged) << found.message;
+  const Parameter& t = *found.model.find("layer", 0, "thickness");
+  const double factor = std::exp(1.96 * t.std_error / t.value);
+  Model held = found.model;
+  held.find("layer", 0, "thickness")->value /= factor;
+  held.find("layer", 0, "thickness")->state = ParameterState::kFixed;
+  o.ridges = false;
+  const Fit beside = fit(held, w(), all, o);
+  EXPECT_TRUE(beside.converged) << beside.message;
+  const auto sum = [&](const Fit& f) {
+    return static_cast<double>(f.residuals) * std::pow(f.error.pooled / o.noise, 2);
+  };
+  const double rise = sum(beside) - sum(found);
+  const double parabola =
+      std::exp(1.96 * plain.model.find("layer", 0, "thickness")->std_error / t.value);
+  std::printf("thickness %.3g over %.3g: rise %.3g; by the curvature over %.3g\n", t.value, factor,
+              rise, parabola);
+  EXPECT_NEAR(rise, 3.84, 0.6);
+  EXPECT_GT(factor, 1.2 * parabola);
+  EXPECT_TRUE(std::any_of(found.blind.begin(), found.blind.end(), [](const std::string& s) {
+    return s.find("layer thickness and ratio trade for each other") != std::string::npos;
+  }));
 }
 
 TEST(MoveLimits, HoldOnlyWhatTheBodyIsLinearIn) {
