@@ -214,10 +214,6 @@ std::string learned_words(const Diagnosis& d) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 // What passed and is not stood by.
 std::string doubted_words(const Diagnosis& d) {
   std::string names;

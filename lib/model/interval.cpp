@@ -16,7 +16,8 @@ constexpr double kUneven = 0.2;          // above this share of its value an err
 }  // namespace
 
 bool is_logarithmic(const Parameter& p) {
-  const ParameterCard* card = parameter_card(require_effect(p.effect), p.name);
+  const Effect* effect = find_effect(p.effect);
+  const ParameterCard* card = effect != nullptr ? parameter_card(*effect, p.name) : nullptr;
   return card != nullptr && card->logarithmic && p.value > 0;
 }
 

@@ -28,7 +28,7 @@ std::string with_interval(double value, const std::string& unit, double std_erro
                           const ParameterInterval& interval, bool logarithmic, int digits,
                           int error_digits);
 
-bool is_logarithmic(const Parameter& p);
+bool is_logarithmic(const Parameter& p);  // no: of an effect that the catalogue has not
 // Whether with_interval() tells the interval.
 bool tells_interval(double value, double std_error, bool logarithmic);
 

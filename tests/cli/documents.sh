@@ -25,7 +25,6 @@ excused() { # COMMAND
     hs-scan2ply\ *--robot\ *) ;;                         # scan2ply.sh: a robot stands behind it
     hs-calibrate\ *--robot\ *) ;;                        # calibrate.sh: so it does there
     make\ -k\ -C\ batch\ *) ;;                           # batch.sh: the target is a name of the manifest
-    make\ *\ batch\ MANIFEST=*) ;;                       # batch.sh
     *--refine-boundary\ *) ;;                            # regions_path.sh
     *--effects\ auto\ --history*) ;;                     # pipeline.sh
     *) return 1 ;;

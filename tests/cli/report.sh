@@ -104,7 +104,7 @@ for size in '1280 800' '390 844'; do
   seen 'all of it' true
   seen screen true
 done
-grep -q '19706 to 2.029e+04\|1.971e+04 to 2.029e+04' report.html || complain 'no interval of E'
+grep -q '1.971e+04 to 2.03e+04' report.html || complain 'no interval of E' # 20000 times or over exp(1.96 * 150 / 20000)
 grep -q "<li><span>+ regions</span><b>0.06 N</b>" report.html || complain 'no strip of versions'
 grep -q "<code id='next'>hs-identify data.csv .* --add friction -o better.csv</code>" report.html || complain 'no next command'
 
