@@ -5,7 +5,8 @@
 // as hs-identify takes it. With -own the meshes are the model's own and do not err: the noise
 // alone. A line a case: draws that converged; of these, held by value +- 1.96 standard errors of
 // the curvature, by the intervals that are told, and how wide these are (median factor from value
-// to end); seconds of a fit with and without them, by the clock.
+// to end); seconds of a fit with and without them, by the clock. COVERAGE_DRAWS=1: a line a draw
+// too.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

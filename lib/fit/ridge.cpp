@@ -14,8 +14,6 @@
 namespace hapsim {
 namespace {
 
-constexpr double kHalf = 1.959963985;  // 95 % in standard deviations
-
 // The way that a parameter has gone, in logarithms where it is stepped so.
 double way(const Parameter& p, double to) {
   return is_logarithmic(p) && to > 0 ? std::log(to / p.value) : to - p.value;
@@ -77,7 +75,8 @@ void set_ridge_errors(Fit& fitted, const Ridge& ridge, const Eigen::MatrixXd& br
       const double half = std::max(std::log(ridge.high / p.value), std::log(p.value / ridge.low));
       // A fit on the way that has not come to its end rises too early: no shorter than the
       // parabola.
-      if (const double error = p.value * half / kHalf; !(error < p.std_error)) p.std_error = error;
+      if (const double error = p.value * half / kHalf95; !(error < p.std_error))
+        p.std_error = error;
       if (!ridge.open_low || !ridge.open_high) continue;
       p.std_error = std::numeric_limits<double>::quiet_NaN();
       const std::string name = parameter_label(p);
@@ -91,7 +90,7 @@ void set_ridge_errors(Fit& fitted, const Ridge& ridge, const Eigen::MatrixXd& br
     const double along = bread(w, w) > 0 ? bread(k, w) / bread(w, w) : 0;
     const double beside =
         std::max(0.0, covariance(k, k) - along * along * covariance(w, w)) / (slope * slope);
-    const double error = slope * std::sqrt(extent * extent / (kHalf * kHalf) + beside);
+    const double error = slope * std::sqrt(extent * extent / (kHalf95 * kHalf95) + beside);
     // What is at its bound or not seen has none; one that the curvature has made larger stays.
     if (error > p.std_error) p.std_error = error;
   }

@@ -10,8 +10,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kHalf95 = 1.959963985;  // of a normal distribution, in standard deviations
-constexpr double kUneven = 0.2;          // above this share of its value an error is no +-
+constexpr double kUneven = 0.2;  // above this share of its value an error is no +-
 
 }  // namespace
 

@@ -8,6 +8,8 @@
 
 namespace hapsim {
 
+inline constexpr double kHalf95 = 1.959963985;  // of 95 % of a normal distribution [std deviations]
+
 // NaN where nothing is estimated.
 struct ParameterInterval {
   double lower = std::numeric_limits<double>::quiet_NaN();
