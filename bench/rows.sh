@@ -1,28 +1,35 @@
 #!/usr/bin/env bash
-# rows.sh BIN [ROWS...] [--places N]: identification and diagnosis as recordings grow. The phantom's presses (12
-# places, 36 presses, simulated with fine contact meshes), or one press of a ramp, a hold and a way back at each of N
-# places, sampled to each number of ROWS (7e3, 1e5, 1e6), with noise of 0.02 N, simulated on the true surface;
-# identified and diagnosed on the body of the scan, everything prepared. Truths: a relaxation, nothing, nothing with
-# noise as large that wanders within 50 ms; with --places a relaxation and friction, all on coarser contact meshes. A
-# line a run: rows as recorded and as fitted, processor seconds of all threads, seconds by the clock, peak memory, and
-# of the answer what can be checked: how far E1 and tau1 are from the truth, in percent and standard errors, or the
-# verdict and the names.
+# rows.sh BIN [ROWS...] [--places N] [--truths NAME,...] [--keep FOLDER]: identification and diagnosis as recordings
+# grow. The phantom's presses (12 places, 36 presses, simulated with fine contact meshes), or one press of a ramp, a
+# hold and a way back at each of N places, sampled to each number of ROWS (7e3, 1e5, 1e6), with noise of 0.02 N,
+# simulated on the true surface; identified and diagnosed on the body of the scan, everything prepared. Truths: a
+# relaxation, nothing, nothing with noise as large that wanders within 50 ms; with --places a relaxation and friction,
+# all on coarser contact meshes; with --truths those, of all that model() has. A line a run: rows as recorded and as
+# fitted, processor seconds of all threads, seconds by the clock, peak memory, and of the answer what can be checked:
+# how far E1 and tau1 are from the truth, in percent and standard errors, or the verdict and the names. With --keep the
+# recordings stay in FOLDER, and are not simulated again by the next call.
 # Recorded in bench/results/rows.txt (bench/record.sh).
 set -euo pipefail
 bin=$(cd "$1" && pwd)
 shift
-rows=() places=0
+rows=() places=0 keep="" truths=()
 while (($#)); do
   case $1 in
     --places) places=$2; shift ;;
+    --truths) IFS=, read -ra truths <<<"$2"; shift ;;
+    --keep) keep=$2; shift ;;
     *) rows+=("$1") ;;
   esac
   shift
 done
 ((${#rows[@]})) || rows=(7e3 1e5 1e6)
 phantom=$(cd "$(dirname "${BASH_SOURCE[0]}")/../share/examples/phantom" && pwd)
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+if [[ $keep ]]; then
+  mkdir -p "$keep" && work=$(cd "$keep" && pwd)
+else
+  work=$(mktemp -d)
+  trap 'rm -rf "$work"' EXIT
+fi
 cd "$work"
 export XDG_CACHE_HOME=$work/cache
 
@@ -76,6 +83,11 @@ model() { # what is beside E and nu
   case $1 in
     relaxation) printf 'viscoelastic,0,E1,8000\nviscoelastic,0,tau1,1.2\n' ;;
     friction) printf 'friction,0,mu,0.12\n' ;;
+    hyperelastic) printf 'hyperelastic,0,s,0.3\n' ;;
+    softening) printf 'softening,0,s,0.15\n' ;;
+    lag) printf 'sensor-lag,0,tau,0.02\n' ;;
+    layer) printf 'layer,0,thickness,0.003\nlayer,0,ratio,3\n' ;;
+    inclusion) printf 'inclusion,0,%s\n' x,0.01 y,0.005 z,0.024 radius,0.008 ratio,8 ;;
   esac
 }
 # Noise of 0.02 N in place of white one, each component from the one before in a press; declared.
@@ -112,28 +124,38 @@ verdict() { # DIAGNOSIS
 }
 
 printf '%-10s %-24s %9s %9s %8s %8s %7s  %s\n' truth run rows fitted cpu_s clock_s MB answer
-truths=(relaxation nothing wandering) fine=(--rim-edge 0.12) usual=()
-((places == 0)) || truths=(relaxation friction) fine=(--rim-edge 0.25) usual=(--rim-edge 0.3)
+chosen=(relaxation nothing wandering) fine=(--rim-edge 0.12) usual=()
+((places == 0)) || chosen=(relaxation friction) fine=(--rim-edge 0.25) usual=(--rim-edge 0.3)
+((${#truths[@]})) || truths=("${chosen[@]}")
 for n in "${rows[@]}"; do
   motion "$n" >motion.csv
   for truth in "${truths[@]}"; do
     model "$truth" >truth.csv
-    simulated=("$bin/hs-simulate" -q motion.csv --body true.ply --model truth.csv "${fine[@]}")
-    if [[ $truth == wandering ]]; then "${simulated[@]}" | wandering >data.csv; else "${simulated[@]}" --add-noise 0.02 -o data.csv; fi
-    count=$(grep -c '^[0-9]' data.csv)
+    made=("${fine[@]}")
+    [[ $truth != @(layer|inclusion) ]] || made=(--rim-edge 0.4)  # whose elements are solved anew
+    simulated=("$bin/hs-simulate" -q motion.csv --body true.ply --model truth.csv "${made[@]}")
+    data=$truth-$places-$n.csv
+    if [[ -s $data ]]; then
+      :
+    elif [[ $truth == wandering ]]; then
+      "${simulated[@]}" | wandering >made.csv && mv made.csv "$data"
+    else
+      "${simulated[@]}" --add-noise 0.02 -o "$data"
+    fi
+    count=$(grep -c '^[0-9]' "$data")
     # What is prepared once a body is not counted.
-    "$bin/hs-identify" -q data.csv --body body.ply "${usual[@]}" --effects elastic --folds 0 -o m0.csv
+    "$bin/hs-identify" -q "$data" --body body.ply "${usual[@]}" --effects elastic --folds 0 -o m0.csv
     if [[ $truth == relaxation ]]; then
-      run "$bin/hs-identify" data.csv --body body.ply "${usual[@]}" --effects elastic,viscoelastic -o m1.csv &&
+      run "$bin/hs-identify" "$data" --body body.ply "${usual[@]}" --effects elastic,viscoelastic -o m1.csv &&
         told "$truth" hs-identify "$count" "$(values m1.csv)"
-      run "$bin/hs-identify" data.csv --body body.ply "${usual[@]}" --effects elastic,viscoelastic --robust huber -o m1.csv &&
+      run "$bin/hs-identify" "$data" --body body.ply "${usual[@]}" --effects elastic,viscoelastic --robust huber -o m1.csv &&
         told "$truth" 'hs-identify, huber' "$count" "$(values m1.csv)"
       ((count > 200000)) &&
-        run "$bin/hs-identify" data.csv --body body.ply "${usual[@]}" --effects elastic,viscoelastic --most-rows 0 -o m1.csv &&
+        run "$bin/hs-identify" "$data" --body body.ply "${usual[@]}" --effects elastic,viscoelastic --most-rows 0 -o m1.csv &&
         told "$truth" 'hs-identify, all rows' "$count" "$(values m1.csv)"
     fi
-    "$bin/hs-diagnose" -q data.csv --body body.ply "${usual[@]}" --model m0.csv -o effects.csv
-    run "$bin/hs-diagnose" data.csv --body body.ply "${usual[@]}" --model m0.csv -o effects.csv &&
+    "$bin/hs-diagnose" -q "$data" --body body.ply "${usual[@]}" --model m0.csv -o effects.csv
+    run "$bin/hs-diagnose" "$data" --body body.ply "${usual[@]}" --model m0.csv -o effects.csv &&
       told "$truth" hs-diagnose "$count" "$(verdict effects.csv)"
   done
 done
