@@ -12,9 +12,10 @@ import zlib
 import numpy as np
 
 import causes
+import newcomers
 import strangers
 
-EVERY = causes.every_cause() + strangers.every_stranger()
+EVERY = causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer()
 
 
 class Null:
