@@ -2,7 +2,7 @@
 those of strangers.py gave it; kinds, names and known as there, fixed before anything was diagnosed."""
 import numpy as np
 
-from causes import Cause, presses
+from causes import Cause, back_and_forth, presses
 from strangers import BIAS, GAINS, RELAX, SIZES, after, depth, plus, share, since, sized, speed, times
 
 
@@ -124,7 +124,7 @@ PLAIN = [
     ("sideways-memory", sideways_memory, "history direction axes", ["viscoelastic"], {}),
     ("creeps-away", creeps_away, "history direction", ["viscoelastic", "friction"], {}),
     ("buckles", times(buckles), "place depth", [], {}),
-    ("sucks", plus(sucks), "speed history", ["adhesion", "damper"], {}),
+    ("sucks", plus(sucks), "speed history", ["adhesion", "damper"], {"path": back_and_forth}),
     ("floor-shakes", plus(floor_shakes), "frequency session event", [], {}),
     ("half-way", times(half_way), "session order event", GAINS, {}),
     ("mistyped", mistyped, "place", ["learned-place", "regions"], {}),
@@ -132,20 +132,20 @@ PLAIN = [
     ("trains", times(trains), "session order", GAINS, {}),
     ("deeper-relaxes-more", deeper_relaxes_more, "history depth", ["qlv", "viscoelastic"], {}),
     ("squares", plus(squares), "depth direction axes set-up", ["sensor-crosstalk"], {}),
-    ("charge", plus(charge), "history offset", ["sensor-hysteresis"], {}),
+    ("charge", plus(charge), "history offset", ["sensor-hysteresis"], {"path": back_and_forth}),
     ("beats", times(beats), "frequency", ["breathing"], {}),
     ("fatigue", times(fatigue), "history speed", ["viscoelastic"], {}),
 ]
 MIXED = [
-    ("relax-regrip", after(RELAX, times(regrip)), "session order event", "viscoelastic", GAINS),
-    ("relax-buckles", after(RELAX, times(buckles)), "place depth", "viscoelastic", []),
-    ("bias-beats", after(times(beats), BIAS), "frequency", "sensor-bias", ["breathing"]),
-    ("bias-charge", after(plus(charge), BIAS), "history offset", "sensor-bias", ["sensor-hysteresis"]),
+    ("relax-regrip", after(RELAX, times(regrip)), "session order event", "viscoelastic", GAINS, None),
+    ("relax-buckles", after(RELAX, times(buckles)), "place depth", "viscoelastic", [], None),
+    ("bias-beats", after(times(beats), BIAS), "frequency", "sensor-bias", ["breathing"], None),
+    ("bias-charge", after(plus(charge), BIAS), "history offset", "sensor-bias", ["sensor-hysteresis"], back_and_forth),
 ]
 
 
 def every_newcomer():
     found = [Cause("%s-%d" % (name, k), kind, names, forces=sized(forces, k), **more)
              for name, forces, kind, names, more in PLAIN for k in SIZES]
-    return found + [Cause(name, kind, names, forces=forces, known=known.split())
-                    for name, forces, kind, known, names in MIXED]
+    return found + [Cause(name, kind, names, forces=forces, known=known.split(), path=path)
+                    for name, forces, kind, known, names, path in MIXED]
