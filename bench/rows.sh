@@ -83,7 +83,7 @@ model() { # what is beside E and nu
   case $1 in
     relaxation) printf 'viscoelastic,0,E1,8000\nviscoelastic,0,tau1,1.2\n' ;;
     friction) printf 'friction,0,mu,0.12\n' ;;
-    hyperelastic) printf 'hyperelastic,0,%s\n' s,0.3 finite,0 ;;
+    hyperelastic) printf 'hyperelastic,0,%s\n' s,0.3 finite,1 ;;
     softening) printf 'softening,0,%s\n' s,0.15 m,2 c,1 k,0 rate,0 ;;
     lag) printf 'sensor-lag,0,%s\n' tau,0.02 delay,0 ;;
     layer) printf 'layer,0,thickness,0.003\nlayer,0,ratio,3\n' ;;
