@@ -13,11 +13,11 @@
 // then how often 1.96 times the stated uncertainty covers the error against `finer`, how often it
 // is above 2 % (where the force is more than that off, too), and the latencies of steps in contact.
 //
-//   bench_large_strain BODY.ply MODEL.csv CONTACTS.csv PLACES [SAMPLES [SHARE]]
+//   bench_large_strain BODY.ply MODEL.csv CONTACTS.csv PLACES [SAMPLES [SHARE [SEED]]]
 // (large_strain.sh makes them)
 //
 // CONTACTS: places (x,y,z in metres, without a header) about which is sampled. HAPSIM_BENCH_CACHE:
-// where samples stay.
+// where samples stay. SEED draws the presses (2026).
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
@@ -152,7 +152,7 @@ void run(int argc, char** argv) {
   const bool relaxes_too = static_part(model).parameters.size() < model.parameters.size();
   const int every = relaxes_too ? kEveryRelaxing : kEvery;
   const ContactBase base = make_contact_base(body);
-  Random random(2026);
+  Random random(argc > 7 ? static_cast<std::uint64_t>(std::atoll(argv[7])) : 2026);
   Errors same, finer, full, closed;
   std::vector<double> latencies;
   std::size_t covered = 0, told = 0, beyond = 0, full_all = 0, off = 0, off_and_said = 0, said = 0;
@@ -251,9 +251,9 @@ void run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   if (argc < 5) {
-    fmt::print(
-        stderr,
-        "usage: bench_large_strain BODY.ply MODEL.csv CONTACTS.csv PLACES [SAMPLES [SHARE]]\n");
+    fmt::print(stderr,
+               "usage: bench_large_strain BODY.ply MODEL.csv CONTACTS.csv PLACES [SAMPLES [SHARE "
+               "[SEED]]]\n");
     return 2;
   }
   try {

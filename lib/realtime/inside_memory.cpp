@@ -5,15 +5,15 @@
 namespace hapsim {
 
 const MemorySet& inside_ways() {
-  static const MemorySet set = memory_set(2, 2);
+  static const MemorySet set = memory_set(1, 2);
   return set;
 }
 const MemorySet& inside_now() {
-  static const MemorySet set = memory_set(0, 3);
+  static const MemorySet set = memory_set(0, 4, 2);
   return set;
 }
 const MemorySet& inside_before() {
-  static const MemorySet set = memory_set(1, 3);
+  static const MemorySet set = memory_set(1, 4, 2);
   return set;
 }
 

@@ -7,9 +7,9 @@ namespace hapsim {
 
 // The inside of a body that remembers stresses of other states departs from where the static body
 // has it, which the force feels at second order; where the tool leaves and the force passes through
-// zero that is all there is. It departs along six fields y_j alone, nearly: what the stresses of
-// second degree in v, S(v) = s_b v_b + s_bc v_b v_c by least squares, move inside the undeformed
-// body, y = -K^-1 (their forces), one a monomial of second degree. By amplitudes x of these
+// zero that is all there is. It departs along nine fields y_j alone, nearly: what the stresses
+// S(v) = s_b v_b + s_bc v_b v_c, by least squares, move inside a body that is pressed a little,
+// straight down, y = -K^-1 (their forces), one a monomial. By amplitudes x of these
 // (Galerkin's method) the strains at displacement u are
 //   E(u, x) = E(u) + sum of x_j E_j(u) + x_j x_k E_jk / 2,   E_j = dE/dy_j,
 // the stresses S(u) + sum of x_j D E_j, D the law's moduli, both with what of them fades. x holds
@@ -23,9 +23,11 @@ namespace hapsim {
 //   z_jn          memories of x_j n(u), z_k0 of x_k alone; c the share that a step adds at once.
 // Forces over k a in axes of v:
 //   f = x_j h_m g_jnm n'_n + x_j (A' + G(m)')_jk x_k / 2 + z_jn w_jnm m'_m + x_j A'_jk z_k0 / 2.
-// Nothing where what is remembered is a multiple of what is now. Springs under a body are left out
-// of A, as if the fields did not reach them.
-constexpr int kInsideFields = 6, kInsideNow = 20, kInsideBefore = 19;
+// Nothing where what is remembered is a multiple of what is now. Fields of the undeformed body hold
+// a quarter of the energy of what the inside does on the way out, at half of the depth, these more
+// than half of it (measured on a block, whose forces are then ... as far off). Springs under a body
+// are left out of A, as if the fields did not reach them.
+constexpr int kInsideFields = 9, kInsideNow = 22, kInsideBefore = 21;
 using InsideAmplitudes = Eigen::Matrix<double, kInsideFields, kInsideNow>;  // x_j n(u)
 
 struct InsideMemory {

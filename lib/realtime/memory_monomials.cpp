@@ -33,17 +33,17 @@ constexpr std::array<MemoryPowers, kMemoryTerms> kMemoryPowers = memory_powers()
 
 }  // namespace
 
-MemorySet memory_set(int least, int most) {
+MemorySet memory_set(int least, int most, int across) {
   MemorySet set;
-  const auto add = [&](int across, int first) {
-    set.run[static_cast<std::size_t>(set.runs++)] = {set.size, across};
-    for (int b = 0; b <= across; ++b)
+  const auto add = [&](int own, int first) {
+    set.run[static_cast<std::size_t>(set.runs++)] = {set.size, own};
+    for (int b = 0; b <= own; ++b)
       set.at[static_cast<std::size_t>(set.size++)] = first < 0 ? -1 : first + b;
   };
   if (least == 0) add(0, -1);
   int n = 0;
   each_memory_run([&](int m, int i) {
-    if (i + m >= least && i + m <= most) add(m, n);
+    if (i + m >= least && i + m <= most && m <= across) add(m, n);
     n += m + 1;
   });
   return set;

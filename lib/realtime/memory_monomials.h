@@ -24,8 +24,9 @@ struct MemoryPoint {
 };
 MemoryPoint memory_point(const Vec3& v, const Vec3& rest = Vec3::Zero()) noexcept;
 
-// Some of them, in their order: those of degrees `least` to `most`, the constant first where
-// `least` is 0. What turns about d mix are runs of them, of the same i and j + k.
+// Some of them, in their order: those of degrees `least` to `most` and of j + k to `across`, the
+// constant first where `least` is 0. What turns about d mix are runs of them, of the same i and j +
+// k.
 struct MemorySet {
   struct Run {
     int first, across;  // its place in the set, j + k: across + 1 monomials
@@ -34,7 +35,7 @@ struct MemorySet {
   std::array<int, kMemoryTerms + 1> at{};  // places among all; -1: the constant
   std::array<Run, 22> run{};
 };
-MemorySet memory_set(int least, int most);
+MemorySet memory_set(int least, int most, int across = 4);
 
 // Values and gradients of a set.
 template <int N>

@@ -11,9 +11,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr double kMemoryRidge = 1e-7;  // of the columns' squares
+constexpr double kInsideRidge = 1e-4;  // the same of InsideMemory
 constexpr double kMemoryFloor = 0.05;  // of the largest force
 constexpr double kMemorySlope = 0.25;  // radii: how far a derivative counts
 constexpr double kMemoryPin = 10;      // of the undeformed state, whose response is the stiffness
+// Of states that are farthest aside: the surface folds beside the tool there, which polynomials do
+// not follow, and at full weight they spoil the states between.
+constexpr double kMemoryAside = 0.3;
 
 const MemorySet& whole_memory() {
   static const MemorySet set = memory_set(1, 6);
@@ -21,14 +25,20 @@ const MemorySet& whole_memory() {
 }
 
 // Least squares with a ridge on scaled columns: x = result y.
-MatrixXd ridge_inverse(const MatrixXd& A) {
+MatrixXd ridge_inverse(const MatrixXd& A, double ridge = kMemoryRidge) {
   const Index rows = A.rows(), n = A.cols();
   const Eigen::VectorXd scale = A.colwise().norm().cwiseMax(1e-12).cwiseInverse().transpose();
   MatrixXd whole = MatrixXd::Zero(rows + n, n);
   whole.topRows(rows) = A * scale.asDiagonal();
-  whole.bottomRows(n).diagonal().setConstant(std::sqrt(kMemoryRidge));
+  whole.bottomRows(n).diagonal().setConstant(std::sqrt(ridge));
   const MatrixXd right = MatrixXd::Identity(rows + n, rows);
   return scale.asDiagonal() * MatrixXd(whole.colPivHouseholderQr().solve(right));
+}
+
+// 1 to half of strain_side(), kMemoryAside at all of it.
+double aside_weight(const Vec3& v) {
+  const double share = std::hypot(v[1], v[2]) / strain_side(v[0]);
+  return 1 - (1 - kMemoryAside) * std::clamp(2 * share - 1, 0.0, 1.0);
 }
 
 // Values of a set's monomials at states, a row each.
@@ -106,7 +116,7 @@ StrainMemory StressStates::fit(double& error) const {
     before.row(4 * i) = at.m.transpose();
     before.middleRows<3>(4 * i + 1) = at.gradient;
     const double pin = v.isZero(0) ? kMemoryPin : 1;
-    columns[4 * i] = values[i] = 1 / std::max(size[i], floor);
+    columns[4 * i] = values[i] = aside_weight(v) / std::max(size[i], floor);
     rows.segment<3>(3 * i).setConstant(pin * values[i]);
     columns.segment<3>(4 * i + 1).setConstant(pin * kMemorySlope * columns[4 * i]);
   }
@@ -135,8 +145,8 @@ void StressStates::fit_inside(const Eigen::VectorXd& weights, InsideMemory& insi
     if (v_[i].isZero(0)) pinned[static_cast<Index>(i)] *= kMemoryPin;
   const MatrixXd now = pinned.asDiagonal() * values_of<kInsideNow>(inside_now(), v_),
                  before = weights.asDiagonal() * values_of<kInsideBefore>(inside_before(), v_),
-                 left = ridge_inverse(now) * pinned.asDiagonal(),
-                 right = ridge_inverse(before) * weights.asDiagonal();
+                 left = ridge_inverse(now, kInsideRidge) * pinned.asDiagonal(),
+                 right = ridge_inverse(before, kInsideRidge) * weights.asDiagonal();
   // On the fields at i by stresses of each state, and by the fields' stresses at i on strains.
   MatrixXd works(kInsideFields, static_cast<Index>(states)), done = works;
   for (std::size_t i = 0; i < states; ++i) {
@@ -161,10 +171,10 @@ MatrixXd inside_weights(const std::vector<Vec3>& v) {
   Eigen::VectorXd weights(static_cast<Index>(v.size()));
   for (std::size_t i = 0; i < v.size(); ++i)
     weights[static_cast<Index>(i)] = v[i].isZero(0) ? 0 : 1 / v[i].norm();
-  constexpr int kTerms = 3 + kInsideFields;
-  const MatrixXd by = ridge_inverse(weights.asDiagonal() * values_of<kTerms>(memory_set(1, 2), v)) *
-                      weights.asDiagonal();
-  return by.bottomRows(kInsideFields).transpose();
+  const MatrixXd by =
+      ridge_inverse(weights.asDiagonal() * values_of<kInsideFields>(inside_ways(), v)) *
+      weights.asDiagonal();
+  return by.transpose();
 }
 
 }  // namespace hapsim

@@ -54,14 +54,14 @@ class StressStates {
   Eigen::Matrix3d frame_;
   double radius_, unit_;
   std::vector<Vec3> v_;
-  // n x 4, n x 3, n x 6, n x 6
+  // n x 4, n x 3, n x fields, n x fields
   std::vector<Eigen::MatrixXf> stress_, work_, inside_work_, inside_changes_;
   std::vector<Eigen::VectorXf> strain_;
   std::vector<Eigen::Matrix<double, kInsideFields, kInsideFields>> stiffness_, stressed_;
 };
 
-// Of states v: weights by which their stresses sum to those of InsideMemory's fields, s_bc of least
-// squares relative to v: states x 6.
+// Of states v: weights by which their stresses sum to those of InsideMemory's fields, s_b and s_bc
+// of least squares relative to v: states x fields.
 Eigen::MatrixXd inside_weights(const std::vector<Vec3>& v);
 
 }  // namespace hapsim

@@ -1,5 +1,7 @@
 #include "realtime/strain_sample.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
@@ -65,9 +67,13 @@ void fit(const Solved& solved, double radius, StrainSample& sample) {
   sample.c = x.cwiseProduct(scale);
 }
 
-// From the states that were visited.
+const char* const kUnstable =
+    "the undeformed body gives way under the tool (its stiffness is not positive definite)";
+
+// From the states that were visited, the first step straight down after the undeformed one. What
+// leaves nothing is told by `why`.
 void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
-              const std::vector<ToolBody::State>& states, StrainSample& sample) {
+              const std::vector<ToolBody::State>& states, StrainSample& sample, std::string& why) {
   const Eigen::MatrixXd weights = inside_weights(visited);
   Eigen::MatrixXd stresses;  // that move the inside
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -76,10 +82,12 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
     if (i == 0) stresses.setZero(s.size(), kInsideFields);
     stresses += s * weights.row(static_cast<Eigen::Index>(i));
   }
-  press.restore(states.front());
+  press.restore(states[1]);
   const std::optional<Eigen::MatrixXd> fields = press.moved_inside(stresses);
   if (!fields) {
     sample.into = 0;
+    why = fmt::format("the body that is pressed by {:.3g} tool radii gives way inside",
+                      visited[1][0]);
     return;
   }
   stresses.resize(0, 0);
@@ -94,6 +102,10 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
     // A state that is not stable inside has no response, so the way counts to the one before.
     const double d = visited[i][0], before = i > 0 ? visited[i - 1][0] : 0;
     sample.into = std::min(sample.into, before < d ? before : 0);
+    if (!(sample.into > 0) && why.empty())
+      why = i == 0
+                ? kUnstable
+                : fmt::format("the body that is pressed by {:.3g} tool radii gives way inside", d);
   }
   if (!(sample.into > 0)) return;
   sample.memory = all.fit(sample.memory_fit);
@@ -223,7 +235,10 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
     const Vec3 n = press.normal(), e = n.unitOrthogonal();
     sample.frame << -n.transpose(), e.transpose(), n.cross(e).transpose();
     const std::optional<Eigen::Matrix3d> K = press.stiffness();
-    if (!K) return std::nullopt;
+    if (!K) {
+      why = kUnstable;
+      return std::nullopt;
+    }
     sample.K = *K;
     sample.into = into;
     std::vector<Vec3> visited;
@@ -249,6 +264,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
         }
       } catch (const Error& error) {
         if (error.code() != ExitCode::kNoConvergence) throw;
+        if (!(reached > 0)) why = error.what();
       }
       sample.into = std::min(sample.into, reached);
     };
@@ -257,7 +273,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
       way(k * std::numbers::pi / 3, 1, kSideways);
       way((k + 0.5) * std::numbers::pi / 3, 0.5, kSideways);
     }
-    if (memory) remember(press, tool_radius, visited, states, sample);
+    if (memory && sample.into > 0) remember(press, tool_radius, visited, states, sample, why);
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
     why = error.what();

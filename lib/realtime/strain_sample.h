@@ -55,8 +55,9 @@ struct StrainSample {
 // rim with straight edges: forces over the linear stiffness of the same mesh are then within 1 % of
 // those of edges a third as long as far as these converge (one place of a block, s = 0.2), while
 // with quarter points (FullOptions) they are 4 to 7 % off. A way that does not converge ends there,
-// and the sample with the shortest. `model`: body and support effects alone, static. Nothing where
-// the model or the place is refused, as `why` then says, or nothing converges. `memory`: with what
+// and the sample with the shortest. `model`: body and support effects alone, static. Nothing, and
+// `why`, where the model or the place is refused, the undeformed body is not stable there, or
+// nothing converges. `memory`: with what
 // stresses of one state do at another, which takes some three times as long.
 std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
                                                 const Model& model, const Vec3& point,

@@ -51,6 +51,21 @@ TEST(StrainMemory, MonomialsHaveTheirDerivatives) {
             1e-7);
 }
 
+TEST(StrainMemory, SetsAreOfDegreesAndWaysAcross) {
+  const Vec3 v(0.7, 0.4, -0.6);
+  const MemoryPoint at = memory_point(v);
+  // 1; d, d^2; p, q, d p, d q: and no p^2.
+  const MemorySet set = memory_set(0, 2, 1);
+  ASSERT_EQ(set.size, 7);
+  const MemoryPart<7> part(set, at);
+  double sum = 0;
+  for (const double m : {1.0, 0.7, 0.49, 0.4, -0.6, 0.28, -0.42}) sum += m;
+  EXPECT_NEAR(part.m.sum(), sum, 1e-12);
+  EXPECT_EQ(inside_ways().size, kInsideFields);
+  EXPECT_EQ(inside_now().size, kInsideNow);
+  EXPECT_EQ(inside_before().size, kInsideBefore);
+}
+
 TEST(StrainMemory, TurnedAxesAreTheSameWork) {
   StrainMemory of, turned;
   MemoryMatrix& C = of.C;
