@@ -75,7 +75,7 @@ class BodyAssembly {
   // The laws' own stresses at the state, their factors included.
   PointStresses elastic_stresses() const;
   // With how they and the strains change along fields (3 nodes x m).
-  StressResponse stress_response(const Eigen::MatrixXd& fields) const;
+  StressResponse stress_response(const Eigen::MatrixXd& fields, const StressPart& part) const;
   // Nodal forces of such stresses alone (StressResponse's numbers) at the displacements u: straight
   // in the stresses, of second degree in u at most.
   Eigen::VectorXd forces_of(const Eigen::VectorXd& stress, const Eigen::VectorXd& u) const;
@@ -125,7 +125,8 @@ class BodyAssembly {
   void load_pass(const Eigen::VectorXd& stress, const Eigen::VectorXd& u,
                  Eigen::VectorXd& force) const;
   template <int N>
-  void response_pass(const Eigen::MatrixXd& fields, StressResponse& response) const;
+  void response_pass(const Eigen::MatrixXd& fields, const StressPart& part,
+                     StressResponse& response) const;
   template <int N>
   void field_pass(ElementFields& fields) const;
   template <int N>

@@ -27,33 +27,43 @@ Eigen::VectorXd PointStresses::numbers() const {
 }
 
 template <int N>
-void BodyAssembly::response_pass(const Eigen::MatrixXd& fields, StressResponse& r) const {
-  const Index m = fields.cols(), first_group = 6 * static_cast<Index>(weight_.size());
-  const Index n = first_group + static_cast<Index>(groups_.size());
+void BodyAssembly::response_pass(const Eigen::MatrixXd& fields, const StressPart& part,
+                                 StressResponse& r) const {
+  const std::size_t tets = mesh_->tets.size(), first = tets * part.index / part.count,
+                    last = tets * (part.index + 1) / part.count;
+  const bool groups = part.index + 1 == part.count;
+  const Index m = fields.cols(), from = 6 * static_cast<Index>(first_point_[first]),
+              first_group = 6 * static_cast<Index>(first_point_[last]) - from;
+  const Index n = first_group + (groups ? static_cast<Index>(groups_.size()) : 0);
   r.stress.setZero(n);
   r.strain.setZero(n);
   r.changes.setZero(n, m);
   r.work.setZero(n, m);
-  for (std::size_t t = 0; t < mesh_->tets.size(); ++t) {
+  for (std::size_t t = groups ? 0 : first; t < last; ++t) {
     const auto u = gather<N>(u_, t);
     for (int q = 0; q < points(t); ++q) {
       const Point p = point<N>(t, q, u);
+      const Gradients<N> G(gradient_.data() + (first_point_[t] + q) * 3 * N);
+      if (groups)
+        for (Index j = 0; j < m; ++j) {
+          const Matrix3d H = gather<N>(fields.col(j), t) * G.transpose();
+          r.work(first_group + group(t, q), j) += p.weight * p.cofactor.cwiseProduct(H).sum();
+        }
+      if (t < first) continue;
       const PointResponse law = laws_[law_[t]]->respond(p.C, true);
-      const Index at = 6 * (first_point_[t] + q);
+      const Index at = 6 * (first_point_[t] + q) - from;
       r.stress.segment<6>(at) = scale_[t] * law.S;
       r.strain.segment<6>(at) = p.weight * doubled(0.5 * (p.C - Matrix3d::Identity()));
-      const Gradients<N> G(gradient_.data() + (first_point_[t] + q) * 3 * N);
       for (Index j = 0; j < m; ++j) {
         const Matrix3d H = gather<N>(fields.col(j), t) * G.transpose();
         const Matrix3d FH = p.F.transpose() * H;
         const Voigt e = doubled(0.5 * (FH + FH.transpose()));
         r.changes.block<6, 1>(at, j) = scale_[t] * law.D * e;
         r.work.block<6, 1>(at, j) = p.weight * e;
-        r.work(first_group + group(t, q), j) += p.weight * p.cofactor.cwiseProduct(H).sum();
       }
     }
   }
-  for (std::size_t i = 0; i < groups_.size(); ++i) {
+  for (std::size_t i = 0; groups && i < groups_.size(); ++i) {
     const Group& g = groups_[i];
     const VolumeResponse v = laws_[g.law]->volume(g.theta);
     const Index at = first_group + static_cast<Index>(i);
@@ -90,12 +100,13 @@ Eigen::VectorXd BodyAssembly::forces_of(const Eigen::VectorXd& stress,
   return force;
 }
 
-StressResponse BodyAssembly::stress_response(const Eigen::MatrixXd& fields) const {
+StressResponse BodyAssembly::stress_response(const Eigen::MatrixXd& fields,
+                                             const StressPart& part) const {
   StressResponse result;
   if (nodes_ == 4)
-    response_pass<4>(fields, result);
+    response_pass<4>(fields, part, result);
   else
-    response_pass<10>(fields, result);
+    response_pass<10>(fields, part, result);
   return result;
 }
 

@@ -170,25 +170,27 @@ VectorXd NonlinearBody::reaction() const {
   return impl_->gather(impl_->assembly.forces());
 }
 
-StressResponse NonlinearBody::stress_response(const MatrixXd& fields,
-                                              const MatrixXd& inside) const {
+StressResponse NonlinearBody::stress_response(const MatrixXd& fields, const MatrixXd& inside,
+                                              const StressPart& part) const {
   const Impl& body = *impl_;
   const Index m = fields.cols(), more = inside.cols();
-  if (more == 0) return body.assembly.stress_response(fields);
+  if (more == 0) return body.assembly.stress_response(fields, part);
   MatrixXd both(body.u.size(), m + more);
   both << fields, inside;
-  StressResponse result = body.assembly.stress_response(both);
+  StressResponse result = body.assembly.stress_response(both, part);
   result.inside_changes = result.changes.rightCols(more);
   result.inside_work = result.work.rightCols(more);
   result.changes.conservativeResize(Eigen::NoChange, m);
   result.work.conservativeResize(Eigen::NoChange, m);
   // Exact for forces of second degree, as those of S; of the pressure's to rounding for a small h.
+  if (part.index + 1 < part.count) return result;
   const double h = 0.01;
+  const VectorXd stress = body.assembly.elastic_stresses().numbers();
   result.inside_stressed.resize(more, more);
   for (Index k = 0; k < more; ++k) {
     const VectorXd by = h * inside.col(k);
-    const VectorXd change = body.assembly.forces_of(result.stress, body.u + by) -
-                            body.assembly.forces_of(result.stress, body.u - by);
+    const VectorXd change =
+        body.assembly.forces_of(stress, body.u + by) - body.assembly.forces_of(stress, body.u - by);
     result.inside_stressed.col(k) = inside.transpose() * change / (2 * h);
   }
   return result;

@@ -103,9 +103,10 @@ class NonlinearBody {
   };
   Linearisation linearise(bool by_scale = false);
   // At the present equilibrium, by directions of handles: after linearise(), of whose `fields`
-  // these are some. `inside`: other fields that are asked for, a column each, or none.
-  StressResponse stress_response(const Eigen::MatrixXd& fields,
-                                 const Eigen::MatrixXd& inside) const;
+  // these are some. `inside`: other fields that are asked for, a column each, or none; of a part of
+  // the numbers `inside_stressed` is with the last one alone.
+  StressResponse stress_response(const Eigen::MatrixXd& fields, const Eigen::MatrixXd& inside,
+                                 const StressPart& part = {}) const;
   // What given stresses (StressResponse's numbers, a column each) would move inside beside the
   // present ones, to first order, the handles held: after linearise() [m].
   Eigen::MatrixXd moved_inside(const Eigen::MatrixXd& stresses) const;

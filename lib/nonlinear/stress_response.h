@@ -3,8 +3,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 namespace hapsim {
+
+// Part `index` of `count` of the numbers below, by tetrahedra; the last one ends with all groups'.
+struct StressPart {
+  std::size_t index = 0, count = 1;
+};
 
 // Of a state of a body: stresses as vectors of six numbers a quadrature point (the second
 // Piola-Kirchhoff stress, as Voigt) and one a dilatation group (its pressure), and with each the

@@ -330,12 +330,21 @@ std::optional<Eigen::Matrix3d> ToolBody::stiffness(int tool) {
   return Eigen::Matrix3d(about.K.block<3, 3>(at, at));
 }
 std::optional<StressResponse> ToolBody::stress_response(int tool, const MatrixXd& inside) {
+  const std::optional<MatrixXd> by = fields(tool);
+  if (!by) return std::nullopt;
+  return stress_response(*by, inside, {});
+}
+std::optional<MatrixXd> ToolBody::fields(int tool) {
   assert(!impl_->tools[static_cast<std::size_t>(tool)].tip);
   assert(impl_->terms == 0);
   const NonlinearBody::Linearisation about = impl_->body.linearise();
   if (!about.stable) return std::nullopt;
   const Index at = 3 * impl_->number[static_cast<std::size_t>(tool)];
-  return impl_->body.stress_response(about.fields.middleCols<3>(at), inside);
+  return MatrixXd(about.fields.middleCols<3>(at));
+}
+StressResponse ToolBody::stress_response(const MatrixXd& fields, const MatrixXd& inside,
+                                         const StressPart& part) const {
+  return impl_->body.stress_response(fields, inside, part);
 }
 std::optional<MatrixXd> ToolBody::moved_inside(const MatrixXd& stresses) {
   assert(impl_->terms == 0);

@@ -59,6 +59,10 @@ class ToolBody {
   // At the last step, by the three directions of a bonded tool, of a body that does not relax.
   // Nothing as above. `inside`: as NonlinearBody::stress_response().
   std::optional<StressResponse> stress_response(int tool, const Eigen::MatrixXd& inside);
+  // The same in two: the fields of the three directions, and from them, at the same step, a part.
+  std::optional<Eigen::MatrixXd> fields(int tool);
+  StressResponse stress_response(const Eigen::MatrixXd& fields, const Eigen::MatrixXd& inside,
+                                 const StressPart& part) const;
   // NonlinearBody::moved_inside() at the last step. Nothing as above.
   std::optional<Eigen::MatrixXd> moved_inside(const Eigen::MatrixXd& stresses);
 

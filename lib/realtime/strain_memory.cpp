@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hapsim {
 namespace {
@@ -63,47 +64,55 @@ void add_turned(const StrainMemory& of, const Eigen::Matrix3d& R, double weight,
   add_turned(of.inside, turn, weight, sum.inside);
 }
 
-void StressStates::add(const Vec3& v, const StressResponse& response) {
-  v_.push_back(v);
-  Eigen::MatrixXf stress(response.stress.size(), 4);
-  stress.col(0) = response.stress.cast<float>();
-  stress.rightCols<3>() = (radius_ * response.changes * frame_.transpose()).cast<float>();
-  stress_.push_back(std::move(stress));
-  work_.push_back((response.work * frame_.transpose()).cast<float>());
-  strain_.push_back(response.strain.cast<float>());
-  if (response.inside_work.cols() == 0) return;
-  inside_work_.push_back(response.inside_work.cast<float>());
-  inside_changes_.push_back(response.inside_changes.cast<float>());
-  stiffness_.emplace_back(response.inside_changes.transpose() * response.inside_work / unit_);
-  stressed_.emplace_back(response.inside_stressed / unit_);
+StressStates::StressStates(const Eigen::Matrix3d& frame, double radius, double unit,
+                           std::vector<Vec3> v)
+    : frame_(frame), radius_(radius), unit_(unit), v_(std::move(v)) {
+  const auto n = static_cast<Index>(v_.size());
+  forces_ = MatrixXd::Zero(3 * n, 4 * n);
+  works_ = MatrixXd::Zero(n, n);
 }
 
-MatrixXd StressStates::forces() const {
+void StressStates::add(const std::function<StressResponse(std::size_t state)>& of) {
   const auto n = static_cast<Index>(v_.size());
-  MatrixXd F(3 * n, 4 * n);
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i < n; ++i)
-      F.block<3, 4>(3 * j, 4 * i) =
-          (radius_ / unit_) *
-          (work_[static_cast<std::size_t>(j)].transpose() * stress_[static_cast<std::size_t>(i)])
-              .cast<double>();
-  return F;
-}
-
-MatrixXd StressStates::works() const {
-  const auto n = static_cast<Index>(v_.size());
-  MatrixXd W(n, n);
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i < n; ++i)
-      W(j, i) =
-          strain_[static_cast<std::size_t>(j)].dot(stress_[static_cast<std::size_t>(i)].col(0)) /
-          unit_;
-  return W;
+  Eigen::MatrixXf stress, all, work, strain, inside_work, inside_changes;  // numbers x states
+  for (Index i = 0; i < n; ++i) {
+    const StressResponse response = of(static_cast<std::size_t>(i));
+    const Index numbers = response.stress.size(), fields = response.inside_work.cols();
+    if (i == 0) {
+      stress.resize(numbers, n);
+      strain.resize(numbers, n);
+      all.resize(numbers, 4 * n);
+      work.resize(numbers, 3 * n);
+      inside_work.resize(numbers, fields * n);
+      inside_changes.resize(numbers, fields * n);
+    }
+    stress.col(i) = response.stress.cast<float>();
+    strain.col(i) = response.strain.cast<float>();
+    all.col(4 * i) = stress.col(i);
+    all.middleCols<3>(4 * i + 1) = (radius_ * response.changes * frame_.transpose()).cast<float>();
+    work.middleCols<3>(3 * i) = (response.work * frame_.transpose()).cast<float>();
+    if (fields == 0) continue;
+    inside_work.middleCols(fields * i, fields) = response.inside_work.cast<float>();
+    inside_changes.middleCols(fields * i, fields) = response.inside_changes.cast<float>();
+    stiffness_.resize(v_.size(), Eigen::Matrix<double, kInsideFields, kInsideFields>::Zero());
+    stressed_.resize(v_.size(), Eigen::Matrix<double, kInsideFields, kInsideFields>::Zero());
+    stiffness_[static_cast<std::size_t>(i)] +=
+        response.inside_changes.transpose() * response.inside_work / unit_;
+    if (response.inside_stressed.size() > 0)
+      stressed_[static_cast<std::size_t>(i)] += response.inside_stressed / unit_;
+  }
+  forces_ += (radius_ / unit_) * (work.transpose() * all).cast<double>();
+  works_ += (strain.transpose() * stress).cast<double>() / unit_;
+  if (stiffness_.empty()) return;
+  if (inside_works_.size() == 0)
+    inside_works_ = inside_done_ = MatrixXd::Zero(inside_work.cols(), n);
+  inside_works_ += (inside_work.transpose() * stress).cast<double>() / unit_;
+  inside_done_ += (inside_changes.transpose() * strain).cast<double>() / unit_;
 }
 
 StrainMemory StressStates::fit(double& error) const {
   const auto n = static_cast<Index>(v_.size());
-  const MatrixXd F = forces();
+  const MatrixXd& F = forces_;
   Eigen::VectorXd size(n);  // of the static force
   for (Index i = 0; i < n; ++i) size[i] = F.block<3, 1>(3 * i, 4 * i).norm();
   const double floor = kMemoryFloor * size.maxCoeff();
@@ -124,7 +133,7 @@ StrainMemory StressStates::fit(double& error) const {
                  right = ridge_inverse(columns.asDiagonal() * before) * columns.asDiagonal();
   StrainMemory memory;
   memory.C = left * F * right.transpose();
-  if (!inside_work_.empty()) fit_inside(values, memory.inside);
+  if (!stiffness_.empty()) fit_inside(values, memory.inside);
   const MatrixXd off = now * memory.C * before.transpose() - F;
   double squares = 0, count = 0;
   for (Index j = 0; j < n; ++j)
@@ -147,16 +156,12 @@ void StressStates::fit_inside(const Eigen::VectorXd& weights, InsideMemory& insi
                  before = weights.asDiagonal() * values_of<kInsideBefore>(inside_before(), v_),
                  left = ridge_inverse(now, kInsideRidge) * pinned.asDiagonal(),
                  right = ridge_inverse(before, kInsideRidge) * weights.asDiagonal();
-  // On the fields at i by stresses of each state, and by the fields' stresses at i on strains.
-  MatrixXd works(kInsideFields, static_cast<Index>(states)), done = works;
   for (std::size_t i = 0; i < states; ++i) {
-    for (std::size_t k = 0; k < states; ++k) {
-      const auto column = static_cast<Index>(k);
-      works.col(column) = (inside_work_[i].transpose() * stress_[k].col(0)).cast<double>();
-      done.col(column) = (inside_changes_[i].transpose() * strain_[k]).cast<double>();
-    }
-    const MatrixXd g = works * right.transpose() / unit_, w = done * right.transpose() / unit_;
     const auto row = static_cast<Index>(i);
+    const MatrixXd g = inside_works_.middleRows<kInsideFields>(kInsideFields * row) *
+                       right.transpose(),
+                   w = inside_done_.middleRows<kInsideFields>(kInsideFields * row) *
+                       right.transpose();
     for (int n = 0; n < kInsideNow; ++n) {
       inside.g.middleRows<kInsideFields>(kInsideFields * n) += left(n, row) * g;
       inside.w.middleRows<kInsideFields>(kInsideFields * n) += left(n, row) * w;

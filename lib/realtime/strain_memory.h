@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "base/vec3.h"
@@ -30,20 +31,22 @@ struct StrainMemory {
 void add_turned(const StrainMemory& of, const Eigen::Matrix3d& R, double weight,
                 StrainMemory& sum) noexcept;
 
-// What the solved states of one place say of it.
+// What the solved states of one place say of it: sums over their numbers, of which a part at a time
+// need be there.
 class StressStates {
  public:
-  // The body's directions are taken to those of v by `frame` (rows); `radius`, the tool's, is the
-  // unit of v [m]; `unit` the work that W is over [J].
-  StressStates(const Eigen::Matrix3d& frame, double radius, double unit)
-      : frame_(frame), radius_(radius), unit_(unit) {}
-  // With the fields of InsideMemory, in its order, where that is asked for.
-  void add(const Vec3& v, const StressResponse& response);
+  // Of states v. The body's directions are taken to those of v by `frame` (rows); `radius`, the
+  // tool's, is the unit of v [m]; `unit` the work that W is over [J].
+  StressStates(const Eigen::Matrix3d& frame, double radius, double unit, std::vector<Vec3> v);
+  // Adds what `of` says of each state, the same numbers of all: in the end all parts. With the
+  // fields of InsideMemory, in its order, or none. Memory: 4 bytes times 8 numbers, with the fields
+  // 26, a state and number of the part.
+  void add(const std::function<StressResponse(std::size_t state)>& of);
   // The force at each state (3 rows) by the stresses of each (4 columns: these, and their
   // derivatives by v), over unit / radius.
-  Eigen::MatrixXd forces() const;
+  const Eigen::MatrixXd& forces() const { return forces_; }
   // W by integration, of strains at row's state and stresses at the column's.
-  Eigen::MatrixXd works() const;
+  const Eigen::MatrixXd& works() const { return works_; }
   // Least squares over all pairs of states; `error`: of the forces, over each (floor 5 % of
   // the largest below), rms.
   StrainMemory fit(double& error) const;
@@ -54,9 +57,10 @@ class StressStates {
   Eigen::Matrix3d frame_;
   double radius_, unit_;
   std::vector<Vec3> v_;
-  // n x 4, n x 3, n x fields, n x fields
-  std::vector<Eigen::MatrixXf> stress_, work_, inside_work_, inside_changes_;
-  std::vector<Eigen::VectorXf> strain_;
+  Eigen::MatrixXd forces_, works_;
+  // On the fields at a state (rows, fields each) by the stresses of each, and by the fields'
+  // stresses there on the strains of each.
+  Eigen::MatrixXd inside_works_, inside_done_;
   std::vector<Eigen::Matrix<double, kInsideFields, kInsideFields>> stiffness_, stressed_;
 };
 

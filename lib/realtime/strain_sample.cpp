@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -19,8 +20,9 @@ namespace hapsim {
 namespace {
 
 constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
-constexpr double kStrainFloor = 0.05;    // of the largest force: below, errors are over that
-constexpr double kStrainRidge = 1e-7;    // of the columns' squares
+constexpr double kStrainFloor = 0.05;  // of the largest force: below, errors are over that
+constexpr std::size_t kMemoryBytes = std::size_t{1} << 28;  // of numbers of all states at a time
+constexpr double kStrainRidge = 1e-7;                       // of the columns' squares
 constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
 constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '3'};
 
@@ -90,13 +92,16 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
                       visited[1][0]);
     return;
   }
+  const auto numbers = static_cast<std::size_t>(stresses.rows());
   stresses.resize(0, 0);
   const Eigen::Matrix3d inside = sample.frame * sample.K * sample.frame.transpose();
-  StressStates all(sample.frame, radius, inside(0, 0) * radius * radius);
+  std::vector<Vec3> stable;
+  std::vector<std::pair<std::size_t, Eigen::MatrixXd>> by;  // states, and their directions' fields
   for (std::size_t i = 0; i < states.size(); ++i) {
     press.restore(states[i]);
-    if (const auto response = press.stress_response(*fields)) {
-      all.add(visited[i], *response);
+    if (auto own = press.fields()) {
+      stable.push_back(visited[i]);
+      by.emplace_back(i, *std::move(own));
       continue;
     }
     // A state that is not stable inside has no response, so the way counts to the one before.
@@ -108,6 +113,14 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
                 : fmt::format("the body that is pressed by {:.3g} tool radii gives way inside", d);
   }
   if (!(sample.into > 0)) return;
+  StressStates all(sample.frame, radius, inside(0, 0) * radius * radius, stable);
+  constexpr std::size_t kNumbers = 8 + 2 * kInsideFields;  // of a state and number (add())
+  const std::size_t parts = 1 + sizeof(float) * kNumbers * numbers * stable.size() / kMemoryBytes;
+  for (std::size_t part = 0; part < parts; ++part)
+    all.add([&](std::size_t i) {
+      press.restore(states[by[i].first]);
+      return press.stress_response(by[i].second, *fields, {part, parts});
+    });
   sample.memory = all.fit(sample.memory_fit);
   sample.memory->C.topLeftCorner<3, 3>() -= inside / inside(0, 0);
 }

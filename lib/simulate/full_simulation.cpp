@@ -286,6 +286,14 @@ std::optional<Eigen::Matrix3d> FullPress::stiffness() {
 std::optional<StressResponse> FullPress::stress_response(const Eigen::MatrixXd& inside) {
   return impl_->simulation.session().body->stress_response(0, inside);
 }
+std::optional<Eigen::MatrixXd> FullPress::fields() {
+  return impl_->simulation.session().body->fields(0);
+}
+StressResponse FullPress::stress_response(const Eigen::MatrixXd& fields,
+                                          const Eigen::MatrixXd& inside,
+                                          const StressPart& part) const {
+  return impl_->simulation.session().body->stress_response(fields, inside, part);
+}
 std::optional<Eigen::MatrixXd> FullPress::moved_inside(const Eigen::MatrixXd& stresses) {
   return impl_->simulation.session().body->moved_inside(stresses);
 }

@@ -72,9 +72,12 @@ class FullPress {
   // Of the bonded tool where it stands, as the mesh has it.
   const Vec3& normal() const;                  // outward, unit
   std::optional<Eigen::Matrix3d> stiffness();  // ToolBody::stiffness() [N/m]
-  // Of a body without memory (ToolBody::stress_response(), moved_inside()), and its stresses in the
-  // same numbers.
+  // Of a body without memory (ToolBody::stress_response(), fields(), moved_inside()), and its
+  // stresses in the same numbers.
   std::optional<StressResponse> stress_response(const Eigen::MatrixXd& inside = {});
+  std::optional<Eigen::MatrixXd> fields();
+  StressResponse stress_response(const Eigen::MatrixXd& fields, const Eigen::MatrixXd& inside,
+                                 const StressPart& part) const;
   std::optional<Eigen::MatrixXd> moved_inside(const Eigen::MatrixXd& stresses);
   Eigen::VectorXd stresses() const;
   // All that the next step starts from.

@@ -112,6 +112,27 @@ TEST(StressResponse, KnowsFieldsInside) {
         EXPECT_NEAR(known.stress.dot(more.inside_work.col(j) - less.inside_work.col(j)) / (2 * h),
                     known.inside_stressed(j, k), 1e-5 * known.inside_stressed.norm());
     }
+
+    // By parts: the same numbers one after the other.
+    body.restore(state);
+    Eigen::Index from = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const StressResponse part = body.stress_response(fields, inside, {i, 3});
+      const Eigen::Index rows = part.stress.size();
+      ASSERT_LE(from + rows, known.stress.size());
+      EXPECT_EQ(part.stress, known.stress.segment(from, rows));
+      EXPECT_EQ(part.strain, known.strain.segment(from, rows));
+      EXPECT_EQ(part.changes, known.changes.middleRows(from, rows));
+      EXPECT_EQ(part.work, known.work.middleRows(from, rows));
+      EXPECT_EQ(part.inside_changes, known.inside_changes.middleRows(from, rows));
+      EXPECT_EQ(part.inside_work, known.inside_work.middleRows(from, rows));
+      if (i == 2)
+        EXPECT_EQ(part.inside_stressed, known.inside_stressed);
+      else
+        EXPECT_EQ(part.inside_stressed.size(), 0);
+      from += rows;
+    }
+    EXPECT_EQ(from, known.stress.size());
   }
 }
 

@@ -121,19 +121,35 @@ TEST(StrainMemory, IsTheIntegralOverTheElements) {
   const Eigen::Matrix3d inside = sample->frame * sample->K * sample->frame.transpose();
   MemoryMatrix C = sample->memory->C;
   C.topLeftCorner<3, 3>() += inside / inside(0, 0);
-  StressStates states(sample->frame, a, inside(0, 0) * a * a);
+  std::vector<StressResponse> responses;
   std::vector<Vec3> v;
   for (const Vec3& at : {Vec3(0.4, 0.2, 0.1), Vec3(0.9, -0.4, 0.3), Vec3(0.7, 0.1, -0.5)}) {
     const Vec3 f = -press.step(a * sample->frame.transpose() * at, 0);
     const auto response = press.stress_response();
     ASSERT_TRUE(response);
-    states.add(at, *response);
+    responses.push_back(*response);
     v.push_back(at);
     const MemoryPoint p = memory_point(at);
     const Vec3 by = inside(0, 0) * a * sample->frame.transpose() * (p.gradient * (C * p.m));
     EXPECT_LT((by - f).norm(), 0.02 * f.norm());
   }
-  const Eigen::MatrixXd W = states.works(), F = states.forces();
+  StressStates states(sample->frame, a, inside(0, 0) * a * a, v);
+  states.add([&](std::size_t i) { return responses[i]; });
+  const Eigen::MatrixXd &W = states.works(), &F = states.forces();
+  StressStates parts(sample->frame, a, inside(0, 0) * a * a, v);
+  const Eigen::Index numbers = responses[0].stress.size();
+  for (const auto& [from, rows] :
+       {std::pair{Eigen::Index{0}, numbers / 3}, {numbers / 3, numbers - numbers / 3}})
+    parts.add([&, from = from, rows = rows](std::size_t i) {
+      StressResponse part;
+      part.stress = responses[i].stress.segment(from, rows);
+      part.strain = responses[i].strain.segment(from, rows);
+      part.changes = responses[i].changes.middleRows(from, rows);
+      part.work = responses[i].work.middleRows(from, rows);
+      return part;
+    });
+  EXPECT_LT((parts.works() - W).norm(), 1e-5 * W.norm());
+  EXPECT_LT((parts.forces() - F).norm(), 1e-5 * F.norm());
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 3; ++i) {
       const MemoryPoint now = memory_point(v[static_cast<std::size_t>(j)]),
