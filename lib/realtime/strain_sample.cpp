@@ -69,8 +69,9 @@ void fit(const Solved& solved, double radius, StrainSample& sample) {
   sample.c = x.cwiseProduct(scale);
 }
 
-const char* const kUnstable =
-    "the undeformed body gives way under the tool (its stiffness is not positive definite)";
+std::string gives_way(double depth) {
+  return fmt::format("the body is not stable when pressed by {:.3g} tool radii", depth);
+}
 
 // From the states that were visited, the first step straight down after the undeformed one. What
 // leaves nothing is told by `why`.
@@ -88,8 +89,7 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
   const std::optional<Eigen::MatrixXd> fields = press.moved_inside(stresses);
   if (!fields) {
     sample.into = 0;
-    why = fmt::format("the body that is pressed by {:.3g} tool radii gives way inside",
-                      visited[1][0]);
+    why = gives_way(visited[1][0]);
     return;
   }
   const auto numbers = static_cast<std::size_t>(stresses.rows());
@@ -107,10 +107,7 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
     // A state that is not stable inside has no response, so the way counts to the one before.
     const double d = visited[i][0], before = i > 0 ? visited[i - 1][0] : 0;
     sample.into = std::min(sample.into, before < d ? before : 0);
-    if (!(sample.into > 0) && why.empty())
-      why = i == 0
-                ? kUnstable
-                : fmt::format("the body that is pressed by {:.3g} tool radii gives way inside", d);
+    if (!(sample.into > 0) && why.empty()) why = gives_way(d);
   }
   if (!(sample.into > 0)) return;
   StressStates all(sample.frame, radius, inside(0, 0) * radius * radius, stable);
@@ -249,7 +246,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
     sample.frame << -n.transpose(), e.transpose(), n.cross(e).transpose();
     const std::optional<Eigen::Matrix3d> K = press.stiffness();
     if (!K) {
-      why = kUnstable;
+      why = gives_way(0);
       return std::nullopt;
     }
     sample.K = *K;

@@ -198,6 +198,19 @@ TEST(LargeStrain, SaysThatALargePullIsTheLinearForceAlone) {
   EXPECT_LT((much.f - at.contact.K * Vec3(0, 0, 0.4 * a)).norm(), 1e-12 * much.f.norm());
 }
 
+// No elements take a modulus below zero.
+TEST(LargeStrain, SaysWhyAPlaceIsRefused) {
+  const TetMesh mesh = test::block_mesh({0.05, 0.05, 0.03}, 2, 2, 2, 1);
+  Model model = static_part(test::strained_model());
+  model.find("elastic", 0, "E")->value = -2e4;
+  for (const bool memory : {false, true}) {
+    std::string why;
+    EXPECT_FALSE(solve_strain_sample(mesh, make_contact_base(mesh), model, {0.026, 0.023, 0.03},
+                                     test::kStrainedRadius, 1, memory, why));
+    EXPECT_FALSE(why.empty());
+  }
+}
+
 TEST(LargeStrain, IsOfModelsOfFiniteStrain) {
   const Model model = static_part(test::strained_model(8e3));
   EXPECT_FALSE(model.has("viscoelastic"));
