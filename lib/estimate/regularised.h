@@ -16,13 +16,22 @@ struct FieldProblem {
   std::vector<std::array<int, 2>> edges;  // between neighbouring unknowns
   Eigen::VectorXd edge_weight;            // of |m_i - m_j|, positive
   Eigen::VectorXd node_weight;            // of |m_i|, small: what no edge holds
+  double least_spread = 0;                // field_posterior.h
+};
+
+// The field of one weight of the penalty.
+struct FieldCandidate {
+  Eigen::VectorXd m;
+  double weight = 0;
+  double held_out = 0;   // root mean square of data left out group by group, in their errors
+  double log_score = 0;  // log density of these, but for a constant
+  double misfit = 0;     // root mean square of all data, in their errors
 };
 
 struct FieldSolution {
-  Eigen::VectorXd m;
-  double weight = 0;    // of the penalty
-  double held_out = 0;  // root mean square of data left out group by group, in their errors
-  double misfit = 0;    // root mean square of all data, in their errors
+  std::vector<FieldCandidate> tried;  // by ascending weight
+  std::size_t chosen = 0;
+  const FieldCandidate& field() const { return tried[chosen]; }
 };
 
 // Minimises |J m - data|^2 + weight (|edge_weight Dm|^2 + |node_weight m|^2), or with total

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "estimate/field_posterior.h"
 
 namespace hapsim {
 
@@ -43,9 +46,16 @@ ImageField image_field(const Eigen::MatrixXd& J, const FieldGrid& fine,
   problem.edge_weight = Eigen::Map<const Eigen::VectorXd>(
       edge_weight.data(), static_cast<Eigen::Index>(edge_weight.size()));
   problem.node_weight = 0.02 * seen;
+  // That the modulus somewhere is twice the model's is nothing that presses elsewhere can tell.
+  problem.least_spread = std::log(2.0);
   const FieldSolution s = solve_field(problem, penalty);
+  std::vector<Vec3> place;
+  for (std::size_t n = 0; n < grid.size(); ++n) place.push_back(grid.node(n));
+  FieldPosterior posterior = field_posterior(problem, s, penalty, place);
+  const FieldCandidate& f = s.field();
   const double unit = std::sqrt(error.cwiseAbs2().mean());
-  return {grid, s.m, s.weight, s.misfit * unit, s.held_out * unit};
+  return {grid,     f.m,  std::move(posterior.std_error), std::move(posterior.resolution),
+          f.weight, f.misfit * unit, f.held_out * unit};
 }
 
 }  // namespace hapsim

@@ -32,9 +32,9 @@ FieldProblem problem(double height, std::uint64_t seed) {
 
 TEST(Regularised, AStepIsFoundAndIsSteeperWithTotalVariation) {
   const FieldProblem p = problem(1, 3);
-  const FieldSolution smooth = solve_field(p, Penalty::kSmooth);
-  const FieldSolution sharp = solve_field(p, Penalty::kTotalVariation);
-  for (const FieldSolution* s : {&smooth, &sharp}) {
+  const FieldCandidate smooth = solve_field(p, Penalty::kSmooth).field();
+  const FieldCandidate sharp = solve_field(p, Penalty::kTotalVariation).field();
+  for (const FieldCandidate* s : {&smooth, &sharp}) {
     EXPECT_NEAR(s->m[5], 0, 0.1);
     EXPECT_NEAR(s->m[35], 1, 0.1);
     EXPECT_LT(s->misfit, 1.3);
@@ -43,7 +43,7 @@ TEST(Regularised, AStepIsFoundAndIsSteeperWithTotalVariation) {
 }
 
 TEST(Regularised, NoiseAloneIsNotFitted) {
-  const FieldSolution s = solve_field(problem(0, 5), Penalty::kSmooth);
+  const FieldCandidate s = solve_field(problem(0, 5), Penalty::kSmooth).field();
   EXPECT_LT(s.m.cwiseAbs().maxCoeff(), 0.05);
   EXPECT_GT(s.misfit, 0.7);
 }
