@@ -7,6 +7,7 @@
 
 #include "base/shell_words.h"
 #include "compare/report_body.h"
+#include "compare/report_image.h"
 #include "compare/report_tables.h"
 #include "compare/wording.h"
 #include "experiment/forces.h"
@@ -105,6 +106,11 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
   add_body(c, map, extras.model ? &*extras.model : nullptr, labels.get(), report);
   if (versions.size() > 1)
     add_body_before(compare(measured, versions.front().recording), map, report);
+  if (extras.image) {
+    const auto file = std::find_if(extras.files.begin(), extras.files.end(),
+                                   [](const auto& known) { return known.first == "image"; });
+    add_image(*extras.image, file == extras.files.end() ? "image" : file->second, report);
+  }
   add_presses(measured, versions, c, report);
   add_residual_plots(measured, simulated, c, report);
   if (extras.model) {

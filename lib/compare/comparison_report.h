@@ -11,6 +11,7 @@
 #include "compare/error_map.h"
 #include "compare/report_curves.h"
 #include "compare/report_views.h"
+#include "imaging/image_file.h"
 #include "io/csv.h"
 #include "model/model.h"
 #include "report/report.h"
@@ -25,6 +26,7 @@ struct ReportExtras {
   std::vector<std::pair<std::string, CsvTable>>
       diagnoses;  // model version ("": the only one), its diagnosis
   std::optional<Model> model;
+  std::optional<ImageOnBody> image;                        // of the stiffness inside the body
   std::shared_ptr<const BodyRegions> labels;               // of the body, where it has any
   std::string program;                                     // that made the report: its version
   std::vector<std::pair<std::string, std::string>> files;  // kind and name of each

@@ -16,7 +16,8 @@ namespace {
 using State = Eigen::Matrix<double, 5, 1>;  // x, y, z, log radius, log ratio
 
 constexpr int kBurn = 4000, kKept = 12000, kEvery = 4, kRounds = 4;
-constexpr double kSettled = 4;  // of chi^2, at the balls that are solved anew
+constexpr std::size_t kDraws = 300;  // that are kept of the posterior
+constexpr double kSettled = 4;       // of chi^2, at the balls that are solved anew
 constexpr std::size_t kMostSolved = 16, kMostBeside = 10;  // positions about a ball
 
 struct Sample {
@@ -277,6 +278,9 @@ LumpPosterior fit_lump(const LumpData& data, const LumpScene& scene, const Lump&
       samples, [](const Sample& s) { return std::exp(s.at[3]); }, &lump.radius);
   lump.ratio_in = middle_95(
       samples, [](const Sample& s) { return std::exp(s.at[4]); }, &lump.ratio);
+  for (std::size_t k = 0; k < samples.size(); k += samples.size() / kDraws)
+    lump.draws.push_back(
+        {samples[k].at.head<3>(), std::exp(samples[k].at[3]), std::exp(samples[k].at[4])});
   lump.drop = errors.chi2(data.gain) - chain.least;
   result.signal = search.signal(chain.best);
   result.tangent = search.tangent(chain.best);

@@ -19,14 +19,21 @@ struct Interval {
 // Ratios that are asked: beyond them a ball does what a rigid one, or a cavity, does.
 constexpr double kLeastRatio = 0.02, kMostRatio = 50;
 
+// One ball that the presses allow.
+struct LumpDraw {
+  Vec3 centre = Vec3::Zero();    // [m]
+  double radius = 0, ratio = 1;  // [m]
+};
+
 // A ball, and the middle 95 % of what its numbers may be.
 struct Lump {
   Vec3 centre = Vec3::Zero();    // [m]
   double depth = 0;              // of the centre below the surface [m]
   double radius = 0, ratio = 1;  // [m]; modulus over that around it
   Interval x, y, z, depth_in, radius_in, ratio_in;
-  double chance = 1;  // that a body without one looks so at some place
-  double drop = 0;    // of chi^2
+  double chance = 1;            // that a body without one looks so at some place
+  double drop = 0;              // of chi^2
+  std::vector<LumpDraw> draws;  // of its posterior, alike likely
 };
 
 // Log gains of the presses (views), and how they err.

@@ -50,12 +50,7 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                                const Linearisation& about, const TetMesh& body,
                                const ImageOptions& options);
 
-// In words: what was found and how deep these presses see.
+// In words (image_words.cpp): what was found and how deep these presses see.
 std::vector<std::string> words_of(const StiffnessImage& image);
-
-// The modulus over the model's at a point: the lumps', or where none was found the field's.
-double modulus_ratio(const StiffnessImage& image, const Vec3& p);
-// The modulus [Pa] in the middle of each tetrahedron of a body whose model has the one `modulus`.
-std::vector<double> image_moduli(const StiffnessImage& image, const TetMesh& body, double modulus);
 
 }  // namespace hapsim

@@ -6,6 +6,7 @@ namespace hapsim::assets {
 extern const char* const kStyle;
 extern const char* const kPresses;
 extern const char* const kBody;
+extern const char* const kInside;
 extern const char* const kTable;
 extern const char* const kCopy;
 

@@ -19,6 +19,9 @@ std::string page_versions(const Report& report);
 std::string page_parameters(const Report& report);
 std::string page_diagnosis(const Report& report);
 std::string page_body(const Report& report);
+// The image inside the body: its cells as a script, and its cuts.
+std::string inside_data(const Report& report);
+std::string page_inside(const Report& report);
 std::string page_presses(const Report& report);
 std::string page_residuals(const Report& report);
 std::string page_learned(const Report& report);

@@ -4,10 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
-#include "report/axis.h"
+#include "report/base64.h"
+#include "report/colour_bar.h"
 #include "report/html.h"
 #include "report/page.h"
 #include "report/palette.h"
@@ -15,101 +15,6 @@
 
 namespace hapsim {
 namespace {
-
-std::string base64(const void* data, std::size_t size) {
-  static constexpr char kLetters[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto* bytes = static_cast<const unsigned char*>(data);
-  std::string out;
-  out.reserve((size + 2) / 3 * 4);
-  for (std::size_t i = 0; i < size; i += 3) {
-    const unsigned a = bytes[i], b = i + 1 < size ? bytes[i + 1] : 0,
-                   c = i + 2 < size ? bytes[i + 2] : 0;
-    out += kLetters[a >> 2];
-    out += kLetters[(a & 3) << 4 | b >> 4];
-    out += i + 1 < size ? kLetters[(b & 15) << 2 | c >> 6] : '=';
-    out += i + 2 < size ? kLetters[c & 63] : '=';
-  }
-  return out;
-}
-
-template <class T>
-std::string base64(const std::vector<T>& values) {
-  return base64(values.data(), values.size() * sizeof(T));
-}
-
-// Of a value on the layer's scale; kKinds: of its number.
-Rgb colour_of(const BodyLayer& layer, double value) {
-  if (std::isnan(value)) return kUnknownColour;
-  if (layer.scale == BodyLayer::Scale::kKinds)
-    return kind_colour(static_cast<std::size_t>(std::max(0.0, value)));
-  return layer.scale == BodyLayer::Scale::kSigned ? signed_colour(value / layer.top)
-                                                  : error_colour(value / layer.top);
-}
-
-double bottom_of(const BodyLayer& layer) {
-  return layer.scale == BodyLayer::Scale::kSigned ? -layer.top : 0;
-}
-
-// The six colours between which the viewer mixes.
-std::array<Rgb, 6> stops_of(const BodyLayer& layer) {
-  std::array<Rgb, 6> stops;
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    const double share = static_cast<double>(i) / 5;
-    stops[i] = layer.scale == BodyLayer::Scale::kKinds
-                   ? kind_colour(i)
-                   : colour_of(layer, bottom_of(layer) + share * (layer.top - bottom_of(layer)));
-  }
-  return stops;
-}
-
-std::string kinds_bar(const BodyLayer& layer) {
-  std::string out;
-  for (int k = 0; k <= static_cast<int>(layer.top); ++k)
-    out += fmt::format("<path d='M0 {0}h20v14h-20z' fill='{1}'/><text x='28' y='{2}'>{3}</text>",
-                       26 + 22 * k, css(kind_colour(static_cast<std::size_t>(k))), 37 + 22 * k, k);
-  return out;
-}
-
-std::string scale_bar(const BodyLayer& layer, std::size_t number, int height) {
-  const double low = bottom_of(layer), bottom = height - 48, begin = 26, span = bottom - begin;
-  const Ticks ticks = nice_ticks(low, layer.top, 5, true);
-  const auto y_of = [&](double v) { return bottom - span * (v - low) / (layer.top - low); };
-  std::string out =
-      fmt::format("<defs><linearGradient id='scale{}' x1='0' y1='1' x2='0' y2='0'>", number);
-  const std::array<Rgb, 6> stops = stops_of(layer);
-  for (std::size_t i = 0; i < stops.size(); ++i)
-    out += fmt::format("<stop offset='{}' stop-color='{}'/>", static_cast<double>(i) / 5,
-                       css(stops[i]));
-  out += fmt::format("</linearGradient></defs><path d='M0 {}h20V{}h-20z' fill='url(#scale{})'/>",
-                     begin, bottom, number);
-  for (const double v : ticks.at)
-    if (v >= low - 1e-9 * span && v <= layer.top * (1 + 1e-9))
-      out += fmt::format("<text x='28' y='{:.1f}'>{}</text>", y_of(v) + 4, ticks.label(v));
-  if (layer.mark > 0) {
-    const double y = y_of(layer.mark);
-    out += fmt::format(
-        "<path d='M-3 {0:.1f}h26' stroke='#1b2733' stroke-width='2'/>"
-        "<text x='68' y='{1:.1f}'>{2}</text><path d='M65 {0:.1f}h-4' "
-        "class='zero' stroke-dasharray='2 2'/>",
-        y, y + 4, escape_html(layer.mark_name));
-  }
-  return out;
-}
-
-std::string colour_bar(const BodyLayer& layer, std::size_t number, int height) {
-  std::string out = fmt::format(
-      "<svg class='plot bar{0}'{1} viewBox='0 0 110 {2}' width='110' height='{2}' role='img' "
-      "aria-label='colours of {3}'><text x='0' y='12' class='title'>{3}</text>",
-      number, number == 0 ? "" : " hidden", height, escape_html(layer.title));
-  out +=
-      layer.scale == BodyLayer::Scale::kKinds ? kinds_bar(layer) : scale_bar(layer, number, height);
-  if (layer.local)
-    out +=
-        fmt::format("<path d='M0 {}h20v14h-20z' fill='{}'/><text x='28' y='{}'>not measured</text>",
-                    height - 24, css(kUnknownColour), height - 13);
-  return out + "</svg>";
-}
 
 // Position 1 is the worst.
 std::vector<int> ranks(const std::vector<double>& error) {
@@ -145,12 +50,12 @@ std::string layer_data(const BodyLayer& layer) {
   for (const double v : layer.value)
     level.push_back(share16(kinds ? std::fmod(v, 6) / 5 : (v - low) / (layer.top - low)));
   std::string out = fmt::format("{{level:\"{}\",local:{},note:{},stops:[", base64(level),
-                                layer.local, script_string(layer.note));
+                                layer.local && !layer.value.empty(), script_string(layer.note));
   for (const Rgb& c : stops_of(layer)) out += fmt::format("[{},{},{}],", c[0], c[1], c[2]);
   return out + "]},";
 }
 
-std::string viewer_data(const ReportBody& body) {
+std::string viewer_data(const ReportBody& body, const ReportInside& inside) {
   Vec3 low = body.vertices.front(), high = low;
   for (const Vec3& v : body.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
   const Vec3 size = (high - low).cwiseMax(1e-9), middle = 0.5 * (low + high);
@@ -166,10 +71,13 @@ std::string viewer_data(const ReportBody& body) {
     for (const int v : f) faces.push_back(static_cast<std::uint32_t>(v));
 
   std::string out = fmt::format(
-      "<script>window.hapsimBody={{size:[{:.6g},{:.6g},{:.6g}],vertices:"
-      "\"{}\",near:\"{}\",faces:\"{}\",unknown:[{},{},{}],layers:[",
-      size[0], size[1], size[2], base64(place), base64(near), base64(faces), kUnknownColour[0],
-      kUnknownColour[1], kUnknownColour[2]);
+      "<script>window.hapsimBody={{size:[{:.6g},{:.6g},{:.6g}],middle:[{:.6g},{:.6g},{:.6g}],"
+      "vertices:"
+      "\"{}\",near:\"{}\",faces:\"{}\",unknown:[{},{},{}],ratioLayer:{},errorLayer:{},layers:[",
+      size[0], size[1], size[2], middle[0], middle[1], middle[2], base64(place), base64(near),
+      base64(faces), kUnknownColour[0], kUnknownColour[1], kUnknownColour[2],
+      inside.size() > 0 ? int(inside.ratio_layer) : -1,
+      inside.size() > 0 ? int(inside.error_layer) : -1);
   for (const BodyLayer& layer : body.layers) out += layer_data(layer);
   out += "],positions:[";
   const std::vector<int> rank = ranks(body.layers.front().at_position);
@@ -241,13 +149,20 @@ std::string page_body(const Report& report) {
       "id='bars'>";
   for (std::size_t k = 0; k < body.layers.size(); ++k)
     out += colour_bar(body.layers[k], k, kBarHeight);
+  out += "</div></div>";
+  if (report.inside.size() > 0)
+    out +=
+        "<div class='layers'><label>cut open across <select id='cut-axis'><option "
+        "value='-1'>nothing</option><option value='0'>x</option><option value='1'>y</option>"
+        "<option value='2'>z</option></select></label> <label>at <input type='range' id='cut-at' "
+        "min='0' max='200' value='100'></label> <output id='cut-out' "
+        "for='cut-at'></output></div>";
   // Below the picture, which belongs on the first screen.
-  out += "</div></div><p class='note'><span id='layernote'>" +
-         escape_html(body.layers.front().note) +
+  out += "<p class='note'><span id='layernote'>" + escape_html(body.layers.front().note) +
          "</span> Circles are the pressed positions, 1 to 3 the worst; a click shows its presses "
          "below. <span id='tip'>Drag to turn, ctrl + wheel to zoom, double click to "
          "reset; or arrow keys, + and -.</span></p>";
-  return out + viewer_data(body) + "</section>\n";
+  return out + viewer_data(body, report.inside) + "</section>\n";
 }
 
 }  // namespace hapsim

@@ -56,17 +56,18 @@ struct BodyLayer {
   enum class Scale {
     kSize,    // pale to dark, from 0
     kSigned,  // blue below 0, red above
+    kFactor,  // the same of the logarithm of a factor
     kKinds    // whole numbers, a colour each
   };
   std::string name;   // of the button: "error"
   std::string title;  // of the colour bar: "error [N]"
   std::string note;   // one sentence
   Scale scale = Scale::kSize;
-  double top = 1;                             // of the scale; kSigned: from -top
+  double top = 1;                             // of the scale; kSigned, kFactor: from -top
   double mark = 0;                            // a value to mark on the bar; 0: none
   std::string mark_name;                      // "noise"
   bool local = true;                          // grey beyond the reach of the positions
-  std::vector<double> value;                  // one a vertex
+  std::vector<double> value;                  // one a vertex; none: of ReportInside
   std::vector<double> at_position;            // one a position
   std::vector<std::string> at_position_text;  // "error 0.12 N"
 };
@@ -78,6 +79,23 @@ struct ReportBody {
   double reach = 1;                       // [m]; beyond it local layers are grey
   std::vector<Vec3> positions;            // [m]
   std::vector<BodyLayer> layers;          // the first is the error, and is shown first
+};
+
+// An image of the stiffness inside the body, in cubic cells, x fastest.
+struct ReportInside {
+  std::array<int, 3> count{0, 0, 0};  // cells along x, y, z; 0: there is no image
+  Vec3 low = Vec3::Zero();            // corner of the first cell [m]
+  double cell = 1;                    // edge [m]
+  std::vector<double> log_ratio;      // of the modulus over the model's; NaN outside the body
+  std::vector<double> log_std;        // its standard error
+  std::vector<double> resolution;     // over which distance it is an average [m]
+  double top = 0;                     // z of the body's highest point [m]
+  std::size_t ratio_layer = 0, error_layer = 0;  // of ReportBody::layers
+  std::vector<std::string> words;                // how finely, and how deep
+  std::size_t size() const {
+    return static_cast<std::size_t>(count[0]) * static_cast<std::size_t>(count[1]) *
+           static_cast<std::size_t>(count[2]);
+  }
 };
 
 struct DiagnosisRow {
@@ -124,6 +142,7 @@ struct Report {
   double mesh_uncertainty = std::numeric_limits<double>::quiet_NaN();  // [N]
   std::vector<ReportDiagnosis> diagnoses;
   ReportBody body;
+  ReportInside inside;
   std::vector<std::string> curves;  // names of the simulated versions, the compared one last
   std::vector<ReportPress> presses;
   std::string presses_note;  // what was left out for the file's size

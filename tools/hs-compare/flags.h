@@ -7,8 +7,8 @@ namespace hapsim {
 
 namespace flag {
 inline constexpr FileFlag simulated{"--simulated"}, html{"--html"}, figures{"--figures"},
-    ply{"--ply"}, history{"--history"}, diagnosis{"--diagnosis"}, junit{"--junit"},
-    events{"--events"}, simulated_markers{"--simulated-markers"};
+    ply{"--ply"}, image{"--image"}, history{"--history"}, diagnosis{"--diagnosis"},
+    junit{"--junit"}, events{"--events"}, simulated_markers{"--simulated-markers"};
 inline constexpr LengthFlag reach{"--reach"};
 inline constexpr TextFlag title{"--title"}, fail_above{"--fail-above"};
 inline constexpr SwitchFlag follow{"--follow"}, hold{"--keep-model"};

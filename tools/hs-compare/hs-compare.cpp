@@ -43,7 +43,8 @@ std::vector<SimulatedVersion> read_versions(const Arguments& arguments, const Re
 
 // What the report tells beside the forces, read from the files that were given.
 ReportExtras read_extras(const Arguments& arguments,
-                         const std::shared_ptr<const BodyRegions>& labels) {
+                         const std::shared_ptr<const BodyRegions>& labels,
+                         std::optional<ImageOnBody> image) {
   ReportExtras extras;
   extras.program = version();
   extras.flags = live_flag_meanings();
@@ -63,7 +64,8 @@ ReportExtras read_extras(const Arguments& arguments,
     extras.model = read_model(input);
   }
   extras.labels = labels;
-  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::history})
+  extras.image = std::move(image);
+  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::image, flag::history})
     if (arguments.given(flag)) extras.files.emplace_back(flag.name + 2, arguments.text(flag));
   for (const std::string& diagnosis : arguments.list(flag::diagnosis))
     extras.files.emplace_back("diagnosis", diagnosis);
@@ -99,6 +101,8 @@ int run(const Arguments& arguments) {
     limit = parse_error_limit(arguments[flag::fail_above], flag::fail_above.name);
   if (arguments.given(flag::junit) && !arguments.given(flag::fail_above))
     fail_usage("--junit tells a verdict, and none is asked for", "add --fail-above 1.5noise");
+  if (arguments.given(flag::image) && !arguments.given(flag::html))
+    fail_usage("--image is shown in the report, and none is asked for", "add --html report.html");
   if (arguments.given(flag::ply) && !arguments.given(flag::body))
     fail_usage("--ply colours a surface, and none is given", "add --body body.ply");
   Input input(arguments.input());
@@ -113,12 +117,22 @@ int run(const Arguments& arguments) {
 
   ErrorMap map;
   std::shared_ptr<const BodyRegions> labels;
-  if (arguments.given(flag::body)) {
+  std::optional<ImageOnBody> image;
+  if (arguments.given(flag::image)) {
+    Input file(arguments[flag::image]);
+    image = read_image(file);
+  }
+  if (arguments.given(flag::body) || image) {
     std::vector<double> error;
     for (const BinError& e : c.by_position().errors) error.push_back(e.rmse);
-    Input body(arguments[flag::body]);
     std::optional<TetMesh> inside;
-    const Surface outside = read_outside(body, &inside);
+    Surface outside;
+    if (arguments.given(flag::body)) {
+      Input body(arguments[flag::body]);
+      outside = read_outside(body, &inside);
+    } else {
+      outside = boundary_surface(image->body);
+    }
     if (inside) labels = BodyRegions::of(*inside);
     map = map_error(outside, c.facts.positions, error,
                     arguments.given(flag::reach) ? arguments[flag::reach] : 0);
@@ -131,8 +145,8 @@ int run(const Arguments& arguments) {
     return outputs.back()->stream();
   };
   if (arguments.given(flag::html) || arguments.given(flag::figures)) {
-    const Report report =
-        comparison_report(measured, versions, c, map, read_extras(arguments, labels));
+    const Report report = comparison_report(measured, versions, c, map,
+                                            read_extras(arguments, labels, std::move(image)));
     if (arguments.given(flag::html)) write_report(open(arguments[flag::html]), report);
     if (arguments.given(flag::figures))
       for (const auto& [name, text] : report_figures(report))

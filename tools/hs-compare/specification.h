@@ -138,6 +138,14 @@ inline ToolSpec compare_specification() {
                "intervals, and its regions on the body. With --follow the model that the stream is "
                "compared with.",
        .group = "Input"},
+      {.flag = flag::image,
+       .value = "FILE",
+       .help = "The body with its image from hs-identify --image image.ply: the report cuts it "
+               "open, with the standard errors of the image beside it, pale where no difference "
+               "from the model is seen and hatched where the presses do not tell, and says how "
+               "finely and how deep it sees. Needs --html; stands for --body where that is not "
+               "given.",
+       .group = "Input"},
       {.flag = flag::junit,
        .value = "FILE",
        .help = "Writes the verdict of --fail-above as JUnit's XML, for CI servers.",

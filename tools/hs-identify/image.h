@@ -6,21 +6,26 @@
 #include "experiment/experiment.h"
 #include "hs-identify/flags.h"
 #include "imaging/image_file.h"
+#include "imaging/image_sight.h"
 #include "imaging/lump_file.h"
 #include "imaging/stiffness_image.h"
 
 namespace hapsim {
 
 inline Option image_flag() {
-  return {.flag = flag::image,
-          .value = "FILE",
-          .help =
-              "Stiffness imaging: writes the modulus of each tetrahedron that all presses "
-              "together ask for about the fitted model, and says what is seen inside the "
-              "body, where, and how deep these presses see. CSV of the centres, or by the "
-              "file's name the body with its moduli: .vtu, .ply.",
-          .group = "Output",
-          .writes = {"csv", "ply", "vtu"}};
+  return {
+      .flag = flag::image,
+      .value = "FILE",
+      .help =
+          "Stiffness imaging: writes the modulus of each tetrahedron that all presses "
+          "together ask for about the fitted model, and says what is seen inside the "
+          "body, where, and how deep these presses see. Beside E stand log_E_std, the standard "
+          "error of its logarithm (Laplace's, with the penalty as the prior and its weight open "
+          "where data left out leave it open), and resolution [m], over which distance E is an "
+          "average. CSV of the centres, or by the file's name the body with these: .vtu, .ply; "
+          "hs-compare --image shows a .ply.",
+      .group = "Output",
+      .writes = {"csv", "ply", "vtu"}};
 }
 
 inline Option lumps_flag() {
@@ -48,11 +53,13 @@ inline void write_asked_image(const Arguments& arguments, const Fit& fitted,
   Progress progress(arguments, "sensitivities", experiment.dataset.positions.size());
   options.progress = [&progress] { progress.step(); };
   const StiffnessImage image = stiffness_image(model, experiment, fitted.about, body, options);
+  std::string sight;
   if (arguments.given(flag::image)) {
     Output output(arguments[flag::image]);
-    write_image(output.stream(), body, image_moduli(image, body, material.modulus[0]),
-                image_format(arguments[flag::image]));
+    const ImageValues values = image_values(image, body, material.modulus[0]);
+    write_image(output.stream(), body, values, image_format(arguments[flag::image]));
     output.commit();
+    sight = sight_words(image_sight(body, values, experiment.dataset.positions));
   }
   if (arguments.given(flag::lumps)) {
     Output output(arguments[flag::lumps]);
@@ -60,6 +67,7 @@ inline void write_asked_image(const Arguments& arguments, const Fit& fitted,
     output.commit();
   }
   for (const std::string& sentence : words_of(image)) say(arguments, "hs-identify", sentence);
+  if (!sight.empty()) say(arguments, "hs-identify", sight);
 }
 
 }  // namespace hapsim

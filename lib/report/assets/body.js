@@ -32,6 +32,7 @@
     corner.set([at(v, 0), at(v, 1), at(v, 2), n[0] / l, n[1] / l, n[2] / l, 0, 0], 8 * i);
   }
   function paint(layer) {
+    if (!layer.level.length) return;  // coloured by the cells inside
     for (let i = 0; i < count; ++i) {
       corner[8 * i + 6] = layer.level[face[i]] / 65535;
       corner[8 * i + 7] = layer.local ? near[face[i]] / 65535 : 1;
@@ -39,7 +40,7 @@
   }
 
   const canvas = stage.querySelector("canvas.surface"), over = stage.querySelector("canvas.marks");
-  const gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
+  const gl = canvas.getContext("webgl2", { antialias: true, stencil: true, preserveDrawingBuffer: true });
   const pen = over.getContext("2d"), tip = document.getElementById("tip");
   const start = { yaw: -0.6, pitch: 0.62, zoom: 1 };
   let view = { ...start }, program;
@@ -48,13 +49,25 @@
     program = gl.createProgram();
     gl.attachShader(program, shader(gl.VERTEX_SHADER, `#version 300 es
       in vec3 place; in vec3 normal; in vec2 value;
-      uniform mat3 turn; uniform vec3 scale; out vec3 n; out vec2 v;
-      void main() { vec3 p = turn * place; n = turn * normal; v = value; gl_Position = vec4(p.x * scale.x, p.y * scale.y, -p.z * scale.z, 1.0); }`));
+      uniform mat3 turn; uniform vec3 scale; out vec3 n; out vec2 v; out vec3 at;
+      void main() { at = place; vec3 p = turn * place; n = turn * normal; v = value; gl_Position = vec4(p.x * scale.x, p.y * scale.y, -p.z * scale.z, 1.0); }`));
     gl.attachShader(program, shader(gl.FRAGMENT_SHADER, `#version 300 es
-      precision highp float; in vec3 n; in vec2 v; uniform vec3 stops[6]; uniform vec3 unknown; out vec4 colour;
+      precision highp float; precision highp sampler3D; in vec3 n; in vec2 v; in vec3 at;
+      uniform vec3 stops[6]; uniform vec3 unknown; uniform vec4 cut; uniform bool cap; uniform int channel; uniform float pixel;
+      uniform sampler3D cells; uniform vec3 low; uniform vec3 extent; out vec4 colour;
+      vec3 between(float share) { float x = clamp(share, 0.0, 1.0) * 5.0; int i = int(min(floor(x), 4.0)); return mix(stops[i], stops[i + 1], x - float(i)); }
       void main() {
-        float x = clamp(v.x, 0.0, 1.0) * 5.0; int i = int(min(floor(x), 4.0));
-        vec3 base = mix(unknown, mix(stops[i], stops[i + 1], x - float(i)), smoothstep(0.5 - fwidth(v.y), 0.5 + fwidth(v.y), v.y));
+        float edge = 0.5 - fwidth(v.y);
+        if (!cap && dot(cut.xyz, at) > cut.w) discard;
+        vec3 base = mix(unknown, between(v.x), smoothstep(edge, 1.0 - edge, v.y));
+        if (channel >= 0) {
+          vec4 cell = texture(cells, (at - low) / extent);
+          int state = int(cell.b * 255.0 + 0.5) & 3;
+          base = between(channel == 0 ? cell.r : cell.g);
+          if (channel == 0 && state == 2) base = mix(vec3(0.965), base, 0.15);
+          if (channel == 0 && state == 3) base = mod(gl_FragCoord.x + gl_FragCoord.y, 7.0 * pixel) < 2.0 * pixel ? vec3(0.47, 0.51, 0.55) : unknown + 0.12;
+          if (state == 0) base = unknown;
+        } else if (cap) base = unknown;
         vec3 m = normalize(n); float light = 0.74 + 0.26 * max(0.0, dot(m, normalize(vec3(-0.35, 0.55, 0.75))));
         colour = vec4(base * light, 1.0); }`));
     gl.linkProgram(program);
@@ -67,6 +80,56 @@
     });
     gl.uniform3fv(gl.getUniformLocation(program, "unknown"), data.unknown.map(v => v / 255));
     gl.enable(gl.DEPTH_TEST);
+  }
+  const uniform = name => gl.getUniformLocation(program, name);
+
+  // The image inside: its cells, and a plane that takes away the half of the body towards the reader.
+  const inside = gl && data.ratioLayer >= 0 && window.hapsimInside, axis_of = document.getElementById("cut-axis"), cut_at = document.getElementById("cut-at");
+  if (inside) {
+    const [ratio, error, state] = [inside.ratio, inside.error, inside.state].map(s => new Uint8Array(bytes(s)));
+    const cells = new Uint8Array(4 * state.length);
+    for (let i = 0; i < state.length; ++i) cells.set([ratio[i], error[i], state[i], 255], 4 * i);
+    gl.bindTexture(gl.TEXTURE_3D, gl.createTexture());
+    gl.texImage3D(gl.TEXTURE_3D, 0, gl.RGBA8, ...inside.count, 0, gl.RGBA, gl.UNSIGNED_BYTE, cells);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_3D, filter, gl.NEAREST);
+    for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T, gl.TEXTURE_WRAP_R]) gl.texParameteri(gl.TEXTURE_3D, wrap, gl.CLAMP_TO_EDGE);
+    gl.uniform3f(uniform("low"), ...inside.low.map((v, k) => v - data.middle[k]));
+    gl.uniform3f(uniform("extent"), ...inside.count.map(n => n * inside.cell));
+  }
+  // Axis (-1: none), its side that is taken away, and where, from the middle of the body.
+  function cut_of(r) {
+    const axis = inside ? +axis_of.value : -1, side = axis >= 0 && r[2][axis] < 0 ? -1 : 1;
+    return { axis, side, at: axis < 0 ? 0 : (cut_at.value / 200 - 0.5) * size[axis] };
+  }
+  const taken = (p, cut) => cut.axis >= 0 && cut.side * (p[cut.axis] - cut.at) > 0;
+  // Of a closed surface, what lies behind its cut has more back faces than front faces before it.
+  function draw_cap(cut) {
+    const [a, b] = [0, 1, 2].filter(k => k !== cut.axis), quad = new Float32Array(6 * 8);
+    [[-1, -1], [1, -1], [1, 1], [-1, -1], [1, 1], [-1, 1]].forEach(([u, v], i) => {
+      quad[8 * i + a] = 0.51 * u * size[a]; quad[8 * i + b] = 0.51 * v * size[b]; quad[8 * i + cut.axis] = cut.at;
+      quad[8 * i + 3 + cut.axis] = cut.side; quad[8 * i + 7] = 1;
+    });
+    gl.bufferData(gl.ARRAY_BUFFER, quad, gl.STREAM_DRAW);
+    gl.uniform1i(uniform("cap"), 1);
+    gl.drawArrays(gl.TRIANGLES, 0, 6);
+    gl.uniform1i(uniform("cap"), 0);
+    gl.bufferData(gl.ARRAY_BUFFER, corner, gl.STATIC_DRAW);
+  }
+  function draw_body(cut) {
+    const n = [0, 1, 2].map(k => k === cut.axis ? cut.side : 0);
+    gl.uniform4f(uniform("cut"), ...n, cut.axis < 0 ? 1e9 : cut.side * cut.at);
+    gl.uniform1i(uniform("channel"), inside ? shown === data.ratioLayer ? 0 : shown === data.errorLayer ? 1 : -1 : -1);
+    gl.uniform1f(uniform("pixel"), window.devicePixelRatio || 1);
+    if (cut.axis < 0) { gl.drawArrays(gl.TRIANGLES, 0, count); return; }
+    gl.enable(gl.STENCIL_TEST); gl.disable(gl.DEPTH_TEST); gl.colorMask(false, false, false, false);
+    gl.stencilFunc(gl.ALWAYS, 0, 255);
+    gl.stencilOpSeparate(gl.FRONT, gl.KEEP, gl.KEEP, gl.DECR_WRAP); gl.stencilOpSeparate(gl.BACK, gl.KEEP, gl.KEEP, gl.INCR_WRAP);
+    gl.drawArrays(gl.TRIANGLES, 0, count);
+    gl.colorMask(true, true, true, true); gl.enable(gl.DEPTH_TEST); gl.stencilOp(gl.KEEP, gl.KEEP, gl.KEEP);
+    gl.drawArrays(gl.TRIANGLES, 0, count);
+    gl.stencilFunc(gl.NOTEQUAL, 0, 255);
+    draw_cap(cut);
+    gl.disable(gl.STENCIL_TEST);
   }
 
   // Rows of the rotation: right, up, towards the viewer. z of the body stays upright.
@@ -93,21 +156,21 @@
   function draw() {
     const ratio = window.devicePixelRatio || 1, w = stage.clientWidth, h = stage.clientHeight;
     for (const c of [canvas, over]) { c.width = w * ratio; c.height = h * ratio; }
-    const unit = 0.47 * Math.min(w, h) / half * view.zoom, r = axes();
+    const unit = 0.47 * Math.min(w, h) / half * view.zoom, r = axes(), cut = cut_of(r);
     if (gl) {
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.clearColor(0.957, 0.965, 0.973, 1);
-      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT | gl.STENCIL_BUFFER_BIT);
       const turn = [0, 1, 2].flatMap(k => [r[0][k], r[1][k], r[2][k]]);
       gl.uniformMatrix3fv(gl.getUniformLocation(program, "turn"), false, turn);
       gl.uniform3f(gl.getUniformLocation(program, "scale"), 2 * unit / w, 2 * unit / h, 0.9 / half);
-      gl.drawArrays(gl.TRIANGLES, 0, count);
+      draw_body(cut);
     }
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.clearRect(0, 0, w, h);
     marks = [];
     data.positions.forEach((p, i) => {
-      if (gl && project(p.normal, r)[2] < 0.02) return;
+      if (gl && project(p.normal, r)[2] < 0.02 || taken(p.at, cut)) return;
       const v = project(p.at, r), x = w / 2 + v[0] * unit, y = h / 2 - v[1] * unit;
       marks.push({ x, y, p, i });
       pen.beginPath();
@@ -185,6 +248,15 @@
     draw();
   });
   window.addEventListener("resize", draw);
+  if (inside) {
+    const cut = () => {
+      const axis = +axis_of.value;
+      document.getElementById("cut-out").textContent = axis < 0 ? "" : "xyz"[axis] + " = " + (1000 * (data.middle[axis] + cut_of(axes()).at)).toFixed(1) + " mm";
+      if (axis >= 0 && shown !== data.ratioLayer && shown !== data.errorLayer) show(data.ratioLayer); else draw();
+    };
+    axis_of.onchange = cut;
+    cut_at.oninput = () => { if (axis_of.value === "-1") axis_of.value = "1"; cut(); };
+  }
   if (!gl) tip.textContent = "This browser has no WebGL 2: only the pressed positions are shown.";
   document.querySelectorAll("#layers button").forEach((b, k) => { b.onclick = () => show(k); });
   show(0);
