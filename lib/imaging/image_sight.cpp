@@ -18,7 +18,7 @@ double unresolved_log_std() {
 
 ImageSight image_sight(const TetMesh& body, const ImageValues& values,
                        const std::vector<Vec3>& pressed) {
-  constexpr std::size_t kGroups = 16;
+  constexpr std::size_t kGroups = 48;
   const std::size_t count = body.tets.size();
   std::vector<double> distance;
   for (const auto& n : body.tets) {

@@ -15,7 +15,7 @@ struct ImageSight {
   // Distance from a pressed place as far as which E is known within a factor of 2, with 95 % [m];
   // 0: nowhere.
   double reach = 0;
-  double finest = 0;    // resolution (image_values.h) of the sixteenth nearest to presses [m]
+  double finest = 0;    // resolution (image_values.h) of what is nearest to presses [m]
   double at_reach = 0;  // about that distance [m]
 };
 

@@ -87,7 +87,7 @@ void write_head(std::ostream& out, const std::string& title) {
 
 void write_report(std::ostream& out, const Report& report) {
   write_head(out, report.title);
-  out << page_header(report) << page_inside(report) << page_numbers(report) << page_versions(report)
+  out << page_header(report) << page_numbers(report) << page_inside(report) << page_versions(report)
       << page_diagnosis(report) << page_parameters(report) << page_presses(report)
       << page_residuals(report) << page_learned(report) << page_slices(report)
       << page_tables(report) << page_reading(report) << page_provenance(report) << "</main>\n";
