@@ -54,8 +54,13 @@ ImageField image_field(const Eigen::MatrixXd& J, const FieldGrid& fine,
   FieldPosterior posterior = field_posterior(problem, s, penalty, place);
   const FieldCandidate& f = s.field();
   const double unit = std::sqrt(error.cwiseAbs2().mean());
-  return {grid,     f.m,  std::move(posterior.std_error), std::move(posterior.resolution),
-          f.weight, f.misfit * unit, f.held_out * unit};
+  return {grid,
+          f.m,
+          std::move(posterior.std_error),
+          std::move(posterior.resolution),
+          f.weight,
+          f.misfit * unit,
+          f.held_out * unit};
 }
 
 }  // namespace hapsim
