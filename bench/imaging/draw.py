@@ -2,8 +2,7 @@
 
 The logarithm of the modulus is a normal field of the standard deviation SPREAD that loses its correlation over
 LENGTH [m], exp(-(d / LENGTH)^2), drawn by 400 random waves (Mantoglou and Wilson, Water Resour. Res. 18, 1982).
-OUT/true.ply, a body of hs-tetmesh on a mesh of its own, gets 24 regions by its levels. 0: SPREAD is that of a body
-without any."""
+OUT/true.ply, a body of hs-tetmesh on a mesh of its own, gets 24 regions by its levels."""
 import sys
 
 import numpy as np

@@ -1,5 +1,5 @@
 """score.py OUT NUMBER LENGTH SPREAD: of image-NUMBER.ply the share of tetrahedra whose true log modulus lies within
-the image's 95 %, by what the image says of them, and the same of the mean of the truth over the resolution."""
+the image's 95 %, of all and of those that the image tells within a factor of 2."""
 import sys
 
 import numpy as np
