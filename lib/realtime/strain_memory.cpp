@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "realtime/strain_sample.h"
+
 namespace hapsim {
 namespace {
 
