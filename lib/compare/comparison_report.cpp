@@ -108,7 +108,7 @@ Report comparison_report(const Recording& measured, const std::vector<SimulatedV
     add_body_before(compare(measured, versions.front().recording), map, report);
   if (extras.image) {
     const auto file = std::find_if(extras.files.begin(), extras.files.end(),
-                                   [](const auto& known) { return known.first == "image"; });
+                                   [](const auto& known) { return known.first == "inside"; });
     add_image(*extras.image, file == extras.files.end() ? "image" : file->second, report);
   }
   add_presses(measured, versions, c, report);

@@ -44,7 +44,7 @@ head -c 600 image.ply | grep -aq '^comment model_modulus [0-9]' || complain 'ima
 "$bin/hs-simulate" -q motion.csv --body image.ply --model truth.csv --rim-edge 0.3 -o again.csv 2>err && cmp -s <(grep -v '^#' forces.csv) <(grep -v '^#' again.csv) ||
   complain 'an image is a body'
 
-"$bin/hs-compare" -q data.csv --simulated forces.csv --body body.ply --image image.ply --html report.html -o residuals.csv 2>err ||
+"$bin/hs-compare" -q data.csv --simulated forces.csv --body body.ply --inside image.ply --html report.html -o residuals.csv 2>err ||
   complain 'no report'
 grep -Eq '(src|href)=.?https?:|@import|fetch\(|XMLHttpRequest|WebSocket' report.html && complain 'the report asks the network'
 grep -q "default-src 'none'" report.html || complain 'the report may ask the network'
@@ -52,7 +52,7 @@ grep -q 'The image of what is inside' report.html || complain 'no section of the
 grep -Eq 'as far as [0-9]+ mm from pressed places|Nowhere do these presses tell' report.html || complain 'how deep is seen is not in the report'
 grep -q '>std. error \[%\]<' report.html || complain 'no bar of standard errors'
 cp report.html both.html
-"$bin/hs-compare" -q data.csv --simulated forces.csv --image image.ply --html report.html -o residuals.csv 2>err &&
+"$bin/hs-compare" -q data.csv --simulated forces.csv --inside image.ply --html report.html -o residuals.csv 2>err &&
   grep -q 'id=.stage.' report.html || complain 'the image is no body where none is given'
 
 cat >probe.js <<'END'
@@ -92,14 +92,14 @@ for size in '1280 800' '390 844'; do
 done
 
 rm -f residuals.csv
-refuses 2 'add --html report.html' --image image.ply
-refuses 3 'image.csv: not a PLY with an image of the stiffness; make it by hs-identify --image image.ply' --image image.csv --html r.html
-refuses 3 'body.ply: its tetrahedra have no modulus E' --image body.ply --html r.html
+refuses 2 'add --html report.html' --inside image.ply
+refuses 3 'image.csv: not a PLY with an image of the stiffness; make it by hs-identify --image image.ply' --inside image.csv --html r.html
+refuses 3 'body.ply: its tetrahedra have no modulus E' --inside body.ply --html r.html
 sed 's/^property double log_E_std$/property double log_E_old/' image.ply >older.ply
-refuses 3 'older.ply: an image without its standard errors, as earlier versions of hapsim wrote it' --image older.ply --html r.html
+refuses 3 'older.ply: an image without its standard errors, as earlier versions of hapsim wrote it' --inside older.ply --html r.html
 awk '{ if (NF == 3 && NR > 2 && $1 > 0) $1 = 0.09 } 1' box.off >wide.off
 "$bin/hs-tetmesh" wide.off -q -o wide.ply 2>err || complain 'no wide body'
-refuses 3 'image.ply: an image of another body: its bounds differ by 30 mm' --body wide.ply --image image.ply --html r.html
+refuses 3 'image.ply: an image of another body: its bounds differ by 30 mm' --body wide.ply --inside image.ply --html r.html
 [[ ! -e r.html && ! -e residuals.csv ]] || complain 'a refused run leaves nothing behind'
 
 ((failures == 0)) && echo 'all as expected'

@@ -7,7 +7,7 @@ namespace hapsim {
 
 namespace flag {
 inline constexpr FileFlag simulated{"--simulated"}, html{"--html"}, figures{"--figures"},
-    ply{"--ply"}, image{"--image"}, history{"--history"}, diagnosis{"--diagnosis"},
+    ply{"--ply"}, inside{"--inside"}, history{"--history"}, diagnosis{"--diagnosis"},
     junit{"--junit"}, events{"--events"}, simulated_markers{"--simulated-markers"};
 inline constexpr LengthFlag reach{"--reach"};
 inline constexpr TextFlag title{"--title"}, fail_above{"--fail-above"};

@@ -65,7 +65,7 @@ ReportExtras read_extras(const Arguments& arguments,
   }
   extras.labels = labels;
   extras.image = std::move(image);
-  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::image, flag::history})
+  for (const AnyFlag& flag : AnyFlags{flag::body, flag::model, flag::inside, flag::history})
     if (arguments.given(flag)) extras.files.emplace_back(flag.name + 2, arguments.text(flag));
   for (const std::string& diagnosis : arguments.list(flag::diagnosis))
     extras.files.emplace_back("diagnosis", diagnosis);
@@ -101,8 +101,8 @@ int run(const Arguments& arguments) {
     limit = parse_error_limit(arguments[flag::fail_above], flag::fail_above.name);
   if (arguments.given(flag::junit) && !arguments.given(flag::fail_above))
     fail_usage("--junit tells a verdict, and none is asked for", "add --fail-above 1.5noise");
-  if (arguments.given(flag::image) && !arguments.given(flag::html))
-    fail_usage("--image is shown in the report, and none is asked for", "add --html report.html");
+  if (arguments.given(flag::inside) && !arguments.given(flag::html))
+    fail_usage("--inside is shown in the report, and none is asked for", "add --html report.html");
   if (arguments.given(flag::ply) && !arguments.given(flag::body))
     fail_usage("--ply colours a surface, and none is given", "add --body body.ply");
   Input input(arguments.input());
@@ -118,8 +118,8 @@ int run(const Arguments& arguments) {
   ErrorMap map;
   std::shared_ptr<const BodyRegions> labels;
   std::optional<ImageOnBody> image;
-  if (arguments.given(flag::image)) {
-    Input file(arguments[flag::image]);
+  if (arguments.given(flag::inside)) {
+    Input file(arguments[flag::inside]);
     image = read_image(file);
   }
   if (arguments.given(flag::body) || image) {

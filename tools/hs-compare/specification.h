@@ -138,7 +138,7 @@ inline ToolSpec compare_specification() {
                "intervals, and its regions on the body. With --follow the model that the stream is "
                "compared with.",
        .group = "Input"},
-      {.flag = flag::image,
+      {.flag = flag::inside,
        .value = "FILE",
        .help = "The body with its image from hs-identify --image image.ply: the report cuts it "
                "open, with the standard errors of the image beside it, pale where no difference "

@@ -23,7 +23,7 @@ inline Option image_flag() {
           "error of its logarithm (Laplace's, with the penalty as the prior and its weight open "
           "where data left out leave it open), and resolution [m], over which distance E is an "
           "average. CSV of the centres, or by the file's name the body with these: .vtu, .ply; "
-          "hs-compare --image shows a .ply.",
+          "hs-compare --inside shows a .ply.",
       .group = "Output",
       .writes = {"csv", "ply", "vtu"}};
 }
