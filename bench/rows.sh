@@ -88,6 +88,8 @@ model() { # what is beside E and nu
     lag) printf 'sensor-lag,0,%s\n' tau,0.02 delay,0 ;;
     layer) printf 'layer,0,thickness,0.003\nlayer,0,ratio,3\n' ;;
     inclusion) printf 'inclusion,0,%s\n' x,0.01 y,0.005 z,0.024 radius,0.008 ratio,8 ;;
+    nothing | wandering) ;;
+    *) echo "rows.sh: there is no truth $1" >&2; return 2 ;;
   esac
 }
 # Noise of 0.02 N in place of white one, each component from the one before in a press; declared.

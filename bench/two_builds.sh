@@ -50,7 +50,7 @@ row() { # NAME first|again COMMAND...: both builds in turn; first: nothing is pr
     done
   done
   printf '%-34s %9s %9s ' "$name" "$(median old-s)" "$(median new-s)"
-  awk -v a="$(median old-s)" -v b="$(median new-s)" 'BEGIN {printf "%6.3f ", a > 0 ? b / a : 1}'
+  awk -v a="$(median old-s)" -v b="$(median new-s)" 'BEGIN {printf "%6.3f ", (a > 0 ? b / a : 1)}'
   awk -v a="$(median old-m)" -v b="$(median new-m)" 'BEGIN {printf "%9.1f %9.1f %6.3f\n", a, b, b / a}'
 }
 
@@ -69,5 +69,5 @@ for name in "${names[@]}"; do
   row "hs-identify $name, robust" again hs-identify "$name.csv" --body "$name.ply" --effects elastic --robust huber -o m.csv
   row "hs-diagnose $name" again hs-diagnose "$name.csv" --body "$name.ply" --model "$name-model.csv" -o e.csv
   row "hs-simulate $name" again hs-simulate "$name.csv" --body "$name.ply" --model "$name-model.csv" -o f.csv
-  row "hs-compare $name" again hs-compare -q "$name-simulated.csv" --json c.json
+  row "hs-compare $name" again hs-compare -q "$name.csv" --simulated "$name-simulated.csv" -o c.csv
 done

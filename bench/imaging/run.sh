@@ -2,6 +2,7 @@
 # run.sh BIN OUT LENGTH SPREAD NUMBER...: bodies whose modulus is a random field (draw.py), pressed by hs-simulate on meshes
 # of their own and recorded with noise; hs-identify --image on another mesh, and how often its 95 % hold the truth
 # (score.py). OUT keeps everything; delete OUT/image-* to look again.
+# Recorded in bench/results/imaging.txt (bench/record.sh).
 set -euo pipefail
 [[ -n ${5-} && -x $1/hs-identify ]] || { echo "usage: run.sh BIN OUT LENGTH SPREAD NUMBER..." >&2; exit 2; }
 bin=$1 out=$2 length=$3 spread=$4

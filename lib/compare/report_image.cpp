@@ -82,6 +82,7 @@ void add_image(const ImageOnBody& image, const std::string& name, Report& report
   if (!report.body.faces.empty()) require_same_body(box, box_of(report.body.vertices), name);
   ReportInside& inside = report.inside;
   inside.top = box.max().z();
+  inside.half95 = kHalf95;
   set_cells(box, inside);
   fill_cells(image, inside);
   // The scale is of what is told to differ; what is not may be anything.

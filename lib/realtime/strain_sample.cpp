@@ -111,8 +111,8 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
   }
   if (!(sample.into > 0)) return;
   StressStates all(sample.frame, radius, inside(0, 0) * radius * radius, stable);
-  constexpr std::size_t kNumbers = 8 + 2 * kInsideFields;  // of a state and number (add())
-  const std::size_t parts = 1 + sizeof(float) * kNumbers * numbers * stable.size() / kMemoryBytes;
+  constexpr std::size_t kKept = 8 + 2 * kInsideFields;  // of a state and number (add())
+  const std::size_t parts = 1 + sizeof(float) * kKept * numbers * stable.size() / kMemoryBytes;
   for (std::size_t part = 0; part < parts; ++part)
     all.add([&](std::size_t i) {
       press.restore(states[by[i].first]);

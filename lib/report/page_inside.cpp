@@ -14,7 +14,6 @@
 namespace hapsim {
 namespace {
 
-constexpr double kIn95 = 1.96;  // standard errors
 constexpr int kInsideBar = 250;
 
 // What a cell may be said of; kNothing: far from the body.
@@ -22,7 +21,7 @@ enum Cell : std::uint8_t { kNothing, kTold, kLikeTheModel, kUnresolved, kBeside 
 
 Cell cell_of(const ReportInside& inside, std::size_t i) {
   if (std::isnan(inside.log_ratio[i])) return kNothing;
-  const double half = kIn95 * inside.log_std[i], ratio = inside.log_ratio[i];
+  const double half = inside.half95 * inside.log_std[i], ratio = inside.log_ratio[i];
   if (std::abs(ratio) > half) return kTold;
   const double doubled = std::log(2.0);
   return ratio - half < -doubled && ratio + half > doubled ? kUnresolved : kLikeTheModel;
@@ -100,7 +99,7 @@ std::string inside_data(const Report& report) {
       "half95:{},above:{:.6g},unknown:[{},{},{}],ratioStops:{},errorStops:{},presses:[",
       inside.count[0], inside.count[1], inside.count[2], inside.low[0], inside.low[1],
       inside.low[2], inside.cell, base64(cells.ratio), base64(cells.error),
-      base64(cells.resolution), base64(cells.cell), ratio.top, error.top, kIn95, inside.top,
+      base64(cells.resolution), base64(cells.cell), ratio.top, error.top, inside.half95, inside.top,
       kUnknownColour[0], kUnknownColour[1], kUnknownColour[2], css_list(stops_of(ratio)),
       css_list(stops_of(error)));
   for (const Vec3& p : report.body.positions)

@@ -90,6 +90,7 @@ struct ReportInside {
   std::vector<double> log_std;        // its standard error
   std::vector<double> resolution;     // over which distance it is an average [m]
   double top = 0;                     // z of the body's highest point [m]
+  double half95 = 0;                  // of the 95 %, in standard errors
   std::size_t ratio_layer = 0, error_layer = 0;  // of ReportBody::layers
   std::vector<std::string> words;                // how finely, and how deep
   std::size_t size() const {
