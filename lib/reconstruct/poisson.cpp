@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/random.h"
 
 namespace hapsim {
 namespace {
@@ -44,6 +45,10 @@ class Stamped : public Base {
  private:
   std::size_t stamp_ = static_cast<std::size_t>(-1);
 };
+
+// Of the cell. Of equally bad tetrahedra, as mirrored points make them, the function's refinement
+// takes that one first which lies first in memory; points shaken by so little have none.
+constexpr double kShake = 1e-6;
 
 // CGAL's default for surface meshes, stamped.
 using Traits = CGAL::Robust_circumcenter_traits_3<Kernel>;
@@ -102,9 +107,11 @@ Surface poisson_surface(const PointCloud& cloud, double cell, double off, std::u
   using Polyhedron = CGAL::Polyhedron_3<Kernel>;
   // The triangulation inserts in random order.
   CGAL::get_default_random() = CGAL::Random(static_cast<unsigned>(seed));
+  Random shake(seed);
   std::vector<Oriented> points;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const Vec3& p = cloud.points[i];
+    const Vec3 p =
+        cloud.points[i] + kShake * cell * Vec3(shake.normal(), shake.normal(), shake.normal());
     const Vec3& n = cloud.normals[i];
     points.emplace_back(Kernel::Point_3(p.x(), p.y(), p.z()),
                         Kernel::Vector_3(n.x(), n.y(), n.z()));
@@ -130,9 +137,8 @@ Surface poisson_surface(const PointCloud& cloud, double cell, double off, std::u
     CGAL::make_surface_mesh(complex, implicit,
                             CGAL::Surface_mesh_default_criteria_3<Triangulation>(20, cell, off),
                             CGAL::Manifold_tag());
-    if (triangulation.number_of_vertices() > 0) {
-      CGAL::facets_in_complex_2_to_triangle_mesh(complex, mesh);
-    }
+    // Where the mesher starts on zeros of the function far from the points it ends without a facet.
+    if (complex.number_of_facets() > 0) CGAL::facets_in_complex_2_to_triangle_mesh(complex, mesh);
   }
   if (mesh.empty()) {
     fail_numerics("", "the Poisson surface could not be found",

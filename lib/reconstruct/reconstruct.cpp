@@ -25,7 +25,8 @@ namespace {
 
 constexpr double kFarOff = 0.25;  // of the spacing: others are tried when points lie farther off
 constexpr double kNoises = 3;     // ... unless that is the scan's own thickness
-constexpr double kFaces = 2000;   // wished when --edge is not given
+constexpr double kMost = 0.9, kNearlyAll = 0.97;  // shares of the points
+constexpr double kFaces = 2000;                   // wished when --edge is not given
 
 PointCloud rotated(const PointCloud& cloud, const Eigen::Matrix3d& r) {
   PointCloud turned = cloud;
@@ -58,12 +59,12 @@ double noise_of(const std::vector<Vec3>& points) {
   return upper_median(std::move(thickness));
 }
 
-// 90 % of the points lie nearer than this [m].
-double typical_distance(const Surface& surface, const std::vector<Vec3>& points) {
+// The `share` of the points lies nearer than this [m].
+double distance_of(double share, const Surface& surface, const std::vector<Vec3>& points) {
   const SurfaceTree tree(surface);
   std::vector<double> distance;
   for (const Vec3& p : points) distance.push_back(tree.nearest(p).distance);
-  const auto rank = static_cast<std::size_t>(0.9 * static_cast<double>(distance.size()));
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(distance.size()));
   return nth_smallest(std::move(distance), rank);
 }
 
@@ -81,6 +82,12 @@ void measure(const Surface& surface, const std::vector<Vec3>& points, Reconstruc
       static_cast<double>(std::count_if(distance.begin(), distance.end(),
                                         [&](double d) { return d > 3 * report.rms; })) /
       n;
+}
+
+// Up to here points lie no farther off than the method and the scan account for [m].
+double near_of(const PointCloud& cloud, const BodyFrame& frame) {
+  return std::max(kFarOff * std::max(frame.spacing, frame.edge / 3),
+                  kNoises * noise_of(cloud.points));
 }
 
 Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMethod method,
@@ -101,6 +108,22 @@ Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMeth
   return surface;
 }
 
+// The same, where the method allows it roughly first: less than half the time, and enough but for
+// what is thin.
+Surface attempt_cheaply(const PointCloud& cloud, const BodyFrame& frame, ReconstructMethod method,
+                        double near, const std::string& name, bool& sharp) {
+  if (method == ReconstructMethod::kPoisson) {
+    try {
+      BodyFrame rough = frame;
+      rough.roughly = true;
+      Surface surface = attempt(cloud, rough, method, name, sharp);
+      if (distance_of(kNearlyAll, surface, cloud.points) < near) return surface;
+    } catch (const Error&) {  // what is thin is lost
+    }
+  }
+  return attempt(cloud, frame, method, name, sharp);
+}
+
 // When the method is ours to choose, the points are at fault where none will do.
 [[noreturn]] void fail_all_methods(const std::string& name, const std::string& failure) {
   fail_input(
@@ -114,24 +137,23 @@ Surface attempt(const PointCloud& cloud, const BodyFrame& frame, ReconstructMeth
 Surface by_method(const PointCloud& cloud, const BodyFrame& frame,
                   const ReconstructOptions& options, const std::string& name,
                   ReconstructReport& report) {
+  const double near = near_of(cloud, frame);
   if (options.method != ReconstructMethod::kAuto)
-    return attempt(cloud, frame, report.method, name, report.sharp);
+    return attempt_cheaply(cloud, frame, report.method, near, name, report.sharp);
   // The others need points of the sides, which a patch has not.
   std::vector<ReconstructMethod> methods{report.method};
   if (report.method != ReconstructMethod::kHeight) {
     methods.insert(methods.end(), {ReconstructMethod::kDelaunay, ReconstructMethod::kPowerCrust,
                                    ReconstructMethod::kAdvancingFront, ReconstructMethod::kWrap});
   }
-  const double near =
-      std::max(kFarOff * std::max(frame.spacing, frame.edge / 3), kNoises * noise_of(cloud.points));
   Surface best;
   double least = 1e300;
   std::string failure;
   for (const ReconstructMethod method : methods) {
     try {
       bool sharp = false;
-      Surface surface = attempt(cloud, frame, method, name, sharp);
-      const double off = typical_distance(surface, cloud.points);
+      Surface surface = attempt_cheaply(cloud, frame, method, near, name, sharp);
+      const double off = distance_of(kMost, surface, cloud.points);
       // Another must be clearly better than what the points' kind asks for.
       if (off < (best.faces.empty() ? 1 : 0.8) * least) {
         if (!best.faces.empty()) {

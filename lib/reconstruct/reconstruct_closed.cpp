@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/union_find.h"
 #include "mesh/surface_tree.h"
+#include "reconstruct/clean_points.h"
 #include "reconstruct/crease.h"
 #include "reconstruct/normals.h"
 #include "reconstruct/poisson.h"
@@ -87,8 +88,9 @@ constexpr double kLeastBall = 1.0;
 constexpr double kWrapGap = 3.0;
 constexpr double kWrapOffset = 0.3;
 // Of the edge: how large the triangles of the Poisson surface are, and how far off it; they are
-// made even and fitted to the points afterwards.
+// made even and fitted to the points afterwards. The same roughly, and the points' spacing then.
 constexpr double kPoissonCell = 0.7, kPoissonOff = 0.05;
+constexpr double kRoughCell = 1.0, kRoughOff = 0.1, kRoughSpacing = 0.5;
 constexpr double kTight = 0.1;  // of the edge: a wrap about triangles
 constexpr int kWrapAttempts = 6;
 constexpr double kDoubleSkin = 3;  // volume over offset and area: a double skin has about 1
@@ -192,7 +194,8 @@ Surface raw_surface(const PointCloud& cloud, const BodyFrame& frame, Reconstruct
           [&](double gap, double offset) { return wrap_points(cloud.points, gap, offset); });
     default:
       return largest_part(
-          poisson_surface(cloud, kPoissonCell * frame.edge, kPoissonOff * frame.edge, frame.seed));
+          poisson_surface(cloud, (frame.roughly ? kRoughCell : kPoissonCell) * frame.edge,
+                          (frame.roughly ? kRoughOff : kPoissonOff) * frame.edge, frame.seed));
   }
 }
 
@@ -210,7 +213,8 @@ Surface reconstruct_closed(const PointCloud& scan, const BodyFrame& frame, Recon
   even.edge = frame.edge;
   SurfaceFitOptions fit;
   const bool mirror = frame.has_base && !frame.all_round;
-  Surface surface = raw_surface(mirror ? mirrored(cloud, frame) : cloud, frame, method);
+  const PointCloud raw = frame.roughly ? thin_points(cloud, kRoughSpacing * frame.edge) : cloud;
+  Surface surface = raw_surface(mirror ? mirrored(raw, frame) : raw, frame, method);
   step();
   if (frame.has_base) {
     surface = largest_part(cut_flat(surface, frame.base));

@@ -33,6 +33,7 @@ struct BodyFrame {
   double edge = 0;         // [m]
   double beyond = 0;       // the body goes on beyond the points by this [m]
   double spacing = 0;      // of the points [m]
+  bool roughly = false;    // the Poisson surface, before it is fitted: of fewer points
   std::uint64_t seed = 1;
   std::function<void()> step;
 };
