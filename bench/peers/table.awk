@@ -29,24 +29,27 @@ row == "scan" && $2 ~ /^[0-9]+$/ {
   if ($3 == "Open3D") their[$1, $2] = $(NF - 2)
 }
 
-# what, s ratio ...
+# preparation, N samples: s; what, s ratio ...
+row == "fit" && /^preparation/ && !prepared { prepared = $(NF - 1) }
 row == "fit" && /^(E and nu|six parameters), / {
   match($0, /  +[0-9.]+/); s = substr($0, RSTART) + 0; split($0, c, /,|  /); what = c[1]
   if ($0 ~ /, hapsim  /) fit_s = s
   else if ($0 ~ /SciPy/) line("fit of " what ", prepared", (/CalculiX/ ? "SciPy around CalculiX" : "SciPy around hs-simulate"), fit_s, s, 0, (/CalculiX/ ? 100 : ""))
+  if ($0 ~ /CalculiX/ && what == "E and nu") line("fit of E and nu, a first run on a new body", "SciPy around CalculiX", prepared + fit_s, s, 0, 8)
 }
 
 END {
   for (k = 1; k <= count; ++k) {
     key = keys[k]; split(key, c, " ")
     what = sprintf("one press, %d tetrahedra, order %d", c[1], c[2])
-    line(what, "CalculiX, direct", ours[key], direct[key], direct_mb[key] / our_mb[key], (c[1] > 1e5 ? 4 : ""))
-    line(what, "CalculiX, its best iterative", ours[key], iterative[key], iterative_mb[key] / our_mb[key], 1)
+    if (key in direct) line(what, "CalculiX, direct", ours[key], direct[key], direct_mb[key] / our_mb[key], (c[1] > 1e5 ? 4 : ""))
+    line(what, "CalculiX, its best iterative", ours[key], iterative[key], iterative_mb[key] / our_mb[key], (c[2] == 2 ? 3 : 1))
     if (k > 1) {
       split(keys[k - 1], b, " ")
       if (b[2] == c[2])
-        printf "one press, order %d: time grows by the power %.2f, CalculiX %.2f direct and %.2f iterative\n", c[2],
-          power(ours[keys[k - 1]], ours[key], b[1], c[1]), power(direct[keys[k - 1]], direct[key], b[1], c[1]),
+        printf "one press, order %d: time grows by the power %.2f, CalculiX %s%.2f iterative\n", c[2],
+          power(ours[keys[k - 1]], ours[key], b[1], c[1]),
+          (key in direct ? sprintf("%.2f direct and ", power(direct[keys[k - 1]], direct[key], b[1], c[1])) : ""),
           power(iterative[keys[k - 1]], iterative[key], b[1], c[1])
     }
   }
