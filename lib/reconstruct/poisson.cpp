@@ -22,29 +22,12 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "reconstruct/stamped.h"
 
 namespace hapsim {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-// A cell or vertex that knows when it was made. Without that CGAL orders them by where they lie in
-// memory, and the mesh differs from call to call.
-template <class Base>
-class Stamped : public Base {
- public:
-  using Has_timestamp = CGAL::Tag_true;
-  template <class Structure>
-  struct Rebind_TDS {
-    using Other = Stamped<typename Base::template Rebind_TDS<Structure>::Other>;
-  };
-  using Base::Base;
-  std::size_t time_stamp() const { return stamp_; }
-  void set_time_stamp(std::size_t stamp) { stamp_ = stamp; }
-
- private:
-  std::size_t stamp_ = static_cast<std::size_t>(-1);
-};
 
 // Of the cell. Of equally bad tetrahedra, as mirrored points make them, the function's refinement
 // takes that one first which lies first in memory; points shaken by so little have none.

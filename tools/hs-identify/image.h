@@ -22,10 +22,8 @@ inline Option image_flag() {
           "body, where, and how deep these presses see. Beside E stand log_E_std, the standard "
           "error of its logarithm (Laplace's, with the penalty as the prior and its weight open "
           "where data left out leave it open; the model's nu is taken as it is), and resolution "
-          "[m], "
-          "over which distance E is an average. CSV of the centres, or by the file's name the body "
-          "with these: .vtu, .ply; "
-          "hs-compare --inside shows a .ply.",
+          "[m], over which distance E is an average. CSV of the centres, or by the file's name the "
+          "body with these: .vtu, .ply; hs-compare --inside shows a .ply.",
       .group = "Output",
       .writes = {"csv", "ply", "vtu"}};
 }
