@@ -264,12 +264,13 @@ std::vector<PreparedContact> ContactLibrary::prepare(const std::vector<Vec3>& po
                                                      double nu_low, double nu_high) const {
   const std::vector<double> nus = poisson_nodes(nu_low, nu_high);
   std::vector<Task> tasks;
-  for (const double nu : nus) {
-    const Material material{nu, {1.0}, nullptr};
-    tasks.push_back(
-        {key_of(material, "homogeneous"), [this, material](ContactBodies& bodies, std::size_t) {
-           return bodies.solve(material, grid());
-         }});
+  for (std::size_t k = 0; k < nus.size(); ++k) {
+    ContentHash key = key_of({nus[k], {1.0}, nullptr}, "homogeneous");
+    // The others say where the sweep was factorised, and the last digits with it.
+    for (const double nu : nus) key.add(nu);
+    tasks.push_back({key, [this, &nus, k](ContactBodies& bodies, std::size_t) {
+                       return bodies.solve_unit(nus, k, grid());
+                     }});
   }
   const auto solutions = solve_all(positions, tasks, false);
   std::vector<PreparedContact> prepared(positions.size());

@@ -7,9 +7,11 @@
 #include "base/error.h"
 #include "contact/feature_estimate.h"
 #include "contact/featured_body.h"
+#include "contact/level_solution.h"
 #include "contact/marker_solution.h"
 #include "contact/tool_torque_solution.h"
 #include "solid/elastic_body.h"
+#include "solid/poisson_sweep.h"
 #include "tetmesh/contact_mesh_around.h"
 
 namespace hapsim {
@@ -41,7 +43,6 @@ PlanGrid plan_grid(const Surface& surface, int cells_along) {
 }
 
 namespace {
-constexpr Dilatation kDilatation = Dilatation::kElement;  // soft tissue is nearly incompressible
 // Of boundaries that a contact's mesh follows: each brings some ten elements with it.
 constexpr std::size_t kMostInnerFaces = 1500;
 }  // namespace
@@ -50,12 +51,15 @@ struct ContactBodies::Level {
   std::shared_ptr<const ContactMesh> shared;
   const ContactMesh& contact;
   std::unique_ptr<ElasticBody> homogeneous;  // made when first asked for
+  std::vector<double> nus;                   // of the sweep
+  std::unique_ptr<PoissonSweep> unit;
 
   explicit Level(ContactMesh mesh)
       : shared(std::make_shared<const ContactMesh>(std::move(mesh))), contact(*shared) {}
 
   std::size_t held_bytes() const {
-    return hapsim::held_bytes(shared) + hapsim::held_bytes(homogeneous);
+    return hapsim::held_bytes(shared) + hapsim::held_bytes(homogeneous) + hapsim::held_bytes(nus) +
+           hapsim::held_bytes(unit);
   }
 
   ElasticBody& body() {
@@ -64,8 +68,14 @@ struct ContactBodies::Level {
     for (std::size_t n = 0; n < handle.size(); ++n)
       if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
     for (const int n : contact.patch_nodes) handle[n] = 0;
-    homogeneous = std::make_unique<ElasticBody>(contact.mesh, handle, kDilatation);
+    homogeneous = std::make_unique<ElasticBody>(contact.mesh, handle, kContactDilatation);
     return *homogeneous;
+  }
+
+  const PoissonSweep& sweep(const std::vector<double>& asked) {
+    if (!unit || nus != asked) unit = std::make_unique<PoissonSweep>(contact.mesh, body(), asked);
+    nus = asked;
+    return *unit;
   }
 };
 
@@ -122,54 +132,6 @@ ContactBodies::Level& ContactBodies::level(int k, bool follow) {
   return level(k, false);
 }
 
-namespace {
-
-struct LevelSolution {
-  Eigen::Matrix3d K = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d dK_dnu = Eigen::Matrix3d::Zero();
-  std::vector<Eigen::Matrix3d> by_group;
-  std::vector<float> share;
-};
-
-LevelSolution solve_level(const TetMesh& mesh, ElasticBody& body, const Vec3& normal,
-                          const Material& material, const PlanGrid& grid) {
-  const std::size_t tets = mesh.tets.size();
-  std::vector<int> group(tets, 0);
-  std::vector<Vec3> centroid(tets);
-  std::vector<Lame> constants(tets);
-  const Lame unit = lame(1, material.nu), by_nu = lame_by_poisson(1, material.nu);
-  for (std::size_t t = 0; t < tets; ++t) {
-    const auto& n = mesh.tets[t];
-    centroid[t] = (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-    if (material.group_of) group[t] = material.group_of(centroid[t]);
-    const double modulus = material.modulus[group[t]];
-    constants[t] = {modulus * unit.lambda, modulus * unit.mu};
-  }
-  body.factorise(constants);
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> fields =
-      body.solve(Eigen::Matrix3d::Identity()).field;
-
-  LevelSolution solution;
-  solution.by_group.assign(material.modulus.size(), Eigen::Matrix3d::Zero());
-  std::vector<double> share(static_cast<std::size_t>(grid.columns) * grid.rows, 0);
-  double total = 0;
-  for (std::size_t t = 0; t < tets; ++t) {
-    const ElementEnergies e = element_energies(mesh, t, fields, kDilatation);
-    const double modulus = material.modulus[group[t]];
-    const Eigen::Matrix3d k = unit.lambda * e.volumetric + unit.mu * e.deviatoric;
-    solution.by_group[group[t]] += k;
-    solution.K += modulus * k;
-    solution.dK_dnu += modulus * (by_nu.lambda * e.volumetric + by_nu.mu * e.deviatoric);
-    const double energy = modulus * normal.dot(k * normal);
-    if (!share.empty()) share[grid.cell(centroid[t])] += energy;
-    total += energy;
-  }
-  for (const double s : share) solution.share.push_back(static_cast<float>(s / total));
-  return solution;
-}
-
-}  // namespace
-
 StiffnessSolution ContactBodies::solve(const Material& material, const PlanGrid& grid) {
   const ContactMesh& fine = level(0).contact;
   const LevelSolution f = solve_level(fine.mesh, level(0).body(), fine.normal, material, grid);
@@ -184,6 +146,27 @@ StiffnessSolution ContactBodies::solve(const Material& material, const PlanGrid&
   solution.point = fine.point;
   solution.normal = fine.normal;
   solution.plan_share = f.share;
+  return solution;
+}
+
+StiffnessSolution ContactBodies::solve_unit(const std::vector<double>& nus, std::size_t which,
+                                            const PlanGrid& grid) {
+  Level& fine = level(0);
+  const PoissonSweep& sweep = fine.sweep(nus);
+  const PoissonSweep::Solution f = sweep.at(nus[which]), c = level(1).sweep(nus).at(nus[which]);
+  StiffnessSolution solution;
+  solution.K = f.K;
+  solution.dK_dnu = f.dK_dnu;
+  solution.dK_dmodulus = {f.K};
+  solution.coarse_change = c.K - f.K;
+  solution.coarse_dK_dnu = c.dK_dnu;
+  solution.point = fine.contact.point;
+  solution.normal = fine.contact.normal;
+  if (which == nus.size() / 2) {
+    const Material material{nus[which], {1.0}, nullptr};
+    solution.plan_share =
+        level_by_energies(fine.contact.mesh, sweep.field(), solution.normal, material, grid).share;
+  }
   return solution;
 }
 

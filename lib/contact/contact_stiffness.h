@@ -112,6 +112,10 @@ class ContactBodies {
   // A material without features. Derivatives come from the element energies of the three unit
   // fields: no further solution.
   StiffnessSolution solve(const Material& material, const PlanGrid& grid);
+  // Of E = 1 at one of the Poisson's ratios `nus`, all of which one factorisation a mesh serves
+  // (solid/poisson_sweep.h; kept for the others); shares of the energy at the middle one alone.
+  StiffnessSolution solve_unit(const std::vector<double>& nus, std::size_t which,
+                               const PlanGrid& grid);
   // Any material on the finer mesh; no shares of the energy.
   StiffnessSolution solve_featured(const Material& material);
   // The same on the coarser mesh, at a third of the cost: what inhomogeneity does is smooth, and

@@ -87,25 +87,26 @@ FieldBody::FieldBody(const ContactBase& base, const Vec3& position, double radiu
   for (const int n : contact_.patch_nodes) handle[n] = 0;
   body_ = std::make_unique<ElasticBody>(mesh, handle, Dilatation::kElement);
   weights_.resize(mesh.tets.size());
+  std::vector<double> sum(grid_.size(), 0);  // of the weights of one element
+  std::vector<int> met;
+  std::vector<Vec3> points;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& n = mesh.tets[t];
-    std::vector<std::pair<int, double>>& weights = weights_[t];
-    std::vector<Vec3> points;
+    points.clear();
     const Corners corners{mesh.nodes[n[0]], mesh.nodes[n[1]], mesh.nodes[n[2]], mesh.nodes[n[3]]};
     add_points(corners, grid_.step, 2, points);
     const double share = 1 / static_cast<double>(points.size());
     for (const Vec3& p : points)
       for_weights(grid_, p, [&](std::size_t node, double w) {
-        weights.emplace_back(static_cast<int>(node), w * share);
+        if (sum[node] == 0) met.push_back(static_cast<int>(node));
+        sum[node] += w * share;
       });
-    std::sort(weights.begin(), weights.end());
-    std::size_t kept = 0;
-    for (std::size_t k = 1; k < weights.size(); ++k)
-      if (weights[k].first == weights[kept].first)
-        weights[kept].second += weights[k].second;
-      else
-        weights[++kept] = weights[k];
-    weights.resize(kept + 1);
+    std::sort(met.begin(), met.end());
+    for (const int node : met) {
+      weights_[t].emplace_back(node, sum[static_cast<std::size_t>(node)]);
+      sum[static_cast<std::size_t>(node)] = 0;
+    }
+    met.clear();
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/median.h"
+#include "base/parallel.h"
 #include "estimate/left_out.h"
 #include "estimate/penalty_matrix.h"
 
@@ -119,7 +120,7 @@ Eigen::VectorXd spread_of_rows(const Eigen::MatrixXd& A, const Eigen::MatrixXd& 
 }  // namespace
 
 FieldPosterior field_posterior(const FieldProblem& p, const FieldSolution& solution,
-                               Penalty penalty, const std::vector<Vec3>& place) {
+                               Penalty penalty, const std::vector<Vec3>& place, int threads) {
   constexpr double kUnlikely = 5;  // of a log score below the best's: not asked further
   PenaltyMatrix matrix(p);
   const double largest = largest_weight(p, matrix, penalty);
@@ -130,11 +131,15 @@ FieldPosterior field_posterior(const FieldProblem& p, const FieldSolution& solut
     beyond = beyond || c.weight > largest;
   }
   const Eigen::VectorXd& chosen = solution.field().m;
-  std::vector<NormalField> fields;
+  std::vector<std::pair<const Eigen::VectorXd*, double>> asked;  // where to begin, weight
   for (const FieldCandidate& c : solution.tried)
-    if (c.weight <= largest && c.log_score > best - kUnlikely)
-      fields.push_back(normal_field(p, matrix, c.m, c.weight, penalty));
-  if (beyond) fields.push_back(normal_field(p, matrix, chosen, largest, penalty));
+    if (c.weight <= largest && c.log_score > best - kUnlikely) asked.emplace_back(&c.m, c.weight);
+  if (beyond) asked.emplace_back(&chosen, largest);
+  std::vector<NormalField> fields(asked.size());
+  in_parallel(asked.size(), threads, [&](std::size_t k) {
+    PenaltyMatrix own(p);
+    fields[k] = normal_field(p, own, *asked[k].first, asked[k].second, penalty);
+  });
   const NormalField& likeliest = *std::max_element(
       fields.begin(), fields.end(),
       [](const NormalField& a, const NormalField& b) { return a.log_score < b.log_score; });

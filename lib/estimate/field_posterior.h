@@ -32,8 +32,8 @@ struct FieldPosterior {
 // (Backus and Gilbert, Geophys. J. R. astr. Soc. 16, 1968); the length is the root mean square
 // distance from an unknown's own place of what its value is taken from,
 //   (sum_j M_ij^2 |x_j - x_i|^2 / sum_j M_ij^2)^1/2;
-// infinite where no datum reaches. `place`: of each unknown.
+// infinite where no datum reaches. `place`: of each unknown. The weights by `threads` threads.
 FieldPosterior field_posterior(const FieldProblem& problem, const FieldSolution& solution,
-                               Penalty penalty, const std::vector<Vec3>& place);
+                               Penalty penalty, const std::vector<Vec3>& place, int threads = 0);
 
 }  // namespace hapsim

@@ -4,17 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
 #include "estimate/left_out.h"
 #include "estimate/penalty_matrix.h"
 
 namespace hapsim {
 namespace {
 
-FieldCandidate with_weight(const FieldProblem& p, const Eigen::MatrixXd& G,
-                           const Eigen::MatrixXd& JG, double weight) {
+using Solver = Eigen::LDLT<Eigen::MatrixXd>;
+
+Solver data_space(const Eigen::MatrixXd& JG, double weight) {
+  return Solver(JG / weight + Eigen::MatrixXd::Identity(JG.rows(), JG.rows()));
+}
+
+FieldCandidate with_weight(const FieldProblem& p, const Eigen::MatrixXd& G, const Solver& solver,
+                           double weight) {
   const Eigen::Index n = p.data.size();
-  const Eigen::MatrixXd S = JG / weight + Eigen::MatrixXd::Identity(n, n);
-  const Eigen::LDLT<Eigen::MatrixXd> solver(S);
   FieldCandidate s;
   s.weight = weight;
   s.m = G * solver.solve(p.data) / weight;
@@ -30,14 +35,12 @@ FieldCandidate with_weight(const FieldProblem& p, const Eigen::MatrixXd& G,
 
 }  // namespace
 
-FieldSolution solve_field(const FieldProblem& p, Penalty penalty) {
+FieldSolution solve_field(const FieldProblem& p, Penalty penalty, int threads) {
   // Of weights whose errors differ by less than this allows, the smoothest is taken.
   constexpr double kAlike = 1.05;
   constexpr int kReweightings = 6, kWeights = 13;
-  PenaltyMatrix matrix(p);
   const auto edges = static_cast<Eigen::Index>(p.edges.size());
-  const Eigen::VectorXd plain = Eigen::VectorXd::Ones(edges);
-  const Eigen::MatrixXd G = matrix.inverse_times_J(plain);
+  const Eigen::MatrixXd G = PenaltyMatrix(p).inverse_times_J(Eigen::VectorXd::Ones(edges));
   const Eigen::MatrixXd JG = p.J * G;
   // Weights from nearly no penalty to nearly nothing but it, by the eigenvalues of J R^-1 J': the
   // largest belong to what the penalty hardly holds, as a common constant.
@@ -45,20 +48,24 @@ FieldSolution solve_field(const FieldProblem& p, Penalty penalty) {
   const Eigen::VectorXd& values = eigen.eigenvalues();
   const double high = 10 * values[values.size() - 1];
   const double low = std::max(1e-14 * high, 1e-2 * values[values.size() / 2]);
-  std::vector<FieldCandidate> tried;
-  for (int k = 0; k < kWeights; ++k) {
-    const double weight = low * std::pow(high / low, k / (kWeights - 1.0));
-    FieldCandidate s = with_weight(p, G, JG, weight);
-    if (penalty == Penalty::kTotalVariation) {
-      for (int round = 0; round < kReweightings; ++round) {
-        const Eigen::VectorXd q =
-            edge_factors(p, s.m, [](double t) { return kEdge / std::sqrt(t * t + kEdge * kEdge); });
-        const Eigen::MatrixXd own = matrix.inverse_times_J(q);
-        s = with_weight(p, own, p.J * own, weight);
-      }
+  std::vector<FieldCandidate> tried(kWeights);
+  in_parallel(kWeights, threads, [&](std::size_t k) {
+    const double weight = low * std::pow(high / low, static_cast<double>(k) / (kWeights - 1.0));
+    Solver solver = data_space(JG, weight);
+    if (penalty == Penalty::kSmooth) {
+      tried[k] = with_weight(p, G, solver, weight);
+      return;
     }
-    tried.push_back(std::move(s));
-  }
+    PenaltyMatrix matrix(p);
+    Eigen::MatrixXd own = G;
+    for (int round = 0; round < kReweightings; ++round) {
+      const Eigen::VectorXd m = own * solver.solve(p.data) / weight;
+      own = matrix.inverse_times_J(
+          edge_factors(p, m, [](double t) { return kEdge / std::sqrt(t * t + kEdge * kEdge); }));
+      solver = data_space(p.J * own, weight);
+    }
+    tried[k] = with_weight(p, own, solver, weight);
+  });
   double least = tried.front().held_out;
   for (const FieldCandidate& s : tried) least = std::min(least, s.held_out);
   std::size_t chosen = tried.size() - 1;

@@ -40,7 +40,7 @@ struct FieldSolution {
 // one under which data left out, group by group, are predicted best (Stone, J. R. Statist. Soc. B
 // 36, 1974; in closed form for the last reweighting); of equally good ones within 5 %, the
 // strongest. Works in the space of the data: one sparse factorisation for each weighting, J.rows()
-// solutions.
-FieldSolution solve_field(const FieldProblem& problem, Penalty penalty);
+// solutions. The weights by `threads` threads (in_parallel).
+FieldSolution solve_field(const FieldProblem& problem, Penalty penalty, int threads = 0);
 
 }  // namespace hapsim

@@ -10,7 +10,7 @@ namespace hapsim {
 
 ImageField image_field(const Eigen::MatrixXd& J, const FieldGrid& fine,
                        const std::vector<int>& group, const Eigen::VectorXd& data,
-                       const Eigen::VectorXd& error, Penalty penalty) {
+                       const Eigen::VectorXd& error, Penalty penalty, int threads) {
   FieldGrid grid = fine;
   grid.step = 2 * fine.step;
   for (int& n : grid.count) n = (n + 2) / 2;
@@ -48,10 +48,10 @@ ImageField image_field(const Eigen::MatrixXd& J, const FieldGrid& fine,
   problem.node_weight = 0.02 * seen;
   // That the modulus somewhere is twice the model's is nothing that presses elsewhere can tell.
   problem.least_spread = std::log(2.0);
-  const FieldSolution s = solve_field(problem, penalty);
+  const FieldSolution s = solve_field(problem, penalty, threads);
   std::vector<Vec3> place;
   for (std::size_t n = 0; n < grid.size(); ++n) place.push_back(grid.node(n));
-  FieldPosterior posterior = field_posterior(problem, s, penalty, place);
+  FieldPosterior posterior = field_posterior(problem, s, penalty, place, threads);
   const FieldCandidate& f = s.field();
   const double unit = std::sqrt(error.cwiseAbs2().mean());
   return {grid,

@@ -25,6 +25,6 @@ struct ImageField {
 // depth is not punished.
 ImageField image_field(const Eigen::MatrixXd& J, const FieldGrid& fine,
                        const std::vector<int>& group, const Eigen::VectorXd& data,
-                       const Eigen::VectorXd& error, Penalty penalty);
+                       const Eigen::VectorXd& error, Penalty penalty, int threads = 0);
 
 }  // namespace hapsim

@@ -10,7 +10,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "imaging/stiffness_image.h"
-#include "solid/elastic_body.h"
+#include "solid/affine_sweep.h"
+#include "solid/elastic_assembly.h"
 #include "tetmesh/contact_mesh_around.h"
 
 namespace hapsim {
@@ -31,6 +32,38 @@ std::vector<char> inside_convex(const TetMesh& mesh, const Surface& convex) {
   }
   return inside;
 }
+
+// The stiffness of some elements alone.
+class ElementPart {
+ public:
+  ElementPart(const TetMesh& mesh, const std::vector<char>& of, const Lame& constants)
+      : mesh_(mesh) {
+    for (std::size_t t = 0; t < of.size(); ++t) {
+      if (!of[t]) continue;
+      tet_.push_back(t);
+      matrix_.push_back(element_matrix(mesh, t, constants, Dilatation::kElement));
+    }
+  }
+
+  AffineSweep::Fields forces(const AffineSweep::Fields& fields) const {
+    AffineSweep::Fields result = AffineSweep::Fields::Zero(fields.rows(), 3);
+    for (std::size_t k = 0; k < tet_.size(); ++k) {
+      const auto& nodes = mesh_.tets[tet_[k]];
+      AffineSweep::Fields own(matrix_[k].rows(), 3);
+      for (Eigen::Index a = 0; a < own.rows(); a += 3)
+        own.middleRows<3>(a) = fields.middleRows<3>(3 * nodes[static_cast<std::size_t>(a / 3)]);
+      own = matrix_[k] * own;
+      for (Eigen::Index a = 0; a < own.rows(); a += 3)
+        result.middleRows<3>(3 * nodes[static_cast<std::size_t>(a / 3)]) += own.middleRows<3>(a);
+    }
+    return result;
+  }
+
+ private:
+  const TetMesh& mesh_;
+  std::vector<std::size_t> tet_;
+  std::vector<Eigen::MatrixXd> matrix_;
+};
 
 }  // namespace
 
@@ -107,21 +140,22 @@ void LumpSolver::solve(int position, const Vec3& centre, double radius,
     if (contact.mesh.fixed[n]) handle[n] = kHeldNode;
   for (const int n : contact.patch_nodes) handle[n] = 0;
   ElasticBody body(contact.mesh, handle, Dilatation::kElement);
-  const auto stiffness = [&](double ratio) -> Eigen::Matrix3d {
-    const Lame unit = lame(1, nu_);
-    std::vector<Lame> constants;
-    for (const char in : inside)
-      constants.push_back(in ? Lame{ratio * unit.lambda, ratio * unit.mu} : unit);
-    body.factorise(constants);
-    return body.solve(Eigen::Matrix3d::Identity()).reaction;
-  };
-  const Eigen::Matrix3d bare = stiffness(1);
+  const Lame unit = lame(1, nu_);
+  body.factorise(std::vector<Lame>(inside.size(), unit));
+  const ElasticBody::Response without = body.solve(Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d bare = without.reaction;
+  const ElementPart within(contact.mesh, inside, unit);
+  std::vector<double> more;
+  for (const double ratio : ratios) more.push_back(ratio - 1);
+  const AffineSweep sweep(
+      body, bare, without.field,
+      [&](const AffineSweep::Fields& fields) { return within.forces(fields); }, more);
   Eigen::Matrix3d fine, by_nu;
   places_.contact(p).stiffness.evaluate(nu_, fine, by_nu);
   const Eigen::Matrix3d S =
       fine.llt().matrixL().toDenseMatrix() * bare.llt().matrixL().toDenseMatrix().inverse();
   for (std::size_t r = 0; r < ratios.size(); ++r) {
-    const Eigen::Matrix3d K = stiffness(ratios[r]);
+    const Eigen::Matrix3d K = sweep.at(more[r]).K;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       if (views_[v].position != position) continue;
       const Eigen::Matrix3d C = S.transpose() * views_[v].B * S;

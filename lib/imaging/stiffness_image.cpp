@@ -225,7 +225,8 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
                           options.threads);
   find_lumps(lump_data, {pressed, contacts.base().fine, tool, depth, {}, 0, options.threads},
              solver, image);
-  image.field = image_field(J, grid, position, data, image.found.errors, options.penalty);
+  image.field =
+      image_field(J, grid, position, data, image.found.errors, options.penalty, options.threads);
   return image;
 }
 
