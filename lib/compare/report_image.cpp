@@ -67,9 +67,7 @@ std::size_t nearest(const TetMesh& body, const Vec3& p) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < body.tets.size(); ++t) {
-    const auto& n = body.tets[t];
-    const Vec3 middle =
-        (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+    const Vec3 middle = tet_centroid(body, t);
     if ((middle - p).squaredNorm() < least) least = (middle - p).squaredNorm(), best = t;
   }
   return best;

@@ -20,10 +20,7 @@ ElementGroups::ElementGroups(const TetMesh& mesh, const Material& material, bool
         parts_.push_back({static_cast<std::size_t>(p.region), p.share, std::move(p.by_growth)});
       if (parts_.size() > first_.back() + 1) across_[t] = material.labels->across(mesh, t);
     } else {
-      const auto& n = mesh.tets[t];
-      const Vec3 centre =
-          (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-      parts_.push_back({material.group_at(centre), 1, {}});
+      parts_.push_back({material.group_at(tet_centroid(mesh, t)), 1, {}});
     }
     first_.push_back(parts_.size());
   }

@@ -3,13 +3,9 @@
 namespace hapsim {
 namespace {
 
-Vec3 middle_of(const TetMesh& mesh, std::size_t tet) {
-  const auto& n = mesh.tets[tet];
-  return (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-}
-
 std::size_t group_of(const TetMesh& mesh, std::size_t tet, const Material& material) {
-  return material.group_of ? static_cast<std::size_t>(material.group_of(middle_of(mesh, tet))) : 0;
+  return material.group_of ? static_cast<std::size_t>(material.group_of(tet_centroid(mesh, tet)))
+                           : 0;
 }
 
 }  // namespace
@@ -32,7 +28,7 @@ LevelSolution level_by_energies(const TetMesh& mesh,
     solution.K += modulus * k;
     solution.dK_dnu += modulus * (by_nu.lambda * e.volumetric + by_nu.mu * e.deviatoric);
     const double energy = modulus * normal.dot(k * normal);
-    if (!share.empty()) share[grid.cell(middle_of(mesh, t))] += energy;
+    if (!share.empty()) share[grid.cell(tet_centroid(mesh, t))] += energy;
     total += energy;
   }
   for (const double s : share) solution.share.push_back(static_cast<float>(s / total));

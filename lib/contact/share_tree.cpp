@@ -16,9 +16,7 @@ ShareTree::ShareTree(const TetMesh& mesh, const std::vector<Eigen::Matrix3d>& sh
     : mesh_(&mesh), share_(share), order_(mesh.tets.size()) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   std::vector<Vec3> centre;
-  for (const auto& n : mesh.tets)
-    centre.push_back(0.25 *
-                     (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]));
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) centre.push_back(tet_centroid(mesh, t));
   if (!order_.empty()) build(0, order_.size(), centre);
 }
 

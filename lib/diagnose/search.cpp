@@ -10,6 +10,7 @@
 #include "diagnose/rivals_together.h"
 #include "diagnose/round_winner.h"
 #include "diagnose/superfluous.h"
+#include "diagnose/wording.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {
@@ -48,6 +49,32 @@ void drop_superfluous(Baseline& base, const TrialGround& g, const Folds& folds,
     latest.rmse_after = base.fitted.error;
     latest.held_out_after = held_out_for(require_effect(latest.effect), base).error;
     d.findings.erase(d.findings.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
+// What was found first may have stood for itself and for more than that, which is named now.
+void take_simpler(Baseline& base, const TrialGround& g, const Folds& folds,
+                  const DiagnoseOptions& options, Diagnosis& d) {
+  for (std::size_t k = 0; k + 1 < d.findings.size(); ++k) {
+    Finding& earlier = d.findings[k];
+    if (!base.fitted.model.has(earlier.effect) ||
+        require_effect(earlier.effect).card().contains.empty())
+      continue;
+    options.tell("in the place of " + earlier.effect);
+    auto simpler = simpler_in_place(earlier.effect, base, g, folds, options.gates);
+    if (!simpler) continue;
+    base = std::move(simpler->base);
+    earlier.effect = simpler->candidate.effect->card().name;
+    earlier.criterion_gain = simpler->measured.criterion_gain;
+    earlier.memory = simpler->measured.memory;
+    earlier.where = describe_where(simpler->candidate);
+    earlier.next_measurement = simpler->candidate.effect->card().separated_by;
+    earlier.values.clear();
+    earlier.smallest = Finding{}.smallest;
+    describe_fit(simpler->candidate, simpler->measured, g.dataset, earlier);
+    Finding& latest = d.findings.back();
+    latest.rmse_after = base.fitted.error;
+    latest.held_out_after = held_out_for(require_effect(latest.effect), base).error;
   }
 }
 
@@ -194,6 +221,7 @@ void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround
     round.findings[best].effect.clear();
     drop_included(base, d);
     drop_superfluous(base, g, folds, options, d);
+    take_simpler(base, g, folds, options, d);
     kind = Kind::kNamed;
     ++added;
   }

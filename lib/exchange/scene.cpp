@@ -89,9 +89,8 @@ void write_xml_remarks(std::ostream& out, const Scene& scene) {
 std::vector<int> regions_of(const TetMesh& mesh, const MaterialSpec& material,
                             const BodyRegions* labels) {
   std::vector<int> region;
-  for (const auto& n : mesh.tets) {
-    const Vec3 centre =
-        (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const Vec3 centre = tet_centroid(mesh, t);
     region.push_back(labels != nullptr ? labels->at(centre) : region_at(material, centre));
   }
   return region;

@@ -86,9 +86,7 @@ int region_of_tet(const MaterialSpec& material, const TetMesh& body, std::size_t
     require_modulus(material, body.region[tet]);
     return body.region[tet];
   }
-  const auto& n = body.tets[tet];
-  return region_at(material,
-                   (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4);
+  return region_at(material, tet_centroid(body, tet));
 }
 
 }  // namespace hapsim

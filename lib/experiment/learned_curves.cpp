@@ -7,11 +7,10 @@
 #include "experiment/forces.h"
 #include "io/csv.h"
 #include "io/number.h"
+#include "model/interval.h"
 
 namespace hapsim {
 namespace {
-
-constexpr double kBand = 1.96;
 
 // Standard errors in the order of the effect's values; 0 of what is not fitted.
 Eigen::VectorXd errors_of(const Model& model, const EffectInstance& instance) {
@@ -46,7 +45,7 @@ std::vector<LearnedCurveBand> learned_curves(const Model& model) {
         double square = 0;  // a value that does not act there counts for nothing, known or not
         for (Eigen::Index k = 0; k < errors.size(); ++k)
           if (point.by[k] != 0) square += std::pow(point.by[k] * errors[k], 2);
-        const double half = kBand * std::sqrt(square) + point.form;
+        const double half = kHalf95 * std::sqrt(square) + point.form;
         band.x.push_back(point.x);
         band.y.push_back(point.y);
         band.low.push_back(point.y - half);

@@ -10,6 +10,7 @@
 #include "io/csv.h"
 #include "io/number.h"
 #include "model/body_parameters.h"
+#include "model/interval.h"
 
 namespace hapsim {
 namespace {
@@ -247,11 +248,10 @@ void write_field(std::ostream& out, const PlaceField& field, const Surface& surf
   CsvWriter writer(out, metadata,
                    {"x", "y", "z", "pressed", "factor", "low", "high", "power", "power_sd"});
   const auto write = [&](const std::vector<Vec3>& places, bool pressed) {
-    constexpr double kBand = 1.96;
     const std::vector<FieldAt> at = field_at(field, places);
     for (std::size_t p = 0; p < places.size(); ++p) {
       // Of a pressed place the field has what it asked for.
-      const double band = pressed ? 0 : kBand * at[p].log_factor_sd;
+      const double band = pressed ? 0 : kHalf95 * at[p].log_factor_sd;
       std::vector<std::string> row;
       for (int k = 0; k < 3; ++k) row.push_back(format_number(places[p][k]));
       row.push_back(pressed ? "1" : "0");

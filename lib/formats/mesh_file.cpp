@@ -20,11 +20,6 @@ std::string place(const Vec3& p) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
-Vec3 centre(const TetMesh& mesh, std::size_t t) {
-  const auto& n = mesh.tets[t];
-  return 0.25 * (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]);
-}
-
 // Exchanges the corners 2 and 3, and the middles of 12 and 13, 02 and 03.
 void turn(std::array<int, 10>& t) {
   std::swap(t[2], t[3]);
@@ -43,10 +38,12 @@ void check_shapes(TetMesh& mesh, bool mend, MeshRepairs& repairs, const std::str
     const double v = tet_volume(mesh, t), least = 1e-12 * longest * longest * longest;
     if (v > least) continue;
     if (!(v < -least))
-      fail_input(where, fmt::format("tetrahedron {} at {} is flat", t, place(centre(mesh, t))),
+      fail_input(where,
+                 fmt::format("tetrahedron {} at {} is flat", t, place(tet_centroid(mesh, t))),
                  kMend);
     if (!mend)
-      fail_input(where, fmt::format("tetrahedron {} at {} is inverted", t, place(centre(mesh, t))),
+      fail_input(where,
+                 fmt::format("tetrahedron {} at {} is inverted", t, place(tet_centroid(mesh, t))),
                  "run hs-tetmesh on this file, which turns such");
     turn(mesh.tets[t]);
     ++repairs.turned;
@@ -65,7 +62,7 @@ void check_middles(const TetMesh& mesh, const std::string& where) {
         fail_input(where,
                    fmt::format("tetrahedron {} at {}: its node {} is not near the middle of the "
                                "edge it belongs to",
-                               t, place(centre(mesh, t)), 4 + e),
+                               t, place(tet_centroid(mesh, t)), 4 + e),
                    "check the order of the ten nodes");
     }
 }

@@ -21,8 +21,8 @@ ImageSight image_sight(const TetMesh& body, const ImageValues& values,
   constexpr std::size_t kGroups = 48;
   const std::size_t count = body.tets.size();
   std::vector<double> distance;
-  for (const auto& n : body.tets) {
-    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+  for (std::size_t t = 0; t < count; ++t) {
+    const Vec3 p = tet_centroid(body, t);
     double least = std::numeric_limits<double>::infinity();
     for (const Vec3& place : pressed) least = std::min(least, (p - place).norm());
     distance.push_back(least);

@@ -54,8 +54,8 @@ ImageValues image_values(const StiffnessImage& image, const TetMesh& body, doubl
   const double diagonal = box.diagonal().norm();
   // What no press reaches would make its neighbours' means infinite.
   const Eigen::VectorXd field_resolution = image.field.resolution.cwiseMin(diagonal);
-  for (const auto& n : body.tets) {
-    const Vec3 p = (body.nodes[n[0]] + body.nodes[n[1]] + body.nodes[n[2]] + body.nodes[n[3]]) / 4;
+  for (std::size_t t = 0; t < body.tets.size(); ++t) {
+    const Vec3 p = tet_centroid(body, t);
     values.modulus.push_back(modulus * modulus_ratio(image, p));
     values.log_std.push_back(log_std_error(image, p));
     values.resolution.push_back(std::min(diagonal, image.field.grid.value(field_resolution, p)));

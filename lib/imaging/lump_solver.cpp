@@ -22,8 +22,8 @@ constexpr double kRim = 0.35, kCoarseGrowth = 0.5;  // the mesh's own error fall
 // Which tetrahedra have their middle inside a convex surface.
 std::vector<char> inside_convex(const TetMesh& mesh, const Surface& convex) {
   std::vector<char> inside;
-  for (const auto& n : mesh.tets) {
-    const Vec3 p = (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const Vec3 p = tet_centroid(mesh, t);
     bool in = true;
     for (std::size_t f = 0; in && f < convex.faces.size(); ++f)
       in =

@@ -29,6 +29,11 @@ double tet_volume(const TetMesh& mesh, std::size_t tet) {
          6;
 }
 
+Vec3 tet_centroid(const TetMesh& mesh, std::size_t tet) {
+  const auto& n = mesh.tets[tet];
+  return (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
+}
+
 double volume(const TetMesh& mesh) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) sum += tet_volume(mesh, t);

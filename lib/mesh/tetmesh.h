@@ -29,6 +29,7 @@ struct TetMesh {
 };
 
 double tet_volume(const TetMesh& mesh, std::size_t tet);  // from the corners, signed [m^3]
+Vec3 tet_centroid(const TetMesh& mesh, std::size_t tet);  // of the corners
 double volume(const TetMesh& mesh);
 // Adds the middles of all edges (straight): order 1 -> 2. A middle is fixed when its edge lies on a
 // boundary face whose corners are all fixed.

@@ -17,10 +17,8 @@ constexpr double kReach = 2.5;
 std::vector<Lame> constants_of(const TetMesh& mesh, const Material& material) {
   const Lame unit = lame(1, material.nu);
   std::vector<Lame> constants;
-  for (const auto& n : mesh.tets) {
-    const Vec3 centre =
-        (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;
-    const double E = material.modulus[material.group_at(centre)];
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const double E = material.modulus[material.group_at(tet_centroid(mesh, t))];
     constants.push_back({E * unit.lambda, E * unit.mu});
   }
   return constants;

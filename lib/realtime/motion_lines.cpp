@@ -26,12 +26,12 @@ MotionLines::MotionLines(CsvReader csv, std::string name, bool forces)
     : csv_(std::move(csv)), name_(std::move(name)) {
   const auto& header = csv_.header();
   std::array<bool, kColumns> present{};
-  for (const std::string& name : header) {
+  for (const std::string& column : header) {
     const auto known = forces ? kNames.end() : kNames.begin() + kFx;
-    const auto found = std::find(kNames.begin(), known, name);
+    const auto found = std::find(kNames.begin(), known, column);
     meaning_.push_back(found == known ? kColumns : static_cast<int>(found - kNames.begin()));
     if (found != known) present[static_cast<std::size_t>(meaning_.back())] = true;
-    if (name == "tool_id") id_column_ = static_cast<int>(meaning_.size()) - 1;
+    if (column == "tool_id") id_column_ = static_cast<int>(meaning_.size()) - 1;
   }
   known_ = present[kUx] || present[kUy] || present[kUz] || present[kPress];
   warm_ = present[kTemp];

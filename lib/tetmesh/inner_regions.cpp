@@ -60,9 +60,7 @@ void colour_regions(TetMesh& mesh, const InnerParts& parts, const std::vector<In
     int hint = -1;
     std::size_t count = 0;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-      const auto& n = mesh.tets[t];
-      const SurfaceSide side = parts.distance[k].at(
-          0.25 * (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]), hint);
+      const SurfaceSide side = parts.distance[k].at(tet_centroid(mesh, t), hint);
       hint = side.face;
       if (side.distance >= 0) continue;
       mesh.region[t] = static_cast<int>(k) + 1;

@@ -25,5 +25,26 @@ TEST(Superfluous, OnlyWhatTheDataDoNotAskForIsDropped) {
   EXPECT_FALSE(without_superfluous("viscoelastic", both, ground, folds, gates));
 }
 
+// A sensor that settles stood for an offset that is there, or for itself.
+TEST(Superfluous, GivesWayToWhatItContainsWhereThatDoesAsWell) {
+  Experiment w = test::experiment();
+  const Gates gates;
+  const auto simpler = [&](const Model& truth, const Model& found) {
+    test::measure_finer(w, truth, 0.01, 3);
+    const TrialGround ground(w, w.allowance());
+    const Folds folds = make_folds(w.dataset, 6);
+    return simpler_in_place("sensor-settling", make_baseline(found, ground, folds), ground, folds,
+                            gates);
+  };
+  const Model elastic = test::elastic(1.5e4, 0.42);
+  const Model settling = test::with(elastic, "sensor-settling", {0, 0, 0.1, 60, 0.1, -0.05, 0.15});
+  const auto offset = simpler(test::with(elastic, "sensor-bias", {0.1, -0.05, 0.15}), settling);
+  ASSERT_TRUE(offset);
+  EXPECT_EQ(offset->candidate.effect->card().name, "sensor-bias");
+  EXPECT_TRUE(offset->base.fitted.model.has("sensor-bias"));
+  EXPECT_FALSE(offset->base.fitted.model.has("sensor-settling"));
+  EXPECT_FALSE(simpler(settling, settling));
+}
+
 }  // namespace
 }  // namespace hapsim
