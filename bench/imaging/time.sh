@@ -15,7 +15,7 @@ awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"; for (p = 0; p
   printf "%d,%.1f,%.4f,%.4f,0.04,0,0,%.6f\n", p, 0.1 * i, 0.0105 + 0.0065 * (p % 10), 0.0105 + 0.0065 * int(p / 10), -0.0002 * i }' >motion.csv
 printf 'effect,region,parameter,value\nelastic,0,E,15000\nelastic,0,nu,0.42\n' >truth.csv
 printf 'inclusion,0,%s\n' x,0.03 y,0.045 z,0.028 radius,0.007 ratio,5 >>truth.csv
-[[ -s body.ply ]] || "$bin/hs-tetmesh" -q block.off --edge 0.0029 -o body.ply
+[[ -s body.ply ]] || "$bin/hs-tetmesh" -q block.off --edge 0.0037 -o body.ply
 [[ -s true.ply ]] || "$bin/hs-tetmesh" -q block.off --edge 0.004 -o true.ply
 [[ -s data.csv ]] ||
   "$bin/hs-simulate" -q motion.csv --body true.ply --model truth.csv --rim-edge 0.25 --seed 2 --add-noise 0.005 -o data.csv
