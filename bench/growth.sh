@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # growth.sh BIN: how preparation grows with places and a batch with recordings. A block of 80 x 60 x 40 mm, pressed once
 # at each of 10, 40 and 160 places, identified with nothing prepared; then one recording of four places as 20, 80 and 320
-# of a batch whose contacts are prepared, make on one job. Seconds of the processor, peak memory of hs-identify, the power by
-# which time grows between the last two, and what a recording of the batch takes beyond hs-identify on it alone.
+# of a batch whose contacts are prepared, make on one job. Seconds of the processor, memory of the largest process, the power by
+# which time grows from one line to the next, and what a recording of the batch takes beyond hs-identify on it alone.
 # Recorded in bench/results/growth.txt (bench/record.sh).
 set -euo pipefail
 [[ -n ${1-} && -x $1/hs-identify ]] || { echo "usage: growth.sh BIN" >&2; exit 2; }
@@ -12,9 +12,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 export XDG_CACHE_HOME=$work/cache
-awk 'BEGIN { print "OFF\n8 12 0"; for (i = 0; i < 8; ++i) print (i % 2) * 0.08, (int(i / 2) % 2) * 0.06, (i >= 4) * 0.04
-  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
-  for (i = 1; i <= 12; ++i) print 3, f[i] }' >block.off
+awk -v what=cuboid -v a=0.08 -v b=0.06 -v c=0.04 -f "$root/share/examples/shapes.awk" >block.off
 "$bin/hs-tetmesh" -q block.off -o body.ply
 printf 'effect,region,parameter,value\nelastic,0,E,15000\nelastic,0,nu,0.42\n' >truth.csv
 recording() { # PLACES: forces on coarser meshes than those that are prepared

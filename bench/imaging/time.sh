@@ -6,11 +6,10 @@
 set -euo pipefail
 [[ -n ${2-} && -x $1/hs-identify ]] || { echo "usage: time.sh BIN OUT" >&2; exit 2; }
 bin=$(cd "$1" && pwd)
+shapes=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../share/examples" && pwd)/shapes.awk
 mkdir -p "$2" && cd "$2"
 export XDG_CACHE_HOME=$PWD/cache
-awk 'BEGIN { print "OFF\n8 12 0"; for (i = 0; i < 8; ++i) print (i % 2) * 0.08, (int(i / 2) % 2) * 0.08, (i >= 4) * 0.04
-  split("0 2 1,1 2 3,4 5 6,5 7 6,0 1 4,1 5 4,2 6 3,3 6 7,0 4 2,2 4 6,1 3 5,3 7 5", f, ",")
-  for (i = 1; i <= 12; ++i) print 3, f[i] }' >block.off
+awk -v what=cuboid -v a=0.08 -v b=0.08 -v c=0.04 -f "$shapes" >block.off
 awk 'BEGIN { print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"; for (p = 0; p < 100; ++p) for (i = 0; i <= 10; ++i)
   printf "%d,%.1f,%.4f,%.4f,0.04,0,0,%.6f\n", p, 0.1 * i, 0.0105 + 0.0065 * (p % 10), 0.0105 + 0.0065 * int(p / 10), -0.0002 * i }' >motion.csv
 printf 'effect,region,parameter,value\nelastic,0,E,15000\nelastic,0,nu,0.42\n' >truth.csv

@@ -1,8 +1,10 @@
 #include "solid/affine_sweep.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cassert>
+#include <utility>
+
+#include "base/error.h"
 
 namespace hapsim {
 
@@ -22,7 +24,8 @@ AffineSweep::AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffne
   };
   std::vector<Fields> basis, forces, parts;  // `forces`: A_0 of the basis; `parts`: A_1 of it
   std::vector<Eigen::Matrix3d> before = stiffnesses();
-  for (int step = 0; !judged.empty() && step < kMostSteps; ++step) {
+  bool settled = judged.empty();
+  for (int step = 0; !settled && step < kMostSteps; ++step) {
     Fields force = step == 0 ? start : parts.back();
     Fields fresh = body.relax(force);
     for (std::size_t k = 0; k < basis.size(); ++k) {
@@ -32,7 +35,7 @@ AffineSweep::AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffne
     }
     const Eigen::Matrix3d gram = fresh.transpose() * force;
     const Eigen::LLT<Eigen::Matrix3d> factor(0.5 * (gram + gram.transpose()));
-    if (factor.info() != Eigen::Success) break;  // the space holds no more
+    if (factor.info() != Eigen::Success) return;  // the space holds no more
     factor.matrixU().solveInPlace<Eigen::OnTheRight>(fresh);
     factor.matrixU().solveInPlace<Eigen::OnTheRight>(force);
     basis.push_back(std::move(fresh));
@@ -50,12 +53,14 @@ AffineSweep::AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffne
       basis_part_.block<3, 3>(other, n) = shared.transpose();
     }
     std::vector<Eigen::Matrix3d> now = stiffnesses();
-    double change = 0;
+    settled = true;
     for (std::size_t k = 0; k < now.size(); ++k)
-      change = std::max(change, (now[k] - before[k]).norm() / now[k].norm());
-    if (change < kEnough) break;
+      settled = settled && (now[k] - before[k]).norm() < kEnough * now[k].norm();
     before = std::move(now);
   }
+  if (!settled)
+    fail_numerics("", "the stiffness does not settle along a range of materials",
+                  "report this mesh");
 }
 
 AffineSweep::Solution AffineSweep::at(double s) const {

@@ -14,8 +14,8 @@ namespace hapsim {
 class PoissonSweep {
  public:
   // `body` of `mesh`, of kElement and one handle, is factorised at the middle one of `nus`, at
-  // which all is exact; the sweep is judged at the first and the last. Error as
-  // ElasticBody::factorise.
+  // which all is exact; the sweep is judged at the first and the last. Errors as
+  // ElasticBody::factorise and AffineSweep.
   PoissonSweep(const TetMesh& mesh, ElasticBody& body, const std::vector<double>& nus);
 
   struct Solution {
