@@ -23,7 +23,8 @@ trap 'rm -f "$before"' EXIT
 [[ ! -e $record ]] || cp "$record" "$before"
 timed "build" build ci
 timed "format" format || failed+=("the format is wrong: run clang-format -i")
-timed "tests" ctest --preset ci --parallel "$jobs" "$@" || failed+=("tests failed")
+# One more than there are processors: some wait for a clock or a peer.
+timed "tests" ctest --preset ci --parallel $((jobs + 1)) "$@" || failed+=("tests failed")
 tests/summary/slowest.sh "$before" "$record" build/ci/Testing/Temporary/LastTest.log
 tests/summary/skipped.sh build/ci/Testing/Temporary/LastTest.log || failed+=("tests were skipped")
 for failure in "${failed[@]}"; do echo "run-tests: $failure" >&2; done

@@ -16,12 +16,11 @@ same() {
   check() { # HOW, of standard input
     cmp -s whole - || complain "other bytes $1: ${tool##*/} ${quiet[*]} $input"
   }
-  "$tool" "${quiet[@]}" "$input" 2>err </dev/null | check 'with -q'
-  "$tool" "${quiet[@]}" <"$input" 2>err | check 'from a file as standard input'
   cat "$input" | "$tool" "$@" 2>err | check 'through a pipe'
-  FILLER=$(printf '%050000d' 0) "$tool" "${quiet[@]}" "$input" 2>err </dev/null | check 'in a long environment'
-  MALLOC_PERTURB_=165 "$tool" "${quiet[@]}" "$input" 2>err </dev/null | check 'on filled memory'
-  MALLOC_MMAP_THRESHOLD_=4096 "$tool" "${quiet[@]}" "$input" 2>err </dev/null | check 'with mapped blocks'
+  FILLER=$(printf '%050000d' 0) "$tool" "${quiet[@]}" <"$input" 2>err |
+    check 'with -q, from a file as standard input, in a long environment'
+  MALLOC_PERTURB_=165 MALLOC_MMAP_THRESHOLD_=4096 "$tool" "${quiet[@]}" "$input" 2>err </dev/null |
+    check 'with -q, on filled memory in mapped blocks'
   local seed
   for seed in "${seeds[@]}"; do
     HAPSIM_SCATTER=$seed LD_PRELOAD=$scatter "$tool" "${quiet[@]}" "$input" 2>err </dev/null |

@@ -3,9 +3,10 @@
 # without the precompiled headers that its own units get. Prints the compiler's words and exits 1 where one does
 # not. The headers of a ROOM whose foreign library is not asked for are left out.
 #
-# Most of the time goes into <Eigen/Core> and <pybind11/pybind11.h>. A header that includes one of them, itself or
-# through others, begins with a copy that was compiled once: what stands before it is then in what it includes
-# anyway, so nothing that it forgets is lent to it. All others begin with nothing.
+# Most of the time goes into what many headers include: <Eigen/Core>, <pybind11/pybind11.h>, a body, an experiment, a
+# fit. A header that includes one of those, itself or through others, begins with a copy that was compiled once: what
+# the copy holds is in what the header includes anyway, so nothing that it forgets is lent to it. All others begin
+# with nothing.
 set -euo pipefail
 root=$(cd "$1" && pwd) compiler=$2
 flags=(-std=c++20 -fsyntax-only -I"$root/lib") without=
@@ -22,22 +23,33 @@ cd "$root/lib"
 
 find . -name '*.h' ${without:+-not -path "./$without/*"} | sed 's|^\./||' | sort >"$work/all"
 grep -rE '^#include "' --include='*.h' . | sed -E 's|^\./([^:]*):#include "([^"]*)".*|\2 \1|' >"$work/edges" || true
-begin() { # NAME PATTERN HEADER: those that include it, directly, then through each other, and the copy of it
-  grep -rlE "^#include <$2" --include='*.h' . | sed 's|^\./||' | sort -u >"$work/$1" || true
+# begin HEADER PATTERN: a copy of the header for those that include what the pattern says, directly, then through each
+# other, and that have not begun with another.
+touch "$work/begun"
+begin() {
+  local name=${1//[^A-Za-z0-9]/-}
+  grep -rlE "^#include $2" --include='*.h' . | sed 's|^\./||' | sort -u >"$work/$name" || true
   while :; do
-    awk 'NR == FNR { with[$1] = 1; next } $1 in with { print $2 }' "$work/$1" "$work/edges" |
-      sort -u - "$work/$1" >"$work/more"
-    ! cmp -s "$work/$1" "$work/more" || break
-    mv "$work/more" "$work/$1"
+    awk 'NR == FNR { with[$1] = 1; next } $1 in with { print $2 }' "$work/$name" "$work/edges" |
+      sort -u - "$work/$name" >"$work/more"
+    ! cmp -s "$work/$name" "$work/more" || break
+    mv "$work/more" "$work/$name"
   done
-  comm -12 "$work/$1" "$work/all" >"$work/more"
-  mv "$work/more" "$work/$1"
-  [[ -s $work/$1 ]] || return 0
-  echo "#include <$3>" >"$work/$1.h"
-  "$compiler" "${flags[@]/-fsyntax-only/-O0}" -x c++-header "$work/$1.h" -o "$work/$1.h.gch"
+  comm -12 "$work/$name" "$work/all" | comm -23 - "$work/begun" >"$work/more"
+  mv "$work/more" "$work/$name"
+  [[ -s $work/$name ]] || return 0
+  sort -o "$work/begun" "$work/begun" "$work/$name"
+  echo "#include $1" >"$work/$name.h"
+  # One that does not compile is told when its own turn comes; those that include it then begin with its text.
+  "$compiler" "${flags[@]/-fsyntax-only/-O0}" -x c++-header "$work/$name.h" -o "$work/$name.h.gch" 2>/dev/null || true
+  copies+=("$name")
 }
-begin Eigen Eigen/ Eigen/Core # which Dense, Geometry and their like include
-begin pybind11 pybind11/ pybind11/pybind11.h
+copies=()
+begin '<pybind11/pybind11.h>' '<pybind11/'
+for header in fit/fit.h experiment/experiment.h contact/contact_library.h mesh/tetmesh.h; do
+  [[ ! -e $header ]] || begin "\"$header\"" "\"$header\""
+done
+begin '<Eigen/Core>' '<Eigen/' # which Dense, Geometry and their like include
 alone() { # FIRST HEADER: its first words where it does not compile
   "$compiler" "${flags[@]}" ${1:+-include "$1"} -include "$2" -x c++ /dev/null 2>"$work/${2//\//-}.err" ||
     { echo "$2 does not compile by itself:"; grep -m 3 -E 'error|required' "$work/${2//\//-}.err" | sed 's/^/  /'; return 1; }
@@ -54,8 +66,7 @@ each() { # FIRST <HEADERS
   return $code
 }
 failed=no
-each "$work/Eigen.h" <"$work/Eigen" || failed=yes
-each "$work/pybind11.h" <"$work/pybind11" || failed=yes
-sort "$work/Eigen" "$work/pybind11" | comm -23 "$work/all" - | each '' || failed=yes
+for name in "${copies[@]}"; do each "$work/$name.h" <"$work/$name" || failed=yes; done
+comm -23 "$work/all" "$work/begun" | each '' || failed=yes
 [[ $failed == no ]] || exit 1
 echo "$(wc -l <"$work/all") headers compile, each by itself"
