@@ -88,6 +88,10 @@ model() { # what is beside E and nu
     lag) printf 'sensor-lag,0,%s\n' tau,0.02 delay,0 ;;
     layer) printf 'layer,0,thickness,0.003\nlayer,0,ratio,3\n' ;;
     inclusion) printf 'inclusion,0,%s\n' x,0.01 y,0.005 z,0.024 radius,0.008 ratio,8 ;;
+    tip) printf 'tip,0,kappa,60\n' ;;
+    anisotropic) printf 'anisotropic,0,%s\n' ratio,2 shear,1 tilt,1.4 azimuth,0.3 ;;
+    regions) printf 'elastic,1,E,24000\nregions,%s\n' 0,x1,-0.02 0,y1,0 1,x1,0.02 1,y1,0 ;;
+    base) printf 'base,0,%s\n' give,0.5 azimuth,0.5 edge,0 ;;
     nothing | wandering) ;;
     *) echo "rows.sh: there is no truth $1" >&2; return 2 ;;
   esac
@@ -134,7 +138,7 @@ for n in "${rows[@]}"; do
   for truth in "${truths[@]}"; do
     model "$truth" >truth.csv
     made=("${fine[@]}")
-    [[ $truth != @(layer|inclusion) ]] || made=(--rim-edge 0.4)  # whose elements are solved anew
+    [[ $truth != @(layer|inclusion|anisotropic|base|regions) ]] || made=(--rim-edge 0.4)  # whose elements are solved anew
     simulated=("$bin/hs-simulate" -q motion.csv --body true.ply --model truth.csv "${made[@]}")
     data=$truth-$places-$n.csv
     if [[ -s $data ]]; then

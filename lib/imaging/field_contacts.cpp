@@ -7,10 +7,11 @@
 namespace hapsim {
 
 FieldContacts::FieldContacts(const TetMesh& body, const Places& places, double tool_radius,
-                             double nu, const FieldGrid& grid, std::size_t memory)
+                             double nu, const FieldGrid& grid, std::size_t memory, double rim)
     : places_(places),
       base_(make_contact_base(body)),
       tool_radius_(tool_radius),
+      rim_edge_(rim * tool_radius),
       nu_(nu),
       grid_(grid),
       memo_(memory) {}
@@ -19,7 +20,7 @@ std::shared_ptr<FieldContacts::Prepared> FieldContacts::take(std::size_t positio
   if (auto kept = memo_.take<Prepared>(std::to_string(position))) return kept;
   auto prepared = std::make_shared<Prepared>();
   prepared->body = std::make_unique<FieldBody>(base_, places_.position(position), tool_radius_,
-                                               kFieldRim * tool_radius_, kGrowth, grid_);
+                                               rim_edge_, kGrowth, grid_);
   return prepared;
 }
 

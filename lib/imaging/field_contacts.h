@@ -13,13 +13,16 @@ namespace hapsim {
 // Edge length at the tool's rim over its radius, on the meshes of fields: coarser than a model's,
 // whose homogeneous stiffness it is brought to.
 constexpr double kFieldRim = 0.25;
+// And of an image's sensitivities, which vary over the tool's radius and not within its rim.
+constexpr double kSensedRim = 1.0 / 3;
 
 class FieldContacts {
  public:
   // `places` gives the positions and their homogeneous stiffness at `nu`. Meshes and matrices
-  // (some 40 MB a position) are kept for the next field, up to `memory` bytes.
+  // (some 40 MB a position) are kept for the next field, up to `memory` bytes. `rim`: edge length
+  // at the tool's rim over its radius.
   FieldContacts(const TetMesh& body, const Places& places, double tool_radius, double nu,
-                const FieldGrid& grid, std::size_t memory);
+                const FieldGrid& grid, std::size_t memory, double rim = kFieldRim);
 
   // At one position, for a body whose modulus is exp(field) at the nodes of the grid [N/m]:
   // K = S K_c S' of the coarser mesh's K_c, with S such that a homogeneous body has the model's own
@@ -50,7 +53,7 @@ class FieldContacts {
 
   Places places_;
   ContactBase base_;
-  double tool_radius_, nu_;
+  double tool_radius_, rim_edge_, nu_;
   FieldGrid grid_;
   Memo memo_;
 };

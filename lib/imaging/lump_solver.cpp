@@ -17,8 +17,6 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRim = 0.35, kCoarseGrowth = 0.5;  // the mesh's own error falls out
-
 // Which tetrahedra have their middle inside a convex surface.
 std::vector<char> inside_convex(const TetMesh& mesh, const Surface& convex) {
   std::vector<char> inside;

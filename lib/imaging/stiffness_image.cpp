@@ -202,7 +202,7 @@ StiffnessImage stiffness_image(const Model& model, const Experiment& experiment,
   const std::vector<PreparedContact>& pressed = experiment.places.setup(0)->contacts();
   const FieldGrid grid =
       grid_about(pressed, body, tool, options.step > 0 ? options.step : 0.7 * tool, depth);
-  FieldContacts contacts(body, experiment.places, tool, material_of(model).nu, grid, 0);
+  FieldContacts contacts(body, experiment.places, tool, material_of(model).nu, grid, 0, kSensedRim);
   const Eigen::MatrixXd J = sensitivities(contacts, pressed.size(), views, options);
   Eigen::VectorXd data(n), noise(n);
   std::vector<int> position;
