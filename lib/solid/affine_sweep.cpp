@@ -7,6 +7,22 @@
 #include "base/error.h"
 
 namespace hapsim {
+namespace {
+
+// What is left of a new direction beside those there were, as a share of its energy, below which it
+// is rounding.
+constexpr double kGone = 1e-14;
+
+// Columns that bring a gram matrix to the identity; zero in place of those that are gone.
+Eigen::Matrix3d normalising(const Eigen::Matrix3d& gram, double least) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(gram);
+  const Eigen::Array3d energy = of.eigenvalues();
+  const Eigen::Array3d scale =
+      (energy > least).select(energy.max(least).sqrt().inverse(), Eigen::Array3d::Zero());
+  return of.eigenvectors() * scale.matrix().asDiagonal();
+}
+
+}  // namespace
 
 AffineSweep::AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffness,
                          const Fields& field, const std::function<Fields(const Fields&)>& part,
@@ -28,16 +44,17 @@ AffineSweep::AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffne
   for (int step = 0; !settled && step < kMostSteps; ++step) {
     Fields force = step == 0 ? start : parts.back();
     Fields fresh = body.relax(force);
+    const double energy = fresh.cwiseProduct(force).sum();
     for (std::size_t k = 0; k < basis.size(); ++k) {
       const Eigen::Matrix3d shared = forces[k].transpose() * fresh;
       fresh.noalias() -= basis[k] * shared;
       force.noalias() -= forces[k] * shared;
     }
     const Eigen::Matrix3d gram = fresh.transpose() * force;
-    const Eigen::LLT<Eigen::Matrix3d> factor(0.5 * (gram + gram.transpose()));
-    if (factor.info() != Eigen::Success) return;  // the space holds no more
-    factor.matrixU().solveInPlace<Eigen::OnTheRight>(fresh);
-    factor.matrixU().solveInPlace<Eigen::OnTheRight>(force);
+    const Eigen::Matrix3d unit = normalising(0.5 * (gram + gram.transpose()), kGone * energy);
+    if (unit.isZero()) return;  // the space holds no more
+    fresh *= unit;
+    force *= unit;
     basis.push_back(std::move(fresh));
     forces.push_back(std::move(force));
     parts.push_back(part(basis.back()));

@@ -111,5 +111,37 @@ TEST(AffineSweep, IsTheSolutionWithAStifferOrSofterInside) {
   }
 }
 
+// A_1 of one spring between points inside: its space ends at once, in two of three columns before
+// that; K = K_0 + s g g'/(1 + s v'A_0^-1 v), g the spring's length by the handle (Sherman and
+// Morrison, Ann. Math. Stat. 21, 1950).
+TEST(AffineSweep, OfOneSpringIsShermanAndMorrisons) {
+  Pressed pressed(1);
+  const TetMesh& mesh = pressed.mesh;
+  pressed.body.factorise(std::vector<Lame>(mesh.tets.size(), lame(1, 0.4)));
+  const ElasticBody::Response without = pressed.body.solve(Eigen::Matrix3d::Identity());
+  Eigen::VectorXd spring = Eigen::VectorXd::Zero(without.field.rows());
+  const std::vector<int> handle = Pressed::handles(mesh);
+  int ends = 0;
+  for (std::size_t n = mesh.nodes.size() / 2; n < mesh.nodes.size() && ends < 2; ++n)
+    if (handle[n] == kFreeNode)
+      spring.segment<3>(3 * static_cast<Eigen::Index>(n)) = ++ends * Vec3(1, -0.5, 2);
+  ASSERT_EQ(ends, 2);
+  AffineSweep::Fields alone = AffineSweep::Fields::Zero(spring.size(), 3);
+  alone.col(1) = spring;
+  const double give = spring.dot(pressed.body.relax(alone).col(1));
+  const Vec3 g = without.field.transpose() * spring;
+  const AffineSweep sweep(pressed.body, without.reaction, without.field,
+                          [&](const AffineSweep::Fields& fields) -> AffineSweep::Fields {
+                            return spring * (spring.transpose() * fields);
+                          },
+                          {0.1, 10});
+  for (const double s : {0.01, 0.1, 1.0, 10.0}) {
+    const Eigen::Matrix3d exact = without.reaction + s / (1 + s * give) * g * g.transpose();
+    EXPECT_GT((s * g * g.transpose() + without.reaction - exact).norm(),
+              1e-4 * exact.norm() * s / 10);
+    EXPECT_LT((sweep.at(s).K - exact).norm(), 1e-11 * exact.norm()) << s;
+  }
+}
+
 }  // namespace
 }  // namespace hapsim
