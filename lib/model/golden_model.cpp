@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/interval.h"
 #include "model/search_state.h"
 
 namespace hapsim {
@@ -30,6 +31,21 @@ double tolerance_of(const Parameter& p, const GoldenOptions& options) {
   return allowed;
 }
 
+// What the standard errors of both explain, on the value's side of the golden one: of what is
+// stepped in its logarithm a factor, as its interval is.
+double allowed_by_errors(const Parameter& p, const Parameter& golden, double times) {
+  const auto error = [](const Parameter& x) {
+    const bool estimated = x.state != ParameterState::kFixed && std::isfinite(x.std_error);
+    return estimated ? x.std_error : 0.0;
+  };
+  if (!is_logarithmic(golden) || !(p.value > 0 && golden.value > 0))
+    return times * std::hypot(error(p), error(golden));
+  constexpr double kMost = 100;  // exp() of it is beyond all that can be
+  const double spread =
+      std::min(times * std::hypot(error(p) / p.value, error(golden) / golden.value), kMost);
+  return golden.value * std::abs(std::expm1(p.value < golden.value ? -spread : spread));
+}
+
 GoldenRow compare_parameter(const Parameter* p, const Parameter* golden,
                             const GoldenOptions& options) {
   const Parameter& either = golden != nullptr ? *golden : *p;
@@ -43,11 +59,7 @@ GoldenRow compare_parameter(const Parameter* p, const Parameter* golden,
                     p == nullptr ? "is only in the golden model" : "is not in the golden model");
     return row;
   }
-  const auto variance = [](const Parameter& x) {
-    const bool estimated = x.state != ParameterState::kFixed && std::isfinite(x.std_error);
-    return estimated ? x.std_error * x.std_error : 0.0;
-  };
-  const double by_errors = options.standard_errors * std::sqrt(variance(*p) + variance(*golden));
+  const double by_errors = allowed_by_errors(*p, *golden, options.standard_errors);
   const double by_tolerance = tolerance_of(*golden, options);
   row.allowed = std::max(by_errors, by_tolerance);
   const double difference = std::abs(row.value - row.golden);

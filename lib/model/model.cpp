@@ -19,14 +19,15 @@ bool Model::has(const std::string& effect) const {
                      [&](const Parameter& p) { return p.effect == effect; });
 }
 
-const Parameter* Model::find(const std::string& effect, int region, const std::string& name) const {
+const Parameter* Model::find(const std::string& effect, int region,
+                             const std::string& parameter) const {
   for (const Parameter& p : parameters)
-    if (p.effect == effect && p.region == region && p.name == name) return &p;
+    if (p.effect == effect && p.region == region && p.name == parameter) return &p;
   return nullptr;
 }
 
-Parameter* Model::find(const std::string& effect, int region, const std::string& name) {
-  return const_cast<Parameter*>(static_cast<const Model*>(this)->find(effect, region, name));
+Parameter* Model::find(const std::string& effect, int region, const std::string& parameter) {
+  return const_cast<Parameter*>(static_cast<const Model*>(this)->find(effect, region, parameter));
 }
 
 std::vector<int> Model::free_parameters() const {

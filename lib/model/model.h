@@ -34,8 +34,8 @@ struct Model {
   std::vector<std::string> effects() const;  // in order of first appearance
   bool has(const std::string& effect) const;
   // Null when absent.
-  const Parameter* find(const std::string& effect, int region, const std::string& name) const;
-  Parameter* find(const std::string& effect, int region, const std::string& name);
+  const Parameter* find(const std::string& effect, int region, const std::string& parameter) const;
+  Parameter* find(const std::string& effect, int region, const std::string& parameter);
   // Numbers of the free parameters, in order: the columns of a fit.
   std::vector<int> free_parameters() const;
 };

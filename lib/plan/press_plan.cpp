@@ -97,10 +97,10 @@ Candidates make_candidates(const std::vector<Model>& models, const Experiment& e
   Recording r;
   r.name = "plan";
   r.metadata = known.recording.metadata;
-  int press = 0;
+  int presses = 0;
   for (std::size_t p = 0; p < positions.size(); ++p)
     for (const PressPath& path : press_paths(depths[p])) {
-      append_press(r, press++, 0, step, positions[p], stands[p].normal, path);
+      append_press(r, presses++, 0, step, positions[p], stands[p].normal, path);
       candidates.names.push_back(path.name);
     }
   if (!known.recording.temp.empty())

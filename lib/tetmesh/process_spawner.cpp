@@ -35,8 +35,8 @@ class Parcel {
   Parcel() {
     message_.msg_iov = &part_;
     message_.msg_iovlen = 1;
-    message_.msg_control = control_.bytes;
-    message_.msg_controllen = sizeof control_.bytes;
+    message_.msg_control = control_;
+    message_.msg_controllen = sizeof control_;
   }
   Parcel(const Parcel&) = delete;
 
@@ -67,10 +67,7 @@ class Parcel {
   char byte_ = 0;
   iovec part_{&byte_, 1};
   msghdr message_{};
-  union Control {  // aligned as the kernel wants it
-    char bytes[CMSG_SPACE(sizeof(Ends::file))];
-    cmsghdr align;
-  } control_{};
+  alignas(cmsghdr) char control_[CMSG_SPACE(sizeof(Ends::file))]{};
 };
 
 int status_of(pid_t process) {

@@ -19,9 +19,11 @@ namespace {
 // differences between two distances are compared.
 TEST(HalfSpace, PointForceIsBoussinesqs) {
   constexpr int kCells = 16, kLayers = 8;
-  constexpr double kFar = 100, kGrowth = 5.5;  // sinh grading: edges from 0.5 to 45
+  constexpr double kReach = 100, kGrowth = 5.5;  // sinh grading: edges from 0.5 to 45
   TetMesh mesh = test::block_mesh({2, 2, 1}, kCells, kCells, kLayers, 1);
-  const auto graded = [&](double s) { return kFar * std::sinh(kGrowth * s) / std::sinh(kGrowth); };
+  const auto graded = [&](double s) {
+    return kReach * std::sinh(kGrowth * s) / std::sinh(kGrowth);
+  };
   for (Vec3& p : mesh.nodes) p = {graded(p.x() - 1), graded(p.y() - 1), -graded(1 - p.z())};
   mesh = to_second_order(mesh);
   std::vector<Triangle> loaded;

@@ -52,8 +52,9 @@ Punch punch(const ContactMesh& contact, double nu) {
 // bonded F = 4 mu a d log(3 - 4 nu)/(1 - 2 nu) (Mossakovskii, 1954; Johnson 3.8). The finite block
 // makes both stiffer by about a / (2 far).
 TEST(Punch, IsTheHalfSpaces) {
-  constexpr double kFar = 200;
-  const ContactMesh meshes[] = {test::half_space(1.0 / 3, kFar), test::half_space(1.0 / 6, kFar)};
+  constexpr double kReach = 200;
+  const ContactMesh meshes[] = {test::half_space(1.0 / 3, kReach),
+                                test::half_space(1.0 / 6, kReach)};
   for (const double nu : {0.0, 0.3, 0.49}) {
     const double slips = 2 / (1 - nu * nu);
     const double sticks = 2 / (1 + nu) * std::log(3 - 4 * nu) / (1 - 2 * nu);
@@ -63,7 +64,7 @@ TEST(Punch, IsTheHalfSpaces) {
         "exact\n",
         nu, fine.frictionless / slips, coarse.frictionless / slips, fine.bonded / sticks,
         coarse.bonded / sticks);
-    const double block = 1 + 1 / (2 * kFar);
+    const double block = 1 + 1 / (2 * kReach);
     EXPECT_NEAR(fine.frictionless / slips, block, 0.015);
     EXPECT_NEAR(fine.bonded / sticks, block, 0.02);
     EXPECT_LT(fine.frictionless, fine.bonded);

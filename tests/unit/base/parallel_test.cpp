@@ -31,7 +31,9 @@ TEST(Parallel, AFailureReachesTheCaller) {
                              }),
                  std::runtime_error);
     // How many others run meanwhile is the scheduler's affair.
-    if (threads == 1) EXPECT_EQ(runs, 4);
+    if (threads == 1) {
+      EXPECT_EQ(runs, 4);
+    }
   }
 }
 
@@ -51,7 +53,9 @@ TEST(Parallel, CallsWithinTasksShareTheThreads) {
     });
     EXPECT_EQ(runs, 32);
     EXPECT_LE(most, threads);
-    if (threads > 1) EXPECT_GT(most, 1);
+    if (threads > 1) {
+      EXPECT_GT(most, 1);
+    }
   }
 }
 

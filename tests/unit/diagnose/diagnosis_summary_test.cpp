@@ -66,7 +66,9 @@ TEST(DiagnosisSummary, FitsOnAScreenWithVerdictCauseAndNextCommand) {
   const std::vector<std::string> lines = summary_lines(s);
   EXPECT_LE(lines.size(), 20u) << text_of(s);
   for (const std::string& line : lines)
-    if (line.rfind("Next:", 0) != 0) EXPECT_LE(columns(line), kTextWidth) << line;
+    if (line.rfind("Next:", 0) != 0) {
+      EXPECT_LE(columns(line), kTextWidth) << line;
+    }
   EXPECT_EQ(lines.front().rfind("✗ a.csv: incomplete", 0), 0u) << text_of(s);
   EXPECT_TRUE(lines.front().ends_with("error 0.0731 N = 7.3 x noise"));
   EXPECT_TRUE(has(s, "  MISSING  regions")) << text_of(s);

@@ -129,7 +129,9 @@ TEST(Session, AMillionDamagedDatagramsAreNone) {
   Packet back;
   bool newest = false;
   for (int i = 0; i < 1'000'000; ++i) {
-    if (i % 1000 == 0) ASSERT_TRUE(near.write(any_packet(), good));
+    if (i % 1000 == 0) {
+      ASSERT_TRUE(near.write(any_packet(), good));
+    }
     std::copy_n(good.bytes.begin(), good.size, bytes.begin());
     std::size_t size = good.size;
     const auto kind = random.integer(4);

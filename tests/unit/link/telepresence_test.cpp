@@ -202,7 +202,9 @@ TEST(Telepresence, LateForcesGiveNoMoreEnergyThanAllowed) {
   long flagged = 0;
   for (const SafeSample& s : bounded.felt) {
     flagged += (s.flags & kSafeEnergy) != 0;
-    if (s.flags == 0) EXPECT_EQ(s.force, s.unlimited);
+    if (s.flags == 0) {
+      EXPECT_EQ(s.force, s.unlimited);
+    }
   }
   EXPECT_GT(flagged, 100);
   EXPECT_LT(flagged, 2400);

@@ -26,13 +26,28 @@ TEST(Golden, ToleranceOrStandardErrorsWhicheverIsMore) {
   const auto row = [&](double E, double error, double tolerance) {
     return compare_with_golden(model(E, error, 0.1), golden, options(tolerance))[0];
   };
-  // 3 sqrt(30^2 + 40^2) = 150 against 1 % = 100.
-  EXPECT_NEAR(row(10000, 30, 0.01).allowed, 150, 1e-9);
+  // A factor of exp(3 sqrt(0.003^2 + 0.004^2)) against 1 % = 100.
+  EXPECT_NEAR(row(10000, 30, 0.01).allowed, 1e4 * std::expm1(0.015), 1e-9);
   EXPECT_EQ(row(10149, 30, 0.01).verdict, GoldenVerdict::kSame);
   EXPECT_EQ(row(10151, 30, 0.01).verdict, GoldenVerdict::kDiffers);
   EXPECT_NEAR(row(10000, 30, 0.02).allowed, 200, 1e-9);
   EXPECT_NE(row(10151, 30, 0.01).why.find("3 standard errors"), std::string::npos);
   EXPECT_NE(row(10201, 30, 0.02).why.find("(tolerance)"), std::string::npos);
+}
+
+// Linear standard errors would take any smaller modulus for the same.
+TEST(Golden, StandardErrorsOfAModulusAreFactors) {
+  const auto verdict = [&](double E) {
+    return compare_with_golden(model(E, 0.35 * E, 0.1), model(10000, 3500, 0.1), options(0.01))[0]
+        .verdict;
+  };
+  const double factor = std::exp(3 * std::sqrt(2.0) * 0.35);  // 4.4
+  for (const double at : {1.01, factor / 1.01}) {
+    EXPECT_EQ(verdict(10000 * at), GoldenVerdict::kSame) << at;
+    EXPECT_EQ(verdict(10000 / at), GoldenVerdict::kSame) << at;
+  }
+  EXPECT_EQ(verdict(10000 * factor * 1.01), GoldenVerdict::kDiffers);
+  EXPECT_EQ(verdict(10000 / factor / 1.01), GoldenVerdict::kDiffers);
 }
 
 TEST(Golden, WhatOnlyOneModelHasDiffers) {

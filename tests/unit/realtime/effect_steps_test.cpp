@@ -143,7 +143,9 @@ TEST_P(EveryEffectLive, TellsWhatAnErrorOfTheStiffnessIsInTheForce) {
   const auto [force, share] = pressed(body, 1);
   const double change = (pressed(body, 1 + by).first - force).norm() / (by * force.norm());
   EXPECT_LT(change, 1.05 * share) << card.name;  // adhesion takes off of the force
-  if (share > 1) EXPECT_GT(change, 0.98 * share) << card.name;
+  if (share > 1) {
+    EXPECT_GT(change, 0.98 * share) << card.name;
+  }
 }
 
 TEST_P(EveryEffectLive, TakesNoMemoryAndStaysFinite) {

@@ -83,18 +83,18 @@ TEST(Reconstruct, APointFarAstrayDoesNotKeepItForever) {
 
 // The nearest neighbour of a laser line's point lies on that line, far nearer than the next line.
 TEST(Reconstruct, DenseLinesFarApartHaveTheAreaAroundThem) {
-  constexpr double kRadius = 0.04, kApart = 3e-3, kAlong = 1e-4;
+  constexpr double kRing = 0.04, kApart = 3e-3, kAlong = 1e-4;
   PointCloud cloud;
-  for (double z = kApart / 2; z < kRadius; z += kApart) {
-    const double ring = std::sqrt(kRadius * kRadius - z * z);
+  for (double z = kApart / 2; z < kRing; z += kApart) {
+    const double ring = std::sqrt(kRing * kRing - z * z);
     const int count = static_cast<int>(2 * M_PI * ring / kAlong);
     for (int i = 0; i < count; ++i) {
       const double turn = 2 * M_PI * i / count;
       cloud.points.emplace_back(ring * std::cos(turn), ring * std::sin(turn), z);
-      cloud.normals.push_back(cloud.points.back() / kRadius);
+      cloud.normals.push_back(cloud.points.back() / kRing);
     }
   }
-  const double half_ball = 2 * M_PI * kRadius * kRadius;
+  const double half_ball = 2 * M_PI * kRing * kRing;
   EXPECT_GT(view_scan(cloud).area, 0.2 * half_ball);
   EXPECT_LT(view_scan(cloud).area, half_ball);
 }
