@@ -90,7 +90,7 @@ model() { # what is beside E and nu
     inclusion) printf 'inclusion,0,%s\n' x,0.01 y,0.005 z,0.024 radius,0.008 ratio,8 ;;
     tip) printf 'tip,0,kappa,60\n' ;;
     anisotropic) printf 'anisotropic,0,%s\n' ratio,2 shear,1 tilt,1.4 azimuth,0.3 ;;
-    regions) printf 'elastic,1,E,24000\nregions,%s\n' 0,x1,-0.02 0,y1,0 1,x1,0.02 1,y1,0 ;;
+    regions) printf '%s\n' elastic,1,E,24000 regions,0,x1,-0.02 regions,0,y1,0 regions,1,x1,0.02 regions,1,y1,0 ;;
     base) printf 'base,0,%s\n' give,0.5 azimuth,0.5 edge,0 ;;
     nothing | wandering) ;;
     *) echo "rows.sh: there is no truth $1" >&2; return 2 ;;
