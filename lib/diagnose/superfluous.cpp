@@ -1,6 +1,7 @@
 #include "diagnose/superfluous.h"
 
 #include <cmath>
+#include <utility>
 
 #include "effects/catalogue.h"
 #include "model/model_edit.h"
@@ -62,8 +63,9 @@ std::optional<Simpler> simpler_in_place(const std::string& effect, const Baselin
     std::string lack;
     const std::optional<Candidate> candidate = try_effect(require_effect(name), without, g, lack);
     if (!candidate || errs_plainly_more(candidate->fitted, base)) continue;
-    Simpler simpler{*candidate, {}, make_baseline(candidate->fitted.model, g, folds)};
-    if (is_needed(require_effect(effect), base, simpler.base, g, folds, gates)) continue;
+    Baseline with = make_baseline(candidate->fitted.model, g, folds);
+    if (is_needed(require_effect(effect), base, with, g, folds, gates)) continue;
+    Simpler simpler{*candidate, {}, std::move(with)};
     simpler.candidate.held_out = held_out_for(*candidate->effect, simpler.base);
     simpler.measured =
         measure(simpler.candidate, without, make_yardstick(without, {simpler.candidate}, g), g);

@@ -14,9 +14,9 @@ namespace {
 
 OnlineEstimate found() {
   OnlineEstimate e;
-  e.moduli = ModuliVector(3);
+  e.moduli = ModuliVector::Zero(3);
   e.moduli << 10000, 3000, 1234.56;
-  e.error = ModuliVector(3);
+  e.error = ModuliVector::Zero(3);
   e.error << 20, 30, std::numeric_limits<double>::infinity();
   e.rmse = 0.02;
   return e;
