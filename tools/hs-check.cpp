@@ -28,8 +28,9 @@ ToolSpec specification() {
       "On one machine the same call gives the same bytes. Another compiler or processor changes "
       "the last digits, and a new recording of the same object changes more. A parameter counts "
       "as the same when it differs by no more than its tolerance, or than --standard-errors "
-      "times the standard error of the difference, whichever is more. Parameters that only one "
-      "model has differ, and so do those that are fixed in one and free in the other. The "
+      "times the standard error of the difference, whichever is more; of moduli, times and sizes "
+      "that is a factor, as their intervals are. Parameters that only one model has differ, and so "
+      "do those that are fixed in one and free in the other. The "
       "errors of the fit and on unseen data (metadata rmse, heldout) may be smaller, but not "
       "larger by more than --worse, nor absent when the golden model has them. A fit that was "
       "ended before it converged differs from one that was not.",
