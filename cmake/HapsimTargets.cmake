@@ -155,6 +155,7 @@ function(hapsim_tool name)
 endfunction()
 
 # hapsim_test(<name> SOURCES x_test.cpp ... USES layer ... [how it runs]): one GoogleTest program, one ctest entry.
+# What it computes with is in lib: it is quick itself.
 function(hapsim_test name)
   cmake_parse_arguments(arg "THREADS;ALONE" "SECONDS" "SOURCES;USES" ${ARGN})
   add_executable(test_${name} ${arg_SOURCES})

@@ -52,7 +52,7 @@ AffineSweep::AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffne
     }
     const Eigen::Matrix3d gram = fresh.transpose() * force;
     const Eigen::Matrix3d unit = normalising(0.5 * (gram + gram.transpose()), kGone * energy);
-    if (unit.isZero()) return;  // the space holds no more
+    if ((unit.array() == 0).all()) return;  // the space holds no more: the solution is exact
     fresh *= unit;
     force *= unit;
     basis.push_back(std::move(fresh));

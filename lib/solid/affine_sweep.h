@@ -20,7 +20,8 @@ class AffineSweep {
   // unit displacements and `stiffness` their reaction. `part` of fields is A_1 times them. The
   // basis grows until the stiffness at all of `judged` (values of s) changes by less than 1e-6 of
   // itself; Poisson's ratio from 0.08 to 0.497 takes some nine steps, of which each leaves a fifth.
-  // Error(kNoConvergence) where forty do not do.
+  // Directions that are rounding beside the rest are left out, and where none is left the solution
+  // is exact. Error(kNoConvergence) where forty steps do not do.
   AffineSweep(const ElasticBody& body, const Eigen::Matrix3d& stiffness, const Fields& field,
               const std::function<Fields(const Fields&)>& part, const std::vector<double>& judged);
 

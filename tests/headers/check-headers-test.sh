@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # check-headers-test.sh COMPILER [INCLUDE...]: the check finds what a header forgets to include, also where
-# Eigen is, and lends nothing to any.
+# Eigen or a header of our own that many include is, and lends nothing to any.
 set -euo pipefail
 check=$(dirname "${BASH_SOURCE[0]}")/check-headers.sh
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-mkdir -p "$tree/lib/a"
+mkdir -p "$tree/lib/a" "$tree/lib/mesh"
 put() { printf '%s\n' '#pragma once' "$2" >"$tree/lib/a/$1"; }
 expect() { # CODE PATTERN
   local code=0 output
@@ -20,10 +20,19 @@ put vector.h '#include <Eigen/Core>
 using Vec3 = Eigen::Vector3d;'
 put both.h '#include "a/vector.h"
 Vec3 both();'
-expect 0 '3 headers compile, each by itself'
+put ../mesh/tetmesh.h '#include <string>
+struct TetMesh { std::string name; };'
+put body.h '#include "mesh/tetmesh.h"
+TetMesh body();'
+put through.h '#include "a/body.h"
+TetMesh through();'
+expect 0 '6 headers compile, each by itself'
 put forgets.h '#include "a/vector.h"
 std::map<int, Vec3> forgets();'
 put lent.h 'Eigen::Vector3d lent();'
 put order.h 'Vec3 order();'
-for header in forgets lent order; do told+="*a/$header.h does not compile by itself"; done
+put mesh_forgets.h '#include "a/body.h"
+std::map<int, TetMesh> forgets();'
+put mesh_lent.h 'TetMesh lent();'
+for header in mesh_forgets forgets lent mesh_lent order; do told+="*a/$header.h does not compile by itself"; done
 expect 1 "$told"

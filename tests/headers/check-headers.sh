@@ -23,12 +23,12 @@ cd "$root/lib"
 
 find . -name '*.h' ${without:+-not -path "./$without/*"} | sed 's|^\./||' | sort >"$work/all"
 grep -rE '^#include "' --include='*.h' . | sed -E 's|^\./([^:]*):#include "([^"]*)".*|\2 \1|' >"$work/edges" || true
-# begin HEADER PATTERN: a copy of the header for those that include what the pattern says, directly, then through each
-# other, and that have not begun with another.
+# begin HEADER [PATTERN]: a copy of the header for those that include it, or what the pattern says, directly, then
+# through each other, and that have not begun with another.
 touch "$work/begun"
 begin() {
   local name=${1//[^A-Za-z0-9]/-}
-  grep -rlE "^#include $2" --include='*.h' . | sed 's|^\./||' | sort -u >"$work/$name" || true
+  grep -rlE "^#include ${2-$1}" --include='*.h' . | sed 's|^\./||' | sort -u >"$work/$name" || true
   while :; do
     awk 'NR == FNR { with[$1] = 1; next } $1 in with { print $2 }' "$work/$name" "$work/edges" |
       sort -u - "$work/$name" >"$work/more"
@@ -46,9 +46,7 @@ begin() {
 }
 copies=()
 begin '<pybind11/pybind11.h>' '<pybind11/'
-for header in fit/fit.h experiment/experiment.h contact/contact_library.h mesh/tetmesh.h; do
-  [[ ! -e $header ]] || begin "\"$header\"" "\"$header\""
-done
+for header in fit/fit.h experiment/experiment.h contact/contact_library.h mesh/tetmesh.h; do begin "\"$header\""; done
 begin '<Eigen/Core>' '<Eigen/' # which Dense, Geometry and their like include
 alone() { # FIRST HEADER: its first words where it does not compile
   "$compiler" "${flags[@]}" ${1:+-include "$1"} -include "$2" -x c++ /dev/null 2>"$work/${2//\//-}.err" ||

@@ -108,6 +108,34 @@ TEST(FieldContacts, AHomogeneousFieldIsTheModelsOwnBody) {
             1e-5 * difference.norm());
 }
 
+// What lumps of 6 mm change, at 5 to 20 mm below the tool and aside, by an image's coarse meshes:
+// as by much finer ones.
+TEST(FieldContacts, CoarseMeshesSenseWhatFineOnesDo) {
+  const Experiment w = test::experiment();
+  const TetMesh body = test::block_mesh({0.08, 0.08, 0.04}, 6, 6, 4, 1);
+  FieldGrid grid;
+  grid.step = 0.0028;
+  grid.count = {29, 29, 15};
+  const auto nodes = static_cast<Eigen::Index>(grid.size());
+  const Eigen::VectorXd homogeneous = Eigen::VectorXd::Zero(nodes);
+  FieldContacts coarse(body, w.places, 0.004, 0.4, grid, 1, kSensedRim),
+      fine(body, w.places, 0.004, 0.4, grid, 1, 0.125);
+  const auto by_coarse = coarse.at(1, homogeneous), by_fine = fine.at(1, homogeneous);
+  const Vec3 tool = w.places.position(1);
+  for (const Vec3& off :
+       {Vec3(0, 0, -0.005), Vec3(0.004, 0, -0.01), Vec3(0, 0.01, -0.01), Vec3(0, 0, -0.02)}) {
+    Eigen::VectorXd lump(nodes);
+    for (Eigen::Index n = 0; n < nodes; ++n)
+      lump[n] = std::exp(-(grid.node(static_cast<std::size_t>(n)) - tool - off).squaredNorm() /
+                         (0.006 * 0.006));
+    const Eigen::Matrix3d changed = by_coarse.change_of(by_coarse.by_node * lump),
+                          known = by_fine.change_of(by_fine.by_node * lump);
+    std::printf("%.0f mm deep, %.0f aside: %.2f %% off\n", -1e3 * off.z(),
+                1e3 * off.head<2>().norm(), 100 * (changed - known).norm() / known.norm());
+    EXPECT_LT((changed - known).norm(), 0.03 * known.norm());
+  }
+}
+
 // A shift that acts as a change of E by `c` a metre, known to sigma, adds (c sigma)^2 to E's
 // variance and leaves nu's, to which it is nothing.
 TEST(BoundaryError, GoesThroughToTheModuli) {

@@ -137,8 +137,6 @@ TEST(AffineSweep, OfOneSpringIsShermanAndMorrisons) {
                           {0.1, 10});
   for (const double s : {0.01, 0.1, 1.0, 10.0}) {
     const Eigen::Matrix3d exact = without.reaction + s / (1 + s * give) * g * g.transpose();
-    EXPECT_GT((s * g * g.transpose() + without.reaction - exact).norm(),
-              1e-4 * exact.norm() * s / 10);
     EXPECT_LT((sweep.at(s).K - exact).norm(), 1e-11 * exact.norm()) << s;
   }
 }
