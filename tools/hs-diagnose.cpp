@@ -44,7 +44,9 @@ ToolSpec specification() {
       "Two effects that do equally well are rivals, unless both together leave nothing but noise "
       "and mesh where each alone leaves plainly more: then both are there. Where rivals (up to "
       "three) leave more than noise, the search goes on beside each of them: what else is missing "
-      "may tell them apart, and what is found beside all of them is missing whichever it is.",
+      "may tell them apart, and what is found beside all of them is missing whichever it is. More "
+      "than three that leave more than noise are no answer: they are possible, and what is left is "
+      "told.",
       "Contact points that lie off the body's surface by more than a hundredth of its least extent "
       "are told. Where the forces do not follow the move of the body that would explain them "
       "(shift), the shape is in doubt: the gain error allows for it, and an effect that a wrong "

@@ -224,6 +224,9 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("sensor-settling", "sensor-settling", 5, [](double s) {
     return std::vector<double>{0.3 * s, -0.5 * s, s, 60, 0, 0, 0};
   }));
+  t.push_back(own_form("sensor-hum", "sensor-hum", 5, [](double s) {
+    return std::vector<double>{0.3 * s, 0, s, 0, 0.5 * s, 0, 1.7};
+  }));
   t.push_back(own_form("deadband-short", "deadband", 0.25, [](double s) {
     return std::vector<double>{s, 1};
   }));

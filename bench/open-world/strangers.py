@@ -357,7 +357,7 @@ PLAIN = [
     ("waits", waits, "history speed", [], {}),
     ("jitters", jitters, "noise history speed", [], {}),
     ("late", late, "history speed", [], {}),
-    ("hum", plus(hum), "frequency", [], {}),
+    ("hum", plus(hum), "frequency", ["sensor-hum"], {}),
     ("wraps", wraps, "depth event", [], {}),
     ("rounds", rounds, "depth", [], {}),
     ("unloads", times(unloads), "history", ["sensor-hysteresis"], {"path": back_and_forth}),
@@ -379,7 +379,7 @@ PLAIN = [
     ("flipped", flipped(1), "axes set-up", ["sensor-gain", "sensor-crosstalk"], {}),
 ]
 MIXED = [
-    ("relax-hum", after(RELAX, plus(hum)), "frequency", "viscoelastic", []),
+    ("relax-hum", after(RELAX, plus(hum)), "frequency", "viscoelastic", ["sensor-hum"]),
     ("relax-second", after(RELAX, second_contact), "depth", "viscoelastic", ["learned-depth"]),
     ("relax-warms", after(RELAX, PLAIN[0][1]), "session", "viscoelastic", GAINS),
     ("relax-sticks", after(RELAX, sticks), "event history speed", "viscoelastic", []),

@@ -47,8 +47,8 @@ Recording with_columns(const Recording& measured, const Names& names,
 }  // namespace
 
 NoiseLevel noise_level(const Recording& measured) {
-  if (const auto declared = measured.force_noise())
-    return {*declared, false, declared_noise_origin(measured)};
+  if (const auto declared = declared_noise(measured))
+    return {declared->value, false, declared->origin};
   return {measure_force_noise(measured).sigma, true,
           "estimated from differences in time: there is no force_noise in the recording"};
 }

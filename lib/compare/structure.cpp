@@ -38,6 +38,12 @@ double squared_error(const std::vector<Vec3>& m, const std::vector<Vec3>& s) {
   return sum;
 }
 
+// What noise alone leaves of the measured components [N^2].
+double by_noise(const Search& search) {
+  return measured_axes(search.measured) * search.noise * search.noise *
+         static_cast<double>(search.measured.size());
+}
+
 // P-value of a gain that differs from 1; bins of fewer than three presses cannot be judged when the
 // recording has more.
 double gain_p_value(const BinError& e, std::size_t presses) {
@@ -54,14 +60,19 @@ double explained_by_gains(const std::vector<BinError>& errors, double noise) {
   return sum;
 }
 
+// A bin for each press.
+Grouping by_press(const Search& search) {
+  Grouping presses;
+  presses.bins.resize(search.facts.press_ids.size());
+  presses.bin = search.facts.press;
+  return presses;
+}
+
 // Gains of positions: scatter between positions over scatter between presses of one position, the
 // latter at least the noise's.
 double position_p_value(const Search& search, const std::vector<BinError>& positions) {
-  Grouping per_press;
-  per_press.bins.resize(search.facts.press_ids.size());
-  per_press.bin = search.facts.press;
   const auto presses =
-      bin_errors(per_press, search.facts, search.measured, search.simulated, search.noise);
+      bin_errors(by_press(search), search.facts, search.measured, search.simulated, search.noise);
   std::vector<int> position(presses.size(), 0);
   for (std::size_t i = 0; i < search.facts.press.size(); ++i)
     position[search.facts.press[i]] = search.facts.position[i];
@@ -142,6 +153,29 @@ Hypothesis try_grouping(const Search& search, const Grouping& grouping) {
   return h;
 }
 
+// What is left where it goes with nothing but the press: a gain of each takes most of it away.
+Observation gains_of_presses(const Search& search, double square) {
+  constexpr double kMost = 0.5;
+  Grouping grouping = by_press(search);
+  const auto errors =
+      bin_errors(grouping, search.facts, search.measured, search.simulated, search.noise);
+  const double rest = squared_error(search.measured, scaled(search, grouping, errors));
+  const double beyond = square - by_noise(search);
+  Observation found;
+  if (errors.size() < 3 || square - rest < kMost * beyond) return found;
+  double least = 1, most = 1;
+  for (const BinError& e : errors)
+    if (e.weight > 0) least = std::min(least, e.gain), most = std::max(most, e.gain);
+  found.kind = "press";
+  found.p_value = 0;  // of many samples a press, none alike by chance
+  found.sentence = fmt::format(
+      "The error changes from press to press: forces are {:.2g} to {:.2g} times the model's, which "
+      "takes {:.0f} % of what is left away and goes with no place, direction, depth or order: look "
+      "at what changes between presses, the grip, the temperature, the body itself.",
+      least, most, 100 * std::min(1.0, (square - rest) / beyond));
+  return found;
+}
+
 // What nothing explains: larger than noise, and neighbouring samples of a press err alike.
 Observation what_is_left(const Search& search, double total) {
   // Well beyond what an estimate of the noise errs by; and a correlation that white noise of 100
@@ -160,6 +194,10 @@ Observation what_is_left(const Search& search, double total) {
   if (search.noise <= 0 || left < kBeyondNoise * search.noise || product < kAlike * square ||
       square < kLeastExplained * total)
     return rest;
+  if (Observation gains = gains_of_presses(search, square); !gains.sentence.empty()) {
+    gains.share = square / total;
+    return gains;
+  }
   rest.kind = "left";
   rest.p_value = 0;  // of many samples, none alike by chance
   rest.share = square / total;
@@ -179,8 +217,7 @@ std::vector<Observation> find_structure(const RowFacts& facts, const std::vector
   std::vector<Grouping> groupings = make_groupings(facts);
   groupings.insert(groupings.begin(), everything(facts));
   const double total = squared_error(measured, simulated);
-  const double by_noise =
-      measured_axes(measured) * noise * noise * static_cast<double>(measured.size());
+  const double beyond = total - by_noise(search);
   std::vector<Observation> found;
   while (found.size() < most) {
     Hypothesis best;
@@ -201,7 +238,7 @@ std::vector<Observation> find_structure(const RowFacts& facts, const std::vector
           {{offsets[o].name, offsets[o].sentence, offsets[o].p_value, 0}, offsets[o].explained, {}},
           groupings.size() + o);
     if (best.finding.sentence.empty()) break;
-    best.finding.share = std::min(1.0, best.explained / std::max(total - by_noise, 1e-300));
+    best.finding.share = std::min(1.0, best.explained / std::max(beyond, 1e-300));
     if (which < groupings.size())
       search.simulated =
           scaled(search, groupings[which],

@@ -114,7 +114,7 @@ std::optional<Candidate> try_effect(const Effect& effect, const Baseline& base,
   lack = lacking_for(card, g.dataset);
   if (!lack.empty()) return std::nullopt;
   const Selection all = all_episodes(g.dataset);
-  if (card.needs_line && line_left(base.fitted, g.experiment, all).frequency == 0) {
+  if (card.needs_line && line_left(base.fitted, g.experiment, all, card.stage).frequency == 0) {
     lack = kNoLine;
     return std::nullopt;
   }

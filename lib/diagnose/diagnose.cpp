@@ -5,9 +5,11 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "diagnose/beside_curves.h"
 #include "diagnose/few_presses.h"
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
+#include "diagnose/odd_presses.h"
 #include "diagnose/one_size.h"
 #include "diagnose/probability.h"
 #include "diagnose/search.h"
@@ -63,6 +65,23 @@ std::string verdict_name(ModelVerdict verdict) {
 
 namespace {
 
+// Presses unlike all others are what is left, where the model is right without them.
+void blame_odd_presses(const Fit& fitted, const TrialGround& g, Diagnosis& d) {
+  const OddPresses odd = find_odd_presses(fitted, g);
+  if (odd.ids.empty()) return;
+  d.odd_presses = odd.ids;
+  d.left.kind = kEvent;
+  d.left.words = fmt::format("{:.2g} x the noise is left. {}", d.left.error, odd.words());
+}
+
+std::string step_words(const Noise& noise) {
+  if (noise.step == 0) return "";
+  return fmt::format(
+      " Forces are rounded to steps of {:.3g} N (quantisation), most of the {:.2g} N that counts "
+      "as noise: what is smaller these data cannot tell.",
+      noise.step, noise.value);
+}
+
 Diagnosis with_allowance(const Model& model, const TrialGround& g, const DiagnoseOptions& options) {
   const bool few_presses = g.dataset.episodes.size() < kLeastPresses;
   const Folds folds = few_presses ? Folds{} : make_folds(g.dataset, options.folds);
@@ -90,12 +109,16 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   if (!few_presses && d.rivals.empty() &&
       doubt_what_places_share(base, g, folds, options.gates, d.findings))
     put_in_order(d.findings);
-  if (!few_presses) doubt_other_sizes(base, g, folds, d);
+  if (!few_presses) {
+    doubt_other_sizes(base, g, folds, d);
+    doubt_beside_curves(base, g, folds, d);
+  }
   const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;
   if (few_presses || !ambiguous) d.left = left_over(base.fitted, g);
+  if (!few_presses && !ambiguous && !d.left.noise_alone()) blame_odd_presses(base.fitted, g, d);
   d.torque = torque_left(base.fitted, g);
   d.marker = marker_left(base.fitted, g, options.markers);
   const bool missing =
@@ -115,6 +138,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
                                  : describe_verdict(d);
   if (!torques_alone && !d.torque.words.empty()) d.explanation += " " + d.torque.words;
   if (!points_alone && !d.marker.words.empty()) d.explanation += " " + d.marker.words;
+  d.explanation += step_words(g.experiment.noise);
   if (!few_presses) return d;
   const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);

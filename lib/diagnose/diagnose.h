@@ -71,8 +71,9 @@ struct Finding {
   bool hidden = false;       // a law of each place, beside a learned field, could do the same
   bool within_form = false;  // no more than an approximate law in the model may leave
   bool by_presses = false;   // held_out_* are of unseen presses: it helps no unseen position
-  bool doubted = false;      // found missing, but its size is not one (diagnose/one_size.h)
-  bool plain = false;        // large beyond chance by its size, whatever unseen positions say
+  bool doubted = false;  // found missing and not stood by (diagnose/one_size.h, beside_curves.h)
+  std::string curve;     // doubted: it is needed beside the effect (diagnose/beside_curves.h)
+  bool plain = false;    // large beyond chance by its size, whatever unseen positions say
 };
 
 struct Diagnosis {
@@ -87,9 +88,10 @@ struct Diagnosis {
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
-  LeftOver left;      // with all missing effects, of an ambiguous verdict with the best rival
-  TorqueLeft torque;  // of the same model, where torques were measured
-  MarkerLeft marker;  // of the same model, where points were seen
+  LeftOver left;  // with all missing effects, of an ambiguous verdict with the best rival
+  std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
+  TorqueLeft torque;             // of the same model, where torques were measured
+  MarkerLeft marker;             // of the same model, where points were seen
   std::string held_out_by;
   std::string explanation;  // of the verdict, in words
   // What to tell apart by further presses: the fitted rivals of an ambiguous verdict; otherwise the

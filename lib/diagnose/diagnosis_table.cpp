@@ -189,6 +189,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
                {"error_over_noise", d.left.error},
                {"strain", d.left.strain},
                {"common", d.left.common}};
+  j["odd_presses"] = d.odd_presses;
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));
   return j.dump(2) + "\n";

@@ -118,12 +118,18 @@ inline std::vector<std::string> gates_in_words() {
           "told "
           "as hs-compare tells it.",
           1 / kStrained, 100 * kOneSize),
+      "A few presses (at most every fourth) are told by their numbers where all that is left is "
+      "theirs: the model fitted without them leaves noise alone, others at their places are as it "
+      "says, and so are others elsewhere of like depth, slant and times. Forces that are rounded "
+      "to coarse steps count as so much noisier.",
       "Where no effect that has a name passes (or none more) and what is left is more than noise, "
       "curves that have no law are tried and judged in the same way: over the depth "
       "(learned-depth), the time since the tool moved (learned-kernel) and the session "
       "(learned-drift); learned-place stands beside the named ones. Such a name states no cause: "
       "it says of what kind the cause is, what it does, and by how much the unseen error falls "
-      "with it. Where all names together leave more than noise, such curves are tried in their "
+      "with it; a name over the same thing that needs such a curve beside it has not the cause's "
+      "form and is possible only. Where all names together leave more than noise, such curves are "
+      "tried in their "
       "place too, and stand where the unseen error is plainly less."};
 }
 

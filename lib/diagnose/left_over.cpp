@@ -188,7 +188,7 @@ double frequency_in(const Eigen::VectorXd& residual, const TrialGround& g) {
       t.push_back(e.view.session[i]);
       values.emplace_back(residual.segment<3>(at));
     }
-  return find_line(t, values, g.dataset.episodes.size()).frequency;
+  return find_line(t, values, g.dataset.episodes.size(), kNyquist).frequency;
 }
 
 std::string words_of(const LeftOver& left) {
@@ -244,7 +244,7 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
   if (left.noise_alone()) left.events = find_locked_events(g.dataset, p.beside, g.allowance.noise);
   if (left.noise_alone()) return left;
   if (left.events.found) {
-    left.kind = "event";
+    left.kind = kEvent;
     left.words = words_of(left);
     return left;
   }

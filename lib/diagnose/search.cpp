@@ -133,6 +133,15 @@ std::vector<std::size_t> best_and_rivals(const Round& round, std::size_t best, c
   return rivals;
 }
 
+// More than can be tried side by side; where these leave more than noise all the same, to name them
+// would be to name nothing.
+constexpr std::size_t kMostRivals = 3;
+bool none_of_many(const Round& round, const std::vector<std::size_t>& rivals,
+                  const TrialGround& g) {
+  return rivals.size() > kMostRivals &&
+         !left_over(round.candidates[rivals.front()].fitted, g).noise_alone();
+}
+
 // The data cannot tell them apart.
 void list_rivals(const Round& round, const std::vector<std::size_t>& rivals, const TrialGround& g,
                  Diagnosis& d) {
@@ -155,8 +164,7 @@ void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround
 bool told_apart(const Round& round, std::vector<std::size_t> rivals, Baseline& base,
                 const TrialGround& g, const Folds& folds, const DiagnoseOptions& options,
                 Diagnosis& d) {
-  constexpr std::size_t kMostBranches = 3;
-  if (rivals.size() > kMostBranches ||
+  if (rivals.size() > kMostRivals ||
       left_over(round.candidates[rivals.front()].fitted, g).noise_alone()) {
     list_rivals(round, rivals, g, d);
     return false;
@@ -191,13 +199,15 @@ void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround
     Round& round = last[static_cast<std::size_t>(kind)];
     round = try_all(kind, base, g, folds, options, random);
     const std::size_t best = best_of(round, options.gates, can_hold_out);
-    if (best == round.findings.size()) {
+    const std::vector<std::size_t> rivals =
+        best == round.findings.size()
+            ? std::vector<std::size_t>{}
+            : best_and_rivals(round, best, g, options.gates, can_hold_out);
+    if (best == round.findings.size() || none_of_many(round, rivals, g)) {
       if (kind == Kind::kLearned || left_over(base.fitted, g).noise_alone()) break;
       kind = Kind::kLearned;
       continue;
     }
-    const std::vector<std::size_t> rivals =
-        best_and_rivals(round, best, g, options.gates, can_hold_out);
     if (!rivals.empty()) {
       if (rivals_may == Rivals::kEnd)
         list_rivals(round, rivals, g, d);

@@ -207,9 +207,9 @@ std::string learned_words(const Diagnosis& d) {
     if (f.verdict != Verdict::kMissing || !card.learned) continue;
     text += fmt::format(" {} names no cause: {} ({}).", f.effect, card.signature, f.fitted);
     for (const Finding& other : d.findings)
-      if (other.verdict == Verdict::kMissing &&
-          std::count(card.confounders.begin(), card.confounders.end(), other.effect) > 0)
-        text += fmt::format(" {} by itself has not its form.", other.effect);
+      if (other.curve == f.effect)
+        text +=
+            fmt::format(" {} alone has not its form, and is no name of the cause.", other.effect);
   }
   return text;
 }
@@ -218,7 +218,7 @@ std::string learned_words(const Diagnosis& d) {
 std::string doubted_words(const Diagnosis& d) {
   std::string names;
   for (const Finding& f : d.findings)
-    if (f.doubted && names.find(f.effect) == std::string::npos)
+    if (f.doubted && f.curve.empty() && names.find(f.effect) == std::string::npos)
       names += (names.empty() ? "" : ", ") + f.effect;
   return names.empty() ? ""
                        : " " + names +

@@ -51,7 +51,7 @@ class Breathing : public Effect {
         .signature =
             "a force that goes up and down at one frequency through all presses, whatever "
             "the tool does",
-        .confounders = {"sensor-drift", "temperature", "viscoelastic"},
+        .confounders = {"sensor-hum", "sensor-drift", "temperature", "viscoelastic"},
         .separated_by =
             "the tool held still on the body over ten periods; the frequency of the "
             "breath, the pump or the table measured"};

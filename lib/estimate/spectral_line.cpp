@@ -24,7 +24,7 @@ struct Grid {
   }
 };
 
-Grid make_grid(const std::vector<double>& t) {
+Grid make_grid(const std::vector<double>& t, double samples) {
   constexpr double kPeriods = 4;
   std::vector<double> steps;
   for (std::size_t i = 1; i < t.size(); ++i)
@@ -39,7 +39,9 @@ Grid make_grid(const std::vector<double>& t) {
     grid.points *= 2;
   const double bins = static_cast<double>(grid.points) * grid.step;
   grid.low = static_cast<std::size_t>(std::ceil(kPeriods * bins / length));
-  grid.high = grid.points / 4;
+  // Beside half the samples' own rate power is what differs from one sample to the next.
+  grid.high = std::min(static_cast<std::size_t>(static_cast<double>(grid.points) / samples),
+                       grid.points / 2 - std::min(grid.low, grid.points / 2));
   return grid;
 }
 
@@ -101,11 +103,11 @@ void fit_waves(const std::vector<double>& t, const std::vector<Vec3>& values, Sp
 }  // namespace
 
 SpectralLine find_line(const std::vector<double>& t, const std::vector<Vec3>& values,
-                       std::size_t parts) {
+                       std::size_t parts, double samples) {
   constexpr double kOfParts = 0.4;
   SpectralLine line;
   if (t.size() < kFewest) return line;
-  const Grid grid = make_grid(t);
+  const Grid grid = make_grid(t, samples);
   if (grid.points == 0 || grid.high <= grid.low) return line;
   const double least = std::log(3 * static_cast<double>(grid.high - grid.low) / kChance);
   double most = std::min(least, kOfParts * static_cast<double>(parts));

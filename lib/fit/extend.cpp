@@ -114,7 +114,7 @@ std::vector<Model> with_effect(const Fit& base_fit, const std::string& name,
           {s.point, experiment.places.contact(static_cast<std::size_t>(s.position)).normal,
            s.gain});
   if (card.needs_line) {
-    summary.line = line_left(base_fit, experiment, selection);
+    summary.line = line_left(base_fit, experiment, selection, card.stage);
     if (summary.line.frequency == 0)
       fail_input(dataset.recording.name, "the data cannot show " + name, kNoLine);
   }
@@ -163,8 +163,8 @@ bool swings_too(const SpectralLine& line, const std::vector<double>& t,
 
 }  // namespace
 
-SpectralLine line_left(const Fit& fitted, const Experiment& experiment,
-                       const Selection& selection) {
+SpectralLine line_left(const Fit& fitted, const Experiment& experiment, const Selection& selection,
+                       Stage stage) {
   const Eigen::VectorXd left = measured_forces(experiment.dataset, selection) -
                                model_forces(fitted, experiment, selection, false).f;
   std::vector<double> t, air_t;
@@ -174,10 +174,12 @@ SpectralLine line_left(const Fit& fitted, const Experiment& experiment,
     const PressView& press = experiment.dataset.episodes[static_cast<std::size_t>(e)].view;
     for (std::size_t i = 0; i < press.size(); ++i, at += 3) {
       if (press.session.empty()) continue;
-      (press.in_air[i] ? air_t : t).push_back(press.session[i]);
-      (press.in_air[i] ? in_air : values).emplace_back(left.segment<3>(at));
+      const bool apart = press.in_air[i] && stage != Stage::kSensor;
+      (apart ? air_t : t).push_back(press.session[i]);
+      (apart ? in_air : values).emplace_back(left.segment<3>(at));
     }
   }
+  if (stage == Stage::kSensor) return find_line(t, values, selection.size(), kNyquist);
   const SpectralLine line = find_line(t, values, selection.size());
   return line.frequency > 0 && swings_too(line, air_t, in_air) ? SpectralLine{} : line;
 }

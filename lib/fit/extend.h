@@ -30,9 +30,11 @@ std::vector<Model> with_effect(const Fit& fitted, const std::string& effect,
                                const Experiment& experiment, const Selection& selection,
                                const ExtendOptions& options);
 
-// The frequency that stands out of the forces that a fitted model leaves where the tool is in
-// contact, over the time of the session.
-SpectralLine line_left(const Fit& fitted, const Experiment& experiment, const Selection& selection);
+// The frequency that stands out of the forces that a fitted model leaves, over the time of the
+// session: for a sensor's effect of all of them, for another where the tool is in contact, if they
+// do not swing as much in the air.
+SpectralLine line_left(const Fit& fitted, const Experiment& experiment, const Selection& selection,
+                       Stage stage);
 // Said where an effect needs one and there is none.
 inline constexpr const char* kNoLine =
     "no frequency stands out of what the model leaves: hold the tool still on the body over ten "

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/counted.h"
@@ -45,9 +46,23 @@ PointCloud keep(const PointCloud& cloud, const std::vector<char>& dropped,
   return kept;
 }
 
-// Drops every point that lies within `distance` of an earlier kept one.
-std::size_t drop_near(PointCloud& cloud, double distance, std::vector<int>& kept) {
+double spacing_of(const std::vector<Vec3>& points, const PointIndex& index) {
+  // At most some thousand places: the median does not need more.
+  const std::size_t step = std::max<std::size_t>(1, points.size() / 4000);
+  std::vector<double> sixth;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    sixth.push_back(index.nearest(points[i], 7).back().distance);
+  }
+  // On a plane with n points a unit area, the sixth neighbour lies at sqrt(6 / (pi n)) = 1.38 /
+  // sqrt n.
+  return upper_median(sixth) / 1.38;
+}
+
+// Drops every point that lies within `spacings` of an earlier kept one.
+std::size_t drop_near(PointCloud& cloud, double spacings, std::vector<int>& kept) {
+  if (cloud.points.size() < 2) return 0;
   const PointIndex index(cloud.points);
+  const double distance = spacings * spacing_of(cloud.points, index);
   std::vector<char> dropped(cloud.points.size(), 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -96,24 +111,34 @@ std::size_t drop_equal(PointCloud& cloud, std::vector<int>& kept) {
   return count;
 }
 
+// The points about each, itself among them, the nearest first.
+using Nearby = std::vector<std::vector<Neighbour>>;
+Nearby nearby(const std::vector<Vec3>& points) {
+  const PointIndex index(points);
+  Nearby near;
+  near.reserve(points.size());
+  for (const Vec3& p : points) near.push_back(index.nearest(p, kNeighbours + 3));
+  return near;
+}
+
 // Mean distance to the k nearest, compared with the median of the same over those neighbours, so
 // that an uneven density is no reason to drop points.
-std::size_t drop_isolated(PointCloud& cloud, std::vector<int>& kept) {
-  const PointIndex index(cloud.points);
+std::size_t drop_isolated(PointCloud& cloud, const Nearby& nearby, std::vector<int>& kept) {
   const std::size_t n = cloud.points.size();
-  std::vector<std::vector<Neighbour>> near(n);
+  const auto nearest = [&](std::size_t i) {
+    return std::span(nearby[i]).first(std::min<std::size_t>(nearby[i].size(), kNeighbours + 1));
+  };
   std::vector<double> reach(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
-    near[i] = index.nearest(cloud.points[i], kNeighbours + 1);
-    for (const Neighbour& m : near[i]) reach[i] += m.distance;
-    reach[i] /= static_cast<double>(std::max<std::size_t>(near[i].size(), 2) - 1);
+    for (const Neighbour& m : nearest(i)) reach[i] += m.distance;
+    reach[i] /= static_cast<double>(std::max<std::size_t>(nearest(i).size(), 2) - 1);
   }
   const double usual = upper_median(reach);
   std::vector<char> dropped(n, 0);
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<double> others;
-    for (const Neighbour& m : near[i]) {
+    for (const Neighbour& m : nearest(i)) {
       if (m.index != static_cast<int>(i)) others.push_back(reach[m.index]);
     }
     if (reach[i] > kIsolation * std::max(upper_median(others), usual / 2)) {
@@ -158,13 +183,12 @@ std::size_t drop_stray(PointCloud& cloud, std::vector<int>& count, std::vector<i
 
 // Distance from the plane of the neighbours, in units of their own median distance from it: large
 // at a sharp edge too, so an edge keeps its points.
-std::size_t drop_off_surface(PointCloud& cloud, std::vector<int>& kept) {
-  const PointIndex index(cloud.points);
+std::size_t drop_off_surface(PointCloud& cloud, const Nearby& nearby, std::vector<int>& kept) {
   const std::size_t n = cloud.points.size();
   std::vector<double> off(n, 0), scale(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<Vec3> others;
-    for (const Neighbour& m : index.nearest(cloud.points[i], kNeighbours + 3)) {
+    for (const Neighbour& m : nearby[i]) {
       if (m.index != static_cast<int>(i)) others.push_back(cloud.points[m.index]);
     }
     const LocalPlane plane = fit_plane(others);
@@ -188,16 +212,7 @@ std::size_t drop_off_surface(PointCloud& cloud, std::vector<int>& kept) {
 
 double point_spacing(const std::vector<Vec3>& points) {
   if (points.size() < 2) return 0;
-  const PointIndex index(points);
-  // At most some thousand places: the median does not need more.
-  const std::size_t step = std::max<std::size_t>(1, points.size() / 4000);
-  std::vector<double> sixth;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    sixth.push_back(index.nearest(points[i], 7).back().distance);
-  }
-  // On a plane with n points a unit area, the sixth neighbour lies at sqrt(6 / (pi n)) = 1.38 /
-  // sqrt n.
-  return upper_median(sixth) / 1.38;
+  return spacing_of(points, PointIndex(points));
 }
 
 constexpr double kFarthest = 1e6;  // [m]; beyond it distances lose their digits
@@ -268,11 +283,13 @@ PointCloud clean_points(const PointCloud& cloud, const CleanOptions& options,
     report.isolated += stray;
     if (stray == 0) break;
   }
-  report.near_duplicates = drop_near(clean, 1e-3 * point_spacing(clean.points), index);
+  report.near_duplicates = drop_near(clean, 1e-3, index);
   if (options.remove_outliers && clean.points.size() > 3 * kNeighbours) {
     for (int pass = 0; pass < kPasses; ++pass) {
-      const std::size_t isolated = drop_isolated(clean, index);
-      const std::size_t off = drop_off_surface(clean, index);
+      Nearby near = nearby(clean.points);
+      const std::size_t isolated = drop_isolated(clean, near, index);
+      if (isolated > 0) near = nearby(clean.points);
+      const std::size_t off = drop_off_surface(clean, near, index);
       report.isolated += isolated;
       report.off_surface += off;
       if (isolated + off == 0) break;

@@ -20,13 +20,31 @@ constexpr int kLeastNear = 12;  // two rings about a point
 constexpr int kMostNear = 192;  // four doublings: coarser than that is no longer the surface
 constexpr int kGraph = 10;      // neighbours over which normals are turned alike
 
-LocalPlane plane_about(const PointCloud& cloud, const PointIndex& index, std::size_t i, int k) {
-  std::vector<Vec3> near;
-  for (const Neighbour& n : index.nearest(cloud.points[i], k)) {
-    near.push_back(cloud.points[n.index]);
-  }
-  return fit_plane(near);
+LocalPlane plane_through(const PointCloud& cloud, const std::vector<Neighbour>& near) {
+  std::vector<Vec3> points;
+  for (const Neighbour& n : near) points.push_back(cloud.points[n.index]);
+  return fit_plane(points);
 }
+
+// Over which normals are turned alike: of each point its neighbours, and those that it is one of.
+class Graph {
+ public:
+  Graph(std::size_t points, int neighbours)
+      : of_(points), each_(static_cast<std::size_t>(std::max(kGraph, neighbours / 2))) {}
+  // `near`: the nearest first.
+  void add(int i, const std::vector<Neighbour>& near) {
+    for (std::size_t k = 0; k < std::min(each_, near.size()); ++k) {
+      if (near[k].index == i) continue;
+      of_[i].push_back(near[k].index);
+      of_[near[k].index].push_back(i);
+    }
+  }
+  const std::vector<int>& of(int i) const { return of_[i]; }
+
+ private:
+  std::vector<std::vector<int>> of_;
+  std::size_t each_;
+};
 
 // Smallest number of neighbours that makes the scan look flat, or the flattest tried.
 int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
@@ -37,7 +55,7 @@ int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
        k *= 2) {
     std::vector<double> ratio;
     for (std::size_t i = 0; i < cloud.points.size(); i += step) {
-      const LocalPlane plane = plane_about(cloud, index, i, k);
+      const LocalPlane plane = plane_through(cloud, index.nearest(cloud.points[i], k));
       ratio.push_back(plane.thickness / std::max(plane.spread[1], 1e-300));
     }
     const double middle = upper_median(ratio);
@@ -51,8 +69,8 @@ int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
 }
 
 // Turns the piece that holds `seed` alike (Prim); returns its points.
-std::vector<int> spread_orientation(PointCloud& cloud, const std::vector<std::vector<int>>& graph,
-                                    int seed, std::vector<char>& done) {
+std::vector<int> spread_orientation(PointCloud& cloud, const Graph& graph, int seed,
+                                    std::vector<char>& done) {
   std::vector<int> piece;
   // Weight, point, point it comes from: ties fall to the lowest number, so the result is definite.
   using Step = std::tuple<double, int, int>;
@@ -65,7 +83,7 @@ std::vector<int> spread_orientation(PointCloud& cloud, const std::vector<std::ve
     done[i] = 1;
     piece.push_back(i);
     if (cloud.normals[i].dot(cloud.normals[from]) < 0) cloud.normals[i] = -cloud.normals[i];
-    for (const int j : graph[i]) {
+    for (const int j : graph.of(i)) {
       if (done[j]) continue;
       open.emplace(1 - std::abs(cloud.normals[i].dot(cloud.normals[j])), j, i);
     }
@@ -73,19 +91,9 @@ std::vector<int> spread_orientation(PointCloud& cloud, const std::vector<std::ve
   return piece;
 }
 
-}  // namespace
-
-void orient_normals(PointCloud& cloud, const Vec3& up, int neighbours, NormalsReport& report) {
+// Turns every piece outward, keeping the directions.
+void orient_by(const Graph& graph, PointCloud& cloud, const Vec3& up, NormalsReport& report) {
   const int n = static_cast<int>(cloud.points.size());
-  const PointIndex index(cloud.points);
-  std::vector<std::vector<int>> graph(n);
-  for (int i = 0; i < n; ++i) {
-    for (const Neighbour& m : index.nearest(cloud.points[i], std::max(kGraph, neighbours / 2))) {
-      if (m.index == i) continue;
-      graph[i].push_back(m.index);
-      graph[m.index].push_back(i);
-    }
-  }
   Vec3 centre = Vec3::Zero();
   for (const Vec3& p : cloud.points) centre += p;
   centre /= n;
@@ -109,18 +117,23 @@ void orient_normals(PointCloud& cloud, const Vec3& up, int neighbours, NormalsRe
   }
 }
 
+}  // namespace
+
 void estimate_normals(PointCloud& cloud, const Vec3& up, NormalsReport& report) {
   const PointIndex index(cloud.points);
   report.neighbours = choose_neighbours(cloud, index);
   cloud.normals.resize(cloud.points.size());
   std::vector<double> thickness;
+  Graph graph(cloud.points.size(), report.neighbours);
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
-    const LocalPlane plane = plane_about(cloud, index, i, report.neighbours);
+    const std::vector<Neighbour> near = index.nearest(cloud.points[i], report.neighbours);
+    graph.add(static_cast<int>(i), near);
+    const LocalPlane plane = plane_through(cloud, near);
     cloud.normals[i] = plane.normal;
     thickness.push_back(plane.thickness);
   }
   report.noise = upper_median(thickness);
-  orient_normals(cloud, up, report.neighbours, report);
+  orient_by(graph, cloud, up, report);
 }
 
 void sharpen_normals(PointCloud& cloud, double radius, double angle_deg, int rounds) {

@@ -20,9 +20,6 @@ struct NormalsReport {
 // `up`.
 void estimate_normals(PointCloud& cloud, const Vec3& up, NormalsReport& report);
 
-// Turns every piece outward as above, keeping the directions.
-void orient_normals(PointCloud& cloud, const Vec3& up, int neighbours, NormalsReport& report);
-
 // Edge-preserving smoothing: each normal becomes the mean of its neighbours' within `radius` [m],
 // weighted down by distance and by the angle between them (scale `angle_deg`), `rounds` times.
 void sharpen_normals(PointCloud& cloud, double radius, double angle_deg, int rounds);

@@ -103,7 +103,13 @@ double step_of(const Component& component, double peak) {
       if (const double d = std::abs(v[i] - v[i - 1]); d > kSame * peak) steps.push_back(d);
   }
   if (steps.empty()) return 0;
-  const double step = *std::min_element(steps.begin(), steps.end());
+  // The least one, and what a few together say: tables round, too.
+  constexpr double kFew = 5.5;
+  const double least = *std::min_element(steps.begin(), steps.end());
+  double sum = 0, multiples = 0;
+  for (const double d : steps)
+    if (d < kFew * least) sum += d, multiples += std::round(d / least);
+  const double step = sum / multiples;
   const bool all = std::all_of(steps.begin(), steps.end(), [&](double d) {
     const double multiple = d / step;
     return multiple > kFar || std::abs(multiple - std::round(multiple)) < kMultiple;
@@ -147,6 +153,35 @@ std::vector<double> scatter_of(const Component& component) {
     for (const double x : some) sizes.push_back(std::abs(x - rest));
   }
   return sizes;
+}
+
+// Root mean square over the measured components of the steps to which forces are rounded; 0: those
+// of none are, or so finely that hardly a force stays the same while the tool moves.
+double step_while_moving(const Recording& recording) {
+  constexpr double kStays = 0.05;
+  constexpr std::size_t kFewest = 50;
+  if (recording.f.empty() || recording.u.empty()) return 0;
+  bool one_line = false;
+  const std::vector<PressForces> all = forces_of(recording, one_line);
+  const std::vector<Press> presses = recording.presses();
+  const double peak = peak_of(recording);
+  const std::size_t axes = all.front().series.size();
+  double squares = 0;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const Component component{all, axis};
+    std::size_t moves = 0, stays = 0;
+    for (std::size_t p = 0; p < all.size(); ++p) {
+      const Series& v = component.of(all[p]);
+      for (std::size_t i = 1; i < v.size(); ++i) {
+        if (recording.u[presses[p].rows[i]] == recording.u[presses[p].rows[i - 1]]) continue;
+        ++moves;
+        stays += v[i] == v[i - 1] ? 1 : 0;
+      }
+    }
+    if (moves >= kFewest && static_cast<double>(stays) > kStays * static_cast<double>(moves))
+      squares += std::pow(step_of(component, peak), 2);
+  }
+  return std::sqrt(squares / static_cast<double>(axes));
 }
 
 }  // namespace
@@ -201,9 +236,18 @@ NoiseEstimate measure_force_noise(const Recording& recording) {
   return estimate;
 }
 
-std::string declared_noise_origin(const Recording& recording) {
+std::optional<Noise> declared_noise(const Recording& recording) {
+  constexpr double kCounts = 0.25, kMost = 0.5;
+  const std::optional<double> declared = recording.force_noise();
+  if (!declared) return {};
   const auto how = recording.metadata.find("force_noise_from");
-  return how ? "estimated from " + *how : "declared";
+  Noise noise{*declared, false, how ? "estimated from " + *how : "declared"};
+  const double step = step_while_moving(recording), rounding = step / std::sqrt(12.0);
+  if (rounding <= kCounts * noise.value) return noise;
+  noise.value = std::hypot(noise.value, rounding);
+  noise.origin += fmt::format(", with the steps of {:.3g} N to which forces are rounded", step);
+  if (rounding > kMost * noise.value) noise.step = step;
+  return noise;
 }
 
 void forget_force_noise(Metadata& metadata) {
@@ -211,8 +255,7 @@ void forget_force_noise(Metadata& metadata) {
 }
 
 Noise force_noise(const Recording& recording) {
-  if (const auto declared = recording.force_noise())
-    return {*declared, false, declared_noise_origin(recording)};
+  if (const auto declared = declared_noise(recording)) return *declared;
   const double measured = measure_force_noise(recording).sigma;
   return {measured > 0 ? measured : kLeast * peak_of(recording), true, "measured from the data"};
 }

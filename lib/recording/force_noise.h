@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "recording/recording.h"
@@ -37,16 +38,20 @@ struct Noise {
   double value = 0;              // standard deviation per component [N]
   bool measured = false;         // from the data, not declared
   std::string origin = "given";  // for sentences: "estimated from second differences of 12 presses"
+  // Steps to which a sensor rounds forces, where these make up most of the noise [N]; 0: none do.
+  double step = 0;
 };
 
-// Of the metadata force_noise: "declared", or "estimated from ..." by its metadata
-// force_noise_from, which hs-import writes.
-std::string declared_noise_origin(const Recording& recording);
+// The metadata force_noise, and the error of rounding, step / sqrt 12, beside it where that is more
+// than a quarter of it: a converter's steps are of no size that a datasheet's noise tells. They are
+// told from the slopes of smooth data by forces that stay while the tool moves. Origin: "declared",
+// or "estimated from ..." by the metadata force_noise_from, which hs-import writes.
+std::optional<Noise> declared_noise(const Recording& recording);
 
 // Both are of forces that are no longer there.
 void forget_force_noise(Metadata& metadata);
 
-// The metadata `force_noise`, else measured; 1e-4 of the largest force where no press has three
+// declared_noise(), else measured; 1e-4 of the largest force where no press has three
 // rows.
 Noise force_noise(const Recording& recording);
 

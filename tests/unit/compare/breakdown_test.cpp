@@ -103,6 +103,18 @@ TEST(Structure, SaysTheSizeInWords) {
   EXPECT_GT(all[0].share, 0.95);
 }
 
+// Gains of the presses that are the same on the average at each place and round of presses.
+TEST(Structure, WhatChangesFromPressToPressIsToldSo) {
+  const std::vector<double> gains{0.8, 1.2, 1.1, 0.9};
+  const Synthetic s = synthetic(24, 6, 0.02, 4, [&](const RowState& r) {
+    return gains[static_cast<std::size_t>(r.press / 6 + r.position) % gains.size()];
+  });
+  const auto found = observe(s, 0.02);
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found.back().kind, "press") << found.back().sentence;
+  EXPECT_NE(found.back().sentence.find("from press to press"), std::string::npos);
+}
+
 TEST(Structure, ExactForcesWithoutNoiseAreNoStructure) {
   Synthetic s = synthetic(6, 3, 0.02, 1);
   s.simulated = s.measured.f;

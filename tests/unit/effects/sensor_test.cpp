@@ -205,6 +205,25 @@ TEST(SensorSettling, GoesToItsValueAndStays) {
   EXPECT_NEAR((f[2] - Vec3(0.1, 0.4, 0.8)).norm(), 0, 1e-12);
 }
 
+// A quarter and three quarters of a period of 4 s after the session began, pressed or not.
+TEST(SensorHum, SwingsInTheAirToo) {
+  PressView press = test::press_to({1e-3, 1e-3, 0});
+  press.session = {1, 3, 4};
+  press.in_air[2] = 1;
+  const auto f = forces_after(sensor_hum_effect(), press,
+                              {{0, "sx", 0.1},
+                               {0, "sy", 0},
+                               {0, "sz", 0.2},
+                               {0, "cx", 0},
+                               {0, "cy", 0.3},
+                               {0, "cz", 0},
+                               {0, "f", 0.25}});
+  const Vec3 pressed(0, 0, test::kStiffness * 1e-3);
+  EXPECT_NEAR((f[0] - pressed - Vec3(0.1, 0, 0.2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[1] - pressed + Vec3(0.1, 0, 0.2)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[2] - Vec3(0, 0.3, 0)).norm(), 0, 1e-12);
+}
+
 TEST(Tare, IsTheOffsetOfItsOwnPress) {
   PressView press = test::press_along(kPath);
   const Values values{{0, "bx1", 1}, {0, "by1", 2}, {0, "bz1", 3},

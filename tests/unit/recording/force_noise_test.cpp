@@ -222,7 +222,37 @@ TEST(ForceNoise, DeclaredIsNotMeasured) {
   EXPECT_EQ(force_noise(r).origin, "estimated from third differences of 4 presses");
   forget_force_noise(r.metadata);
   EXPECT_EQ(force_noise(r).origin, "measured from the data");
-  EXPECT_EQ(declared_noise_origin(r), "declared");  // nothing is left of the earlier one
+  r.metadata.set("force_noise", "0.5");
+  EXPECT_EQ(force_noise(r).origin, "declared");  // nothing is left of the earlier one
+}
+
+// What a datasheet declares knows nothing of a converter's steps.
+TEST(ForceNoise, StepsCountBesideWhatIsDeclared) {
+  Random random(11);
+  for (const double step : {0.002, 0.1, 1.0 / 30}) {
+    Recording r = presses({.rows = 200}, [&](int, const Vec3& f) -> Vec3 {
+      const Vec3 n = f + white(random, 0.01);
+      const auto printed = [step](double v) { return rounded(rounded(v, step), 1e-4); };
+      return {printed(n.x()), printed(n.y()), printed(n.z())};
+    });
+    r.metadata.set("force_noise", "0.01");
+    const Noise noise = force_noise(r);
+    const bool coarse = step > 0.01;
+    const double truth = coarse ? std::hypot(0.01, step / std::sqrt(12.0)) : 0.01;
+    EXPECT_NEAR(noise.value / truth, 1, 0.01) << step;
+    EXPECT_NEAR(noise.step, step > 0.03 && coarse ? step : 0, 1e-3 * step) << step;
+    EXPECT_EQ(noise.origin.find("steps of") != std::string::npos, coarse) << noise.origin;
+  }
+}
+
+// Forces of a model without noise differ by one amount from sample to sample, and have no steps:
+// none stays while the tool moves.
+TEST(ForceNoise, ASmoothRampHasNoSteps) {
+  Recording r = presses({}, [](int, const Vec3& f) -> Vec3 {
+    return {0, 0, std::pow(f.z(), 1 / 1.5)};
+  });
+  r.metadata.set("force_noise", "1e-4");
+  EXPECT_EQ(force_noise(r).value, 1e-4);
 }
 
 }  // namespace
