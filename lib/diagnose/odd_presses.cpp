@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "diagnose/gates.h"
 #include "diagnose/held_out.h"
@@ -100,8 +102,53 @@ Rest rest_of(const Fit& fitted, const std::vector<bool>& odd, const TrialGround&
   return {std::move(anew), std::move(left)};
 }
 
-bool noise_alone(const LeftOver& left) {
-  return left.noise_alone() && left.error < kAlike;
+// Presses set aside, and how all err beside the model of the others.
+struct Aside {
+  std::vector<bool> odd;
+  Rest rest;
+  Errors errors;
+  bool noise_alone() const { return rest.left.noise_alone() && rest.left.error < kAlike; }
+};
+
+std::optional<Aside> without_them(const Fit& fitted, const std::vector<bool>& odd,
+                                  const TrialGround& g) {
+  Aside aside{odd, rest_of(fitted, odd, g), {}};
+  if (!aside.rest.fitted.converged) return std::nullopt;
+  aside.errors = errors_of(aside.rest.fitted, g);
+  return aside;
+}
+
+// The worst, and those that err nearly as much, until the others leave noise alone.
+std::optional<Aside> set_aside(const Fit& fitted, const TrialGround& g) {
+  constexpr double kNearWorst = 0.8;
+  constexpr int kMostRounds = 12;
+  const std::size_t count = g.dataset.episodes.size();
+  Aside aside{std::vector<bool>(count, false), {}, errors_of(fitted, g)};
+  for (int round = 0; round < kMostRounds; ++round) {
+    std::vector<bool> odd = aside.odd;
+    double worst = OddPresses::kOdd / kNearWorst;
+    for (std::size_t k = 0; k < count; ++k)
+      if (!odd[k]) worst = std::max(worst, aside.errors.off[k]);
+    for (std::size_t k = 0; k < count; ++k)
+      odd[k] = odd[k] || aside.errors.off[k] >= kNearWorst * worst;
+    const auto many = static_cast<std::size_t>(std::count(odd.begin(), odd.end(), true));
+    if (odd == aside.odd || 4 * many > count || count - many < kLeastPresses) return std::nullopt;
+    std::optional<Aside> next = without_them(fitted, odd, g);
+    if (!next) return std::nullopt;
+    if (next->noise_alone()) return next;
+    aside = std::move(*next);
+  }
+  return std::nullopt;
+}
+
+// Those that are as the others' model says come back.
+std::optional<Aside> come_back(const Aside& aside, const Fit& fitted, const TrialGround& g) {
+  std::vector<bool> odd = aside.odd;
+  for (std::size_t k = 0; k < odd.size(); ++k)
+    odd[k] = odd[k] && aside.errors.off[k] >= OddPresses::kOdd;
+  if (odd == aside.odd) return aside;
+  std::optional<Aside> fewer = without_them(fitted, odd, g);
+  return fewer && fewer->noise_alone() ? fewer : std::nullopt;
 }
 
 }  // namespace
@@ -117,44 +164,18 @@ std::string OddPresses::words() const {
 }
 
 OddPresses find_odd_presses(const Fit& fitted, const TrialGround& g) {
-  constexpr double kNearWorst = 0.8;
-  const std::size_t count = g.dataset.episodes.size();
-  std::vector<bool> odd(count, false);
-  std::size_t aside = 0;
-  Errors errors = errors_of(fitted, g);
-  Rest rest;
-  do {
-    double worst = 0;
-    for (std::size_t k = 0; k < count; ++k)
-      if (!odd[k]) worst = std::max(worst, errors.off[k]);
-    if (worst < OddPresses::kOdd) return {};
-    for (std::size_t k = 0; k < count; ++k)
-      if (!odd[k] && errors.off[k] >= std::max(kNearWorst * worst, OddPresses::kOdd)) {
-        odd[k] = true;
-        ++aside;
-      }
-    if (4 * aside > count || count - aside < kLeastPresses) return {};
-    rest = rest_of(fitted, odd, g);
-    if (!rest.fitted.converged) return {};
-    errors = errors_of(rest.fitted, g);
-  } while (!noise_alone(rest.left));
-  std::vector<bool> stays = odd;
-  for (std::size_t k = 0; k < count; ++k) stays[k] = odd[k] && errors.off[k] >= OddPresses::kOdd;
-  if (stays != odd) {
-    odd = std::move(stays);
-    rest = rest_of(fitted, odd, g);
-    if (!rest.fitted.converged || !noise_alone(rest.left)) return {};
-    errors = errors_of(rest.fitted, g);
-  }
+  std::optional<Aside> aside = set_aside(fitted, g);
+  if (aside) aside = come_back(*aside, fitted, g);
+  if (!aside) return {};
   OddPresses found;
-  for (std::size_t k = 0; k < count; ++k) {
-    if (!odd[k]) continue;
-    if (!spoken_against(k, odd, g.dataset)) return {};
-    found.ids.push_back(
-        g.dataset.recording.press[static_cast<std::size_t>(g.dataset.episodes[k].rows.front())]);
-    found.off = std::max(found.off, errors.over_noise[k]);
+  found.beside = aside->rest.left.error;
+  for (std::size_t k = 0; k < aside->odd.size(); ++k) {
+    if (!aside->odd[k]) continue;
+    if (!spoken_against(k, aside->odd, g.dataset)) return {};
+    const Episode& e = g.dataset.episodes[k];
+    found.ids.push_back(g.dataset.recording.press[static_cast<std::size_t>(e.rows.front())]);
+    found.off = std::max(found.off, aside->errors.over_noise[k]);
   }
-  found.beside = rest.left.error;
   return found;
 }
 

@@ -255,6 +255,42 @@ double unseen_error(const Baseline& base, const Diagnosis& d) {
   return least;
 }
 
+bool is_any(const EffectCard&) {
+  return true;
+}
+bool is_learned(const EffectCard& card) {
+  return card.learned;
+}
+
+bool any_missing(const Diagnosis& d, bool (*kind)(const EffectCard&)) {
+  return std::any_of(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
+    return f.verdict == Verdict::kMissing && kind(require_effect(f.effect).card());
+  });
+}
+
+// A value of each press follows whatever differs from press to press and foretells no other one.
+// Where a set without it leaves noise alone, or errs as little on what is unseen (there each press
+// is given its value), that is what the data say.
+void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Baseline& base,
+                            const TrialGround& g, const Folds& folds,
+                            const DiagnoseOptions& options, Diagnosis& d) {
+  constexpr double kAsLittle = 1.1;
+  DiagnoseOptions without = options;
+  for (const Finding& f : d.findings)
+    if (f.verdict == Verdict::kMissing && require_effect(f.effect).card().per_press)
+      without.unknown = f.effect;
+  if (without.unknown == options.unknown || !options.unknown.empty()) return;
+  Baseline other_base = first;
+  Diagnosis other = nothing;
+  search_from(Kind::kNamed, Rivals::kGoOn, other_base, g, folds, without, other);
+  if (!other.rivals.empty() || !any_missing(other, is_any)) return;
+  if (!left_over(other_base.fitted, g).noise_alone() &&
+      unseen_error(other_base, other) > kAsLittle * unseen_error(base, d))
+    return;
+  base = std::move(other_base);
+  d = std::move(other);
+}
+
 }  // namespace
 
 void put_in_order(std::vector<Finding>& findings) {
@@ -272,6 +308,7 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   Baseline other_base = base;
   Diagnosis other = d;
   search_from(Kind::kNamed, Rivals::kGoOn, base, g, folds, options, d);
+  prefer_without_offsets(other_base, other, base, g, folds, options, d);
   // What the allowance for mesh and shape swallows may be what a wrong name leaves.
   const LeftOver left = d.rivals.empty() ? left_over(base.fitted, g) : d.left;
   const bool explained = left.noise_alone() && left.error < kLikeNoise;
@@ -283,11 +320,9 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   }
   if ((explained && !offsets) || !any || folds.held_out.empty()) return;
   search_from(Kind::kLearned, Rivals::kGoOn, other_base, g, folds, options, other);
-  const bool learned =
-      std::any_of(other.findings.begin(), other.findings.end(), [](const Finding& f) {
-        return f.verdict == Verdict::kMissing && require_effect(f.effect).card().learned;
-      });
-  if (!learned || unseen_error(other_base, other) >= kPlainlyLess * unseen_error(base, d)) return;
+  if (!any_missing(other, is_learned) ||
+      unseen_error(other_base, other) >= kPlainlyLess * unseen_error(base, d))
+    return;
   base = std::move(other_base);
   d = std::move(other);
 }
