@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 #include <utility>
 
 #include "diagnose/gates.h"
@@ -67,6 +67,46 @@ bool alike(const Course& a, const Course& b) {
          std::abs(a.slant - b.slant) < kSlant;
 }
 
+// How far the tool went in each direction (kDirections), in depth and sideways, and how fast: what
+// a law may set in with.
+constexpr std::size_t kDirections = 6;
+std::vector<double> extents_of(const Episode& e) {
+  std::vector<double> most(kDirections + 2, 0);
+  for (const Vec3& u : e.view.u) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      most[k] = std::max(most[k], u[static_cast<Eigen::Index>(k)]);
+      most[kDirections / 2 + k] =
+          std::max(most[kDirections / 2 + k], -u[static_cast<Eigen::Index>(k)]);
+    }
+    const double depth = -u.dot(e.view.normal);
+    most[kDirections] = std::max(most[kDirections], depth);
+    most[kDirections + 1] = std::max(most[kDirections + 1], (u + depth * e.view.normal).norm());
+  }
+  const Course c = course_of(e);
+  most.push_back(c.reached > 0 ? c.depth / c.reached : 0);
+  most.push_back(c.duration);
+  return most;
+}
+
+// Whether all of them went further, in one of these ways, than all others: then that may be why.
+// One press goes furthest in some direction by chance.
+bool went_further(const std::vector<bool>& odd, const Dataset& dataset) {
+  constexpr double kApart = 0.25;  // of the range, where only one did
+  std::vector<std::vector<double>> extents;
+  for (const Episode& e : dataset.episodes) extents.push_back(extents_of(e));
+  const bool one = std::count(odd.begin(), odd.end(), true) == 1;
+  for (std::size_t c = one ? kDirections : 0; c < extents.front().size(); ++c) {
+    double least = std::numeric_limits<double>::infinity(), most = 0, range = 0;
+    for (std::size_t k = 0; k < odd.size(); ++k) {
+      range = std::max(range, extents[k][c]);
+      if (odd[k]) least = std::min(least, extents[k][c]);
+      if (!odd[k]) most = std::max(most, extents[k][c]);
+    }
+    if (least > most + (one ? kApart : 1e-6) * range) return true;
+  }
+  return false;
+}
+
 // Whether neither its place nor its motion is why the press is odd.
 bool spoken_against(std::size_t press, const std::vector<bool>& odd, const Dataset& dataset) {
   const Course course = course_of(dataset.episodes[press]);
@@ -104,51 +144,51 @@ Rest rest_of(const Fit& fitted, const std::vector<bool>& odd, const TrialGround&
 
 // Presses set aside, and how all err beside the model of the others.
 struct Aside {
-  std::vector<bool> odd;
+  std::vector<bool> odd;  // empty: there are none to set aside
   Rest rest;
   Errors errors;
   bool noise_alone() const { return rest.left.noise_alone() && rest.left.error < kAlike; }
 };
 
-std::optional<Aside> without_them(const Fit& fitted, const std::vector<bool>& odd,
-                                  const TrialGround& g) {
-  Aside aside{odd, rest_of(fitted, odd, g), {}};
-  if (!aside.rest.fitted.converged) return std::nullopt;
+Aside without_them(const Fit& fitted, const std::vector<bool>& odd, const TrialGround& g) {
+  Aside aside;
+  aside.rest = rest_of(fitted, odd, g);
+  if (!aside.rest.fitted.converged) return {};
+  aside.odd = odd;
   aside.errors = errors_of(aside.rest.fitted, g);
   return aside;
 }
 
 // The worst, and those that err nearly as much, until the others leave noise alone.
-std::optional<Aside> set_aside(const Fit& fitted, const TrialGround& g) {
+Aside set_aside(const Fit& fitted, const TrialGround& g) {
   constexpr double kNearWorst = 0.8;
   constexpr int kMostRounds = 12;
   const std::size_t count = g.dataset.episodes.size();
-  Aside aside{std::vector<bool>(count, false), {}, errors_of(fitted, g)};
+  std::vector<bool> odd(count, false);
+  Errors errors = errors_of(fitted, g);
   for (int round = 0; round < kMostRounds; ++round) {
-    std::vector<bool> odd = aside.odd;
     double worst = OddPresses::kOdd / kNearWorst;
     for (std::size_t k = 0; k < count; ++k)
-      if (!odd[k]) worst = std::max(worst, aside.errors.off[k]);
-    for (std::size_t k = 0; k < count; ++k)
-      odd[k] = odd[k] || aside.errors.off[k] >= kNearWorst * worst;
+      if (!odd[k]) worst = std::max(worst, errors.off[k]);
+    const std::vector<bool> before = odd;
+    for (std::size_t k = 0; k < count; ++k) odd[k] = odd[k] || errors.off[k] >= kNearWorst * worst;
     const auto many = static_cast<std::size_t>(std::count(odd.begin(), odd.end(), true));
-    if (odd == aside.odd || 4 * many > count || count - many < kLeastPresses) return std::nullopt;
-    std::optional<Aside> next = without_them(fitted, odd, g);
-    if (!next) return std::nullopt;
-    if (next->noise_alone()) return next;
-    aside = std::move(*next);
+    if (odd == before || 4 * many > count || count - many < kLeastPresses) return {};
+    Aside aside = without_them(fitted, odd, g);
+    if (aside.odd.empty() || aside.noise_alone()) return aside;
+    errors = std::move(aside.errors);
   }
-  return std::nullopt;
+  return {};
 }
 
 // Those that are as the others' model says come back.
-std::optional<Aside> come_back(const Aside& aside, const Fit& fitted, const TrialGround& g) {
+Aside come_back(const Aside& aside, const Fit& fitted, const TrialGround& g) {
   std::vector<bool> odd = aside.odd;
   for (std::size_t k = 0; k < odd.size(); ++k)
     odd[k] = odd[k] && aside.errors.off[k] >= OddPresses::kOdd;
   if (odd == aside.odd) return aside;
-  std::optional<Aside> fewer = without_them(fitted, odd, g);
-  return fewer && fewer->noise_alone() ? fewer : std::nullopt;
+  Aside fewer = without_them(fitted, odd, g);
+  return fewer.noise_alone() ? fewer : Aside{};
 }
 
 }  // namespace
@@ -164,17 +204,16 @@ std::string OddPresses::words() const {
 }
 
 OddPresses find_odd_presses(const Fit& fitted, const TrialGround& g) {
-  std::optional<Aside> aside = set_aside(fitted, g);
-  if (aside) aside = come_back(*aside, fitted, g);
-  if (!aside) return {};
+  const Aside aside = come_back(set_aside(fitted, g), fitted, g);
+  if (aside.odd.empty() || went_further(aside.odd, g.dataset)) return {};
   OddPresses found;
-  found.beside = aside->rest.left.error;
-  for (std::size_t k = 0; k < aside->odd.size(); ++k) {
-    if (!aside->odd[k]) continue;
-    if (!spoken_against(k, aside->odd, g.dataset)) return {};
+  found.beside = aside.rest.left.error;
+  for (std::size_t k = 0; k < aside.odd.size(); ++k) {
+    if (!aside.odd[k]) continue;
+    if (!spoken_against(k, aside.odd, g.dataset)) return {};
     const Episode& e = g.dataset.episodes[k];
     found.ids.push_back(g.dataset.recording.press[static_cast<std::size_t>(e.rows.front())]);
-    found.off = std::max(found.off, aside->errors.over_noise[k]);
+    found.off = std::max(found.off, aside.errors.over_noise[k]);
   }
   return found;
 }

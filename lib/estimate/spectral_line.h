@@ -15,15 +15,16 @@ struct SpectralLine {
   Vec3 sine = Vec3::Zero(), cosine = Vec3::Zero();  // a, b
 };
 
+inline constexpr double kNyquist = 2;  // samples in a period
+
 // The line of `values` at times `t` [s] which stands out most of the power about it, in any of the
 // three components, if chance makes one as strong once in a thousand series (periodogram: Scargle
 // 1982; its level from medians of neighbours, so that broad power, as what a wrong law leaves of
-// each press, is none). A line has four periods in the series and `samples` in a period,
-// at least kNyquist; of
-// `parts` that the series consists of, few make any line broad, and then its neighbours count less.
-// Samples between which no time passes, or fewer than a hundred, have none. Memory and time of a
-// Fourier transform of the series with its gaps filled by zeros, of 2^18 points at most.
-inline constexpr double kNyquist = 2;
+// each press, is none). A line has four periods in the series and `samples` in a period, at least
+// kNyquist; of `parts` that the series consists of, few make any line broad, and then its
+// neighbours count less. Samples between which no time passes, or fewer than a hundred, have none.
+// Memory and time of a Fourier transform of the series with its gaps filled by zeros, of 2^18
+// points at most.
 SpectralLine find_line(const std::vector<double>& t, const std::vector<Vec3>& values,
                        std::size_t parts, double samples = 4);
 

@@ -184,6 +184,13 @@ double step_while_moving(const Recording& recording) {
   return std::sqrt(squares / static_cast<double>(axes));
 }
 
+// With the step of `step` where that is most of it.
+Noise told_by_steps(Noise noise, double step) {
+  constexpr double kMost = 0.5;
+  if (step / std::sqrt(12.0) > kMost * noise.value) noise.step = step;
+  return noise;
+}
+
 }  // namespace
 
 NoiseEstimate measure_force_noise(const Recording& recording) {
@@ -237,17 +244,19 @@ NoiseEstimate measure_force_noise(const Recording& recording) {
 }
 
 std::optional<Noise> declared_noise(const Recording& recording) {
-  constexpr double kCounts = 0.25, kMost = 0.5;
+  constexpr double kCounts = 0.25;
   const std::optional<double> declared = recording.force_noise();
   if (!declared) return {};
-  const auto how = recording.metadata.find("force_noise_from");
-  Noise noise{*declared, false, how ? "estimated from " + *how : "declared"};
+  if (const auto how = recording.metadata.find("force_noise_from"))
+    return told_by_steps({*declared, false, "estimated from " + *how},
+                         step_while_moving(recording));
+  Noise noise{*declared, false, "declared"};
   const double step = step_while_moving(recording), rounding = step / std::sqrt(12.0);
-  if (rounding <= kCounts * noise.value) return noise;
-  noise.value = std::hypot(noise.value, rounding);
-  noise.origin += fmt::format(", with the steps of {:.3g} N to which forces are rounded", step);
-  if (rounding > kMost * noise.value) noise.step = step;
-  return noise;
+  if (rounding > kCounts * noise.value) {
+    noise.value = std::hypot(noise.value, rounding);
+    noise.origin += fmt::format(", with the steps of {:.3g} N to which forces are rounded", step);
+  }
+  return told_by_steps(noise, step);
 }
 
 void forget_force_noise(Metadata& metadata) {
@@ -257,7 +266,9 @@ void forget_force_noise(Metadata& metadata) {
 Noise force_noise(const Recording& recording) {
   if (const auto declared = declared_noise(recording)) return *declared;
   const double measured = measure_force_noise(recording).sigma;
-  return {measured > 0 ? measured : kLeast * peak_of(recording), true, "measured from the data"};
+  return told_by_steps(
+      {measured > 0 ? measured : kLeast * peak_of(recording), true, "measured from the data"},
+      step_while_moving(recording));
 }
 
 }  // namespace hapsim

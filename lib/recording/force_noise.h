@@ -43,9 +43,11 @@ struct Noise {
 };
 
 // The metadata force_noise, and the error of rounding, step / sqrt 12, beside it where that is more
-// than a quarter of it: a converter's steps are of no size that a datasheet's noise tells. They are
-// told from the slopes of smooth data by forces that stay while the tool moves. Origin: "declared",
-// or "estimated from ..." by the metadata force_noise_from, which hs-import writes.
+// than a quarter of it: a datasheet's noise knows nothing of a converter's steps. They are told
+// from the slopes of smooth data by forces that stay while the tool moves. Origin: "declared"; or,
+// of what hs-import has measured with the rounding in it (metadata force_noise_from), "estimated
+// from
+// ...".
 std::optional<Noise> declared_noise(const Recording& recording);
 
 // Both are of forces that are no longer there.

@@ -242,6 +242,10 @@ TEST(ForceNoise, StepsCountBesideWhatIsDeclared) {
     EXPECT_NEAR(noise.value / truth, 1, 0.01) << step;
     EXPECT_NEAR(noise.step, step > 0.03 && coarse ? step : 0, 1e-3 * step) << step;
     EXPECT_EQ(noise.origin.find("steps of") != std::string::npos, coarse) << noise.origin;
+    r.metadata.set("force_noise_from", "second differences");  // with the rounding in it
+    EXPECT_EQ(force_noise(r).value, 0.01);
+    forget_force_noise(r.metadata);
+    EXPECT_NEAR(force_noise(r).step, step > 0.03 && coarse ? step : 0, 1e-3 * step) << step;
   }
 }
 
