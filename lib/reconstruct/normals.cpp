@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -68,9 +69,18 @@ int choose_neighbours(const PointCloud& cloud, const PointIndex& index) {
   return best;
 }
 
+// Points that are turned, and of the others the least step to them so far (weight, point it comes
+// from): a larger one never comes to be theirs.
+struct Turned {
+  std::vector<char> done;
+  std::vector<std::pair<double, int>> least;
+  explicit Turned(std::size_t n)
+      : done(n, 0), least(n, {std::numeric_limits<double>::infinity(), 0}) {}
+};
+
 // Turns the piece that holds `seed` alike (Prim); returns its points.
 std::vector<int> spread_orientation(PointCloud& cloud, const Graph& graph, int seed,
-                                    std::vector<char>& done) {
+                                    Turned& turned) {
   std::vector<int> piece;
   // Weight, point, point it comes from: ties fall to the lowest number, so the result is definite.
   using Step = std::tuple<double, int, int>;
@@ -79,13 +89,16 @@ std::vector<int> spread_orientation(PointCloud& cloud, const Graph& graph, int s
   while (!open.empty()) {
     const auto [weight, i, from] = open.top();
     open.pop();
-    if (done[i]) continue;
-    done[i] = 1;
+    if (turned.done[i]) continue;
+    turned.done[i] = 1;
     piece.push_back(i);
     if (cloud.normals[i].dot(cloud.normals[from]) < 0) cloud.normals[i] = -cloud.normals[i];
     for (const int j : graph.of(i)) {
-      if (done[j]) continue;
-      open.emplace(1 - std::abs(cloud.normals[i].dot(cloud.normals[j])), j, i);
+      if (turned.done[j]) continue;
+      const std::pair<double, int> step{1 - std::abs(cloud.normals[i].dot(cloud.normals[j])), i};
+      if (step >= turned.least[j]) continue;
+      turned.least[j] = step;
+      open.emplace(step.first, j, i);
     }
   }
   return piece;
@@ -101,12 +114,12 @@ void orient_by(const Graph& graph, PointCloud& cloud, const Vec3& up, NormalsRep
   for (const Vec3& p : cloud.points) size += (p - centre).norm();
   size /= n;
 
-  std::vector<char> done(n, 0);
+  Turned turned(cloud.points.size());
   report.pieces = 0;
   for (int seed = 0; seed < n; ++seed) {
-    if (done[seed]) continue;
+    if (turned.done[seed]) continue;
     ++report.pieces;
-    const std::vector<int> piece = spread_orientation(cloud, graph, seed, done);
+    const std::vector<int> piece = spread_orientation(cloud, graph, seed, turned);
     // Seen all round, the normals' part along `up` cancels; of a patch, it decides.
     double outward = 0;
     for (const int i : piece) {
