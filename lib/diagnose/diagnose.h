@@ -28,7 +28,8 @@ struct DiagnoseOptions {
   int flips = 999;
   std::uint64_t seed = 1;
   const Markers* markers = nullptr;  // of the experiment; null: none
-  std::string unknown;               // an effect that is taken for one of no catalogue: for trials
+  std::string unknown;  // an effect that is taken for one of no catalogue: for trials, and inside
+                        // a search for what there is without it
   // What is being done, and which of how many effects that is (from 1; 0: none of a count). It may
   // throw, which ends the diagnosis.
   std::function<void(const std::string&, std::size_t, std::size_t)> progress;

@@ -275,11 +275,12 @@ void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Bas
                             const TrialGround& g, const Folds& folds,
                             const DiagnoseOptions& options, Diagnosis& d) {
   constexpr double kAsLittle = 1.1;
+  const auto offsets = std::find_if(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return f.verdict == Verdict::kMissing && require_effect(f.effect).card().per_press;
+  });
+  if (offsets == d.findings.end() || !options.unknown.empty()) return;
   DiagnoseOptions without = options;
-  for (const Finding& f : d.findings)
-    if (f.verdict == Verdict::kMissing && require_effect(f.effect).card().per_press)
-      without.unknown = f.effect;
-  if (without.unknown == options.unknown || !options.unknown.empty()) return;
+  without.unknown = offsets->effect;
   Baseline other_base = first;
   Diagnosis other = nothing;
   search_from(Kind::kNamed, Rivals::kGoOn, other_base, g, folds, without, other);
@@ -287,6 +288,10 @@ void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Bas
   if (!left_over(other_base.fitted, g).noise_alone() &&
       unseen_error(other_base, other) > kAsLittle * unseen_error(base, d))
     return;
+  other.findings.push_back(*offsets);
+  other.findings.back().verdict = Verdict::kPossible;
+  other.findings.back().evidence += "; what is named does as well without a value of each press";
+  put_in_order(other.findings);
   base = std::move(other_base);
   d = std::move(other);
 }

@@ -64,6 +64,7 @@ class Qlv : public Effect {
                         0, 0.5, -0.9, 4, 0.3, false}},
         .needs_time = true,
         .among_presses = true,
+        .form_error = 0.1,
         .screened = true,
         .signature =
             "the share that relaxes differs between shallow and deep presses, or along one",

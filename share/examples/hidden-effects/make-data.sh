@@ -15,8 +15,7 @@ hs-tetmesh "$work/surface.stl" -o "$work/body.ply"
 for name in a b c d e; do
   hs-simulate "$work/motion.csv" --body "$work/body.ply" --model "truth/$name.csv" --rim-edge 0.08 \
     --add-noise 0.010 --seed 7 |
-    # In e the cables pick up a hum: no effect that hapsim knows. Four digits after the point are a
-    # hundredth of the noise.
+    # In e the cables pick up a hum. Four digits after the point are a hundredth of the noise.
     awk -F, -v OFS=, -v hum=$([[ $name == e ]] && echo 0.05 || echo 0) '
       /^#/ { if ($0 !~ /^# simulated/) print; next }
       !header { header = 1; for (i = 1; i <= NF; ++i) at[$i] = i; print; next }
