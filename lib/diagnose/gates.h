@@ -120,7 +120,10 @@ inline std::vector<std::string> gates_in_words() {
           1 / kStrained, 100 * kOneSize),
       "A few presses (at most every fourth) are told by their numbers where all that is left is "
       "theirs: the model fitted without them leaves noise alone, others at their places are as it "
-      "says, and so are others elsewhere of like depth, slant and times. Forces that are rounded "
+      "says, and so are others elsewhere of like depth, slant and times, and they are not those "
+      "that went furthest or fastest. A value a press (tare) is possible only where a set without "
+      "it leaves noise alone or errs as little on what is unseen, within a tenth. Forces that are "
+      "rounded "
       "to coarse steps count as so much noisier.",
       "Where no effect that has a name passes (or none more) and what is left is more than noise, "
       "curves that have no law are tried and judged in the same way: over the depth "

@@ -269,8 +269,8 @@ bool any_missing(const Diagnosis& d, bool (*kind)(const EffectCard&)) {
 }
 
 // A value of each press follows whatever differs from press to press and foretells no other one.
-// Where a set without it leaves noise alone, or errs as little on what is unseen (there each press
-// is given its value), that is what the data say.
+// Where a set without it leaves noise alone, or errs as little on what is unseen, within a tenth
+// (there each press is given its value), that is what the data say.
 void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Baseline& base,
                             const TrialGround& g, const Folds& folds,
                             const DiagnoseOptions& options, Diagnosis& d) {
@@ -290,7 +290,9 @@ void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Bas
     return;
   other.findings.push_back(*offsets);
   other.findings.back().verdict = Verdict::kPossible;
-  other.findings.back().evidence += "; what is named does as well without a value of each press";
+  other.findings.back().evidence +=
+      "; what is named errs as little on what is unseen, within a tenth, without a value of each "
+      "press";
   put_in_order(other.findings);
   base = std::move(other_base);
   d = std::move(other);

@@ -15,7 +15,8 @@ class SensorHum : public Effect {
         .stage = Stage::kSensor,
         .title = "the force sensor hums at one frequency",
         .equation =
-            "f = f_true + s sin(2 pi f s) + c cos(2 pi f s) by axis, s the time of the session",
+            "F -> F + (sx, sy, sz) sin(2 pi f t) + (cx, cy, cz) cos(2 pi f t), t the time of the "
+            "session",
         .source =
             "pick-up of mains, a motor or a fan, to its first harmonic; sampled more slowly than "
             "twice its frequency it shows at another (Shannon, Proc. IRE 37, 1949)",
