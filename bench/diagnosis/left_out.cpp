@@ -52,6 +52,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"sensor-gain", set_up},
       {"sensor-crosstalk", set_up},
       {"motion-scale", set_up},
+      {"motion-rotation", set_up},
       {"arm-compliance", set_up},
       {"tool-radius", {"set-up", "body", "learned-place"}},
       {"regions", body},

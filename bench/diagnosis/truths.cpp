@@ -185,6 +185,9 @@ std::vector<Truth> own_forms() {
   t.push_back(own_form("motion-scale", "motion-scale", 3, [](double s) {
     return std::vector<double>{1, 1 + s};
   }));
+  t.push_back(own_form("motion-rotation", "motion-rotation", 0.7, [](double s) {
+    return std::vector<double>{s, -0.6 * s, 0.3 * s};
+  }));
   t.push_back(own_form("arm-compliance", "arm-compliance", 0.01, [](double s) {
     return std::vector<double>{s, s, 0.5 * s};
   }));

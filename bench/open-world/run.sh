@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # run.sh BIN OUT [CAUSE...]: causes in the set-up, which bodies know nothing of, given one at a time to recordings that
 # CalculiX computed of a block and a ball (bench/independent), diagnosed as a user would; a table at the end. OUT may be
-# that of bench/independent/run.sh; with HAPSIM_SHARED the block's recording is the one that lies there. What is there
-# is not made again: delete OUT/worlds/diagnosed to diagnose anew. Causes that no effect of the catalogue covers
+# that of bench/independent/run.sh. What is there is not made again: delete OUT/worlds/diagnosed to diagnose anew. Causes that no effect of the catalogue covers
 # (strangers.py, newcomers.py) come in three sizes over the noise (NAME-2, -4, -8). BODIES=cuboid: that body alone; THIN=1: fewer places and
 # samples, in a third of the time. Recorded in bench/results/open-world.txt.
 set -euo pipefail
@@ -14,20 +13,18 @@ for program in ccx gmsh /usr/bin/python3; do
 done
 python=/usr/bin/python3 worlds=$out/worlds
 "$python" -c 'import numpy' || { echo "open-world: skipped, python3-numpy is missing" >&2; exit 0; }
+export PYTHONPATH=$here/../independent
 mkdir -p "$worlds/diagnosed"
 for body in ${BODIES:-cuboid ball}; do
-  null=${HAPSIM_SHARED:-}/independent/null.csv
-  if [[ $body == ball || ! -e $null ]]; then
-    "$python" "$here/../independent/stiffnesses.py" "$out" "$body" 4 plain >&2
-    null=$out/data/null-$body.csv
-  fi
-  "$python" "$here/../independent/make.py" "$out" "${null:+null-$body}" 2>/dev/null
+  "$python" "$here/../independent/stiffnesses.py" "$out" "$body" 4 plain >&2
+  "$python" "$here/../independent/make.py" "$out" "null-$body" 2>/dev/null
+  null=$out/data/null-$body.csv
   [[ -e $out/$body-stl.ply ]] || "$bin/hs-tetmesh" -q "$out/$body.stl" -o "$out/$body-stl.ply"
   if [[ -n ${THIN:-} ]]; then
     "$python" "$here/thin.py" "$null" >"$out/thin-$body.csv"
     null=$out/thin-$body.csv
   fi
-  "$python" "$here/worlds.py" "$null" "$worlds" "$body" "$@"
+  "$python" "$here/worlds.py" "$null" "$out" "$worlds" "$body" "$@"
   for data in "$worlds/data/$body"-*.csv; do
     world=$(basename "$data" .csv) results=$worlds/diagnosed
     [[ $# -eq 0 || " $* " == *" ${world#"$body"-} "* ]] || continue

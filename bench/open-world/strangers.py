@@ -370,7 +370,7 @@ PLAIN = [
     ("swapped", swapped, "place", ["learned-place"], {}),
     ("unit-slip", some((5, 12, 20), tenfold), "event order", [], {}),
     ("slid-off", some((16,), slid_off), "event", [], {}),
-    ("tilted", tilted(10), "set-up", ["sensor-rotation", "sensor-crosstalk"], {}),
+    ("tilted", tilted(10), "set-up", ["motion-rotation", "sensor-rotation", "sensor-crosstalk"], {}),
     ("lump-between", times(lump_between), "place", ["regions", "inclusion", "learned-place"], {}),
     ("by-place", times(by_place), "place", ["learned-place", "regions"], {}),
     ("tenses", times(tenses), "history depth", ["learned-kernel"], {}),

@@ -1,9 +1,9 @@
-"""worlds.py NULL OUT BODY [CAUSE...]: recordings with a cause that is in the set-up, made from NULL, a recording of a
-linear body that hides nothing, as OUT/data/BODY-CAUSE.csv; OUT/truth.csv says what is hidden.
+"""worlds.py NULL SOLVED OUT BODY [CAUSE...]: recordings with a cause that is in the set-up, made from NULL, a recording
+of a linear body that hides nothing, as OUT/data/BODY-CAUSE.csv; OUT/truth.csv says what is hidden.
 
-The contact stiffness of each place is that which NULL itself has (least squares of its forces over its motion, whose
-error is some 0.1 %), so no model of hapsim's is in these data. The cause acts on what was moved or measured, then
-noise of the size that NULL declares is added."""
+The contact stiffness of each place is CalculiX's (SOLVED, the folder of bench/independent/stiffnesses.py), so no model of
+hapsim's is in these data. The cause acts on what was moved or measured, then noise of the size that NULL declares is
+added."""
 import csv
 import pathlib
 import sys
@@ -11,17 +11,19 @@ import zlib
 
 import numpy as np
 
+import bodies
 import causes
 import newcomers
+import stiffnesses
 import strangers
 
 EVERY = causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer()
 
 
 class Null:
-    """head: comment lines; press (n); t (n) [s] in the session; x, u, f (n, 3); K (n, 3, 3) [N/m], of other motions; noise [N]."""
+    """head: comment lines; press (n); t (n) [s] in the session; x, u, f (n, 3); K (n, 3, 3) [N/m]: the forces are K u; noise [N]."""
 
-    def __init__(self, path):
+    def __init__(self, path, solved, body):
         lines = pathlib.Path(path).read_text().splitlines()
         self.head = [line for line in lines if line.startswith("#")]
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
@@ -31,17 +33,18 @@ class Null:
 
         self.press = columns("press")[:, 0].astype(int)
         self.t = columns("t")[:, 0]
-        self.x, self.u, f = columns("x", "y", "z"), columns("ux", "uy", "uz"), columns("fx", "fy", "fz")
+        self.x, self.u = columns("x", "y", "z"), columns("ux", "uy", "uz")
         self.noise = next(float(h.split(":")[1]) for h in self.head if h.startswith("# force_noise:"))
-        self.f, self.K = np.zeros_like(f), np.zeros((len(f), 3, 3))
-        for place in np.unique(self.x, axis=0):
-            here = (self.x == place).all(axis=1)
-            self.f[here] = self.u[here] @ np.linalg.lstsq(self.u[here], f[here], rcond=1e-6)[0]
-            # Where nothing but rounding moves the tool, forces do not tell what it would do.
-            self.K[here] = np.linalg.lstsq(self.u[here], f[here], rcond=1e-3)[0].T
+        points = np.array([1e-3 * np.asarray(point) for point, _ in bodies.places(body)])
+        K = stiffnesses.load(solved, body, 4.0, "plain")
+        place = np.linalg.norm(self.x[:, None] - points, axis=2)
+        if place.min(axis=1).max() > 1e-6:
+            raise SystemExit("%s: a place that %s has no stiffness of" % (path, solved))
+        self.K = -K[place.argmin(axis=1)]
+        self.f = self.forces(self.u)
 
     def forces(self, u):
-        """Of the body when it is moved by u, along directions in which the place was pressed."""
+        """Of the body when it is moved by u."""
         return np.einsum("nij,nj->ni", self.K, u)
 
 
@@ -57,7 +60,8 @@ def write(null, body, cause, out):
 
 
 if __name__ == "__main__":
-    null, out, body, wanted = Null(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4:]
+    recording, solved, out, body, *wanted = sys.argv[1:]
+    null, out = Null(recording, solved, body), pathlib.Path(out)
     for cause in EVERY:
         if wanted and cause.name not in wanted:
             continue

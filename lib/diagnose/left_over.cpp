@@ -10,9 +10,10 @@
 #include "compare/structure.h"
 #include "diagnose/foreseen.h"
 #include "diagnose/gates.h"
+#include "diagnose/left_line.h"
 #include "diagnose/measure.h"
+#include "diagnose/shared_law.h"
 #include "estimate/probability.h"
-#include "estimate/spectral_line.h"
 
 namespace hapsim {
 namespace {
@@ -177,20 +178,6 @@ Observation first_observation(const Eigen::VectorXd& f, const Eigen::VectorXd& b
   return found.empty() ? Observation{} : found.front();
 }
 
-// [Hz] of a line that stands out of the session; 0: none.
-double frequency_in(const Eigen::VectorXd& residual, const TrialGround& g) {
-  std::vector<double> t;
-  std::vector<Vec3> values;
-  Eigen::Index at = 0;
-  for (const Episode& e : g.dataset.episodes)
-    for (std::size_t i = 0; i < e.rows.size(); ++i, at += 3) {
-      if (e.view.session.empty()) continue;
-      t.push_back(e.view.session[i]);
-      values.emplace_back(residual.segment<3>(at));
-    }
-  return find_line(t, values, g.dataset.episodes.size(), kNyquist).frequency;
-}
-
 std::string words_of(const LeftOver& left) {
   const std::string much = fmt::format("{:.2g} x the noise is left", left.error);
   const std::string strain =
@@ -213,6 +200,13 @@ std::string words_of(const LeftOver& left) {
         "{}; the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
         "position confirms: press around it, a few millimetres apart",
         much, 1e3 * left.where.x(), 1e3 * left.where.y(), 1e3 * left.where.z());
+  if (left.kind == kDirection)
+    return fmt::format(
+        "{}, and it goes with the direction and the size of the force, alike at all positions: "
+        "look "
+        "at what gives way or holds in some directions only (friction, a support that slides), and "
+        "at the axes of the sensor and of the motion, before the body",
+        much);
   if (left.kind == kBody)
     return fmt::format(
         "{}, and it is a stiffness that differs by place ({}): look at the body, its shape and its "
@@ -254,19 +248,22 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
       left.strained &&
       left.error * left.error - left.beside_gains * left.beside_gains > 0.5 * all_of_it;
   if (!by_gains) left.kind = "left";
+  if (left.kind == kBody && is_one_law(residual, f, g)) left.kind = kDirection;
   std::string also;
   if (left.structured && left.beside_gains > kLikeNoise) {
     const Observation seen = first_observation(f, by_gains ? p.beside : residual, g);
     if (!by_gains && !seen.kind.empty()) left.kind = seen.kind;
     if (!seen.sentence.empty()) also = ". " + seen.sentence;
-    const double frequency = by_gains || left.kind != "left" ? 0 : frequency_in(residual, g);
-    if (frequency > 0) {
+    const LineLeft line =
+        by_gains || left.kind != "left" ? LineLeft{} : find_line_left(residual, g.dataset);
+    if (line.frequency > 0) {
       left.kind = kFrequency;
+      const std::string when =
+          line.always ? "" : fmt::format(", from {:.0f} to {:.0f} s", line.from, line.until);
       also += fmt::format(
-          "{} Most of it is at {:.3g} Hz: look at what turns, breathes or hums at that rate, or so "
-          "far "
-          "from a multiple of the recording's own",
-          also.empty() ? "." : "", frequency);
+          "{} Most of it is at {:.3g} Hz{}: look at what turns, breathes or hums at that rate, or "
+          "so far from a multiple of the recording's own",
+          also.empty() ? "." : "", line.frequency, when);
     }
   }
   left.words = words_of(left) + also;

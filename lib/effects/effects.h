@@ -9,7 +9,7 @@ namespace hapsim {
 // In the order in which a force passes through them: motion, body, support, contact, sensor.
 // clang-format off
 #define HAPSIM_EFFECTS(X) \
-  X(motion_scale) X(backlash) X(touch) X(breathing) X(plastic) \
+  X(motion_scale) X(motion_rotation) X(backlash) X(touch) X(breathing) X(plastic) \
   X(elastic) X(regions) X(layer) X(inclusion) X(anisotropic) X(pre_stress) X(hyperelastic) \
   X(temperature) X(softening) X(viscoelastic) X(fractional) X(poroelastic) X(qlv) X(damper) \
   X(base) X(shift) \

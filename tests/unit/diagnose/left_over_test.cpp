@@ -76,6 +76,17 @@ TEST(LeftOver, OnePositionAloneIsToldWithItsPlace) {
   EXPECT_NE(left.words.find("(60.0, 30.0, 40.0) mm"), std::string::npos) << left.words;
 }
 
+// A support that slides sideways from 0.1 N on takes as much at all positions.
+TEST(LeftOver, WhatOneLawOfTheForceTakesIsNoMatterOfPlace) {
+  const LeftOver left = left_of(0.01, [](int, const Vec3& f) {
+    const double side = std::hypot(f.x(), f.y()), kept = std::min(side, 0.1 + 0.2 * (side - 0.1));
+    const double share = side > 0.1 ? kept / side : 1;
+    return Vec3(share * f.x(), share * f.y(), f.z());
+  });
+  EXPECT_TRUE(left.strained);
+  EXPECT_EQ(left.kind, "direction") << left.words;
+}
+
 // A hum: the allowance does not hold it, and hs-compare finds nothing that it goes with.
 TEST(LeftOver, AHumIsToldByItsFrequency) {
   int sample = 0;
@@ -87,6 +98,18 @@ TEST(LeftOver, AHumIsToldByItsFrequency) {
   EXPECT_EQ(left.kind, "frequency") << left.words;
   EXPECT_NE(left.words.find(" Hz: "), std::string::npos) << left.words;
   EXPECT_NE(left.words.find("is no noise"), std::string::npos) << left.words;
+}
+
+// In four of eighteen presses, one after the other.
+TEST(LeftOver, AHumOfAWhileIsToldWithItsTime) {
+  int sample = 0;
+  const LeftOver left = left_of(0.01, [&](int, const Vec3& f) {
+    const int press = sample++ / 41;
+    const double on = press >= 8 && press < 12 ? 0.1 : 0;
+    return Vec3(f + on * std::sin(0.8 * sample) * Vec3::Ones());
+  });
+  EXPECT_EQ(left.kind, "frequency") << left.words;
+  EXPECT_NE(left.words.find(" s: look"), std::string::npos) << left.words;
 }
 
 // Of neighbours that err otherwise, and at no frequency: a sensor that shows every reading twice,

@@ -271,6 +271,12 @@ TEST(ToolRadius, ScalesTheForceOnAHalfSpace) {
   }
 }
 
+TEST(MotionRotation, AQuarterTurnExchangesAxes) {
+  const auto f = forces_after(motion_rotation_effect(), test::press_along({{0, 2e-3, -1e-3}}),
+                              {{0, "rx", 0}, {0, "ry", M_PI / 2}, {0, "rz", 0}});
+  EXPECT_NEAR((f[0] - Vec3(0.2, -0.4, 0)).norm(), 0, 1e-12);  // -z becomes -x
+}
+
 TEST(MotionScale, StretchesTwoAxes) {
   const auto f = forces_after(motion_scale_effect(), test::press_along({{1e-3, 2e-3, -3e-3}}),
                               {{0, "sx", 1.5}, {0, "sy", 0.5}});

@@ -1,0 +1,86 @@
+#include "diagnose/shared_law.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hapsim {
+namespace {
+
+constexpr Eigen::Index kOfAxes = 21, kPieces = 4, kNumbers = kOfAxes + 2 * kPieces;
+
+// What columns take of a residual: squares [N^2], by how many numbers.
+struct Taken {
+  double squares = 0;
+  Eigen::Index numbers = 0;
+  double beyond(double noise) const {
+    return squares - static_cast<double>(numbers) * noise * noise;
+  }
+};
+
+Taken taken(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual) {
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  const Eigen::VectorXd r = qr.householderQ().transpose() * residual;
+  return {r.head(qr.rank()).squaredNorm(), qr.rank()};
+}
+
+// v where it is longer than `from`, less that.
+Vec3 beyond(const Vec3& v, double from) {
+  const double size = v.norm();
+  return size > from ? Vec3((1 - from / size) * v) : Vec3::Zero();
+}
+
+Eigen::MatrixXd law_columns(const Eigen::VectorXd& forces, const Dataset& dataset) {
+  std::vector<Vec3> along, across;
+  double most_along = 0, most_across = 0;
+  Eigen::Index at = 0;
+  for (const int e : all_episodes(dataset)) {
+    const Episode& episode = dataset.episodes[static_cast<std::size_t>(e)];
+    for (std::size_t i = 0; i < episode.rows.size(); ++i, at += 3) {
+      const Vec3 f = forces.segment<3>(at);
+      along.emplace_back(f.dot(episode.view.normal) * episode.view.normal);
+      across.emplace_back(f - along.back());
+      most_along = std::max(most_along, along.back().norm());
+      most_across = std::max(most_across, across.back().norm());
+    }
+  }
+  Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(forces.size(), kNumbers);
+  for (at = 0; at < forces.size(); at += 3) {
+    const auto sample = static_cast<std::size_t>(at / 3);
+    Eigen::Index column = 0;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      for (Eigen::Index by = 0; by < 3; ++by) {
+        const double f = forces[at + by];
+        columns(at + axis, column++) = f;
+        columns(at + axis, column++) = f * std::abs(f);
+        if (axis == by) columns(at + axis, column++) = std::abs(f);
+      }
+    for (Eigen::Index piece = 0; piece < kPieces; ++piece) {
+      const double from = static_cast<double>(piece) / static_cast<double>(kPieces);
+      columns.block<3, 1>(at, kOfAxes + 2 * piece) = beyond(along[sample], from * most_along);
+      columns.block<3, 1>(at, kOfAxes + 2 * piece + 1) = beyond(across[sample], from * most_across);
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+bool is_one_law(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                const TrialGround& g) {
+  constexpr double kMost = 0.9, kAsMuch = 0.98;
+  const double noise = g.allowance.noise;
+  const Taken all{residual.squaredNorm(), residual.size()};
+  const Taken by_law = taken(law_columns(forces, g.dataset), residual);
+  Taken by_place;
+  for (const GainBlock& place : gain_directions(g.dataset, all_episodes(g.dataset), forces)) {
+    const Taken here = taken(place.Z, residual(place.rows));
+    by_place.squares += here.squares;
+    by_place.numbers += here.numbers;
+  }
+  return by_law.numbers < by_place.numbers && by_law.beyond(noise) > kMost * all.beyond(noise) &&
+         by_law.beyond(noise) > kAsMuch * by_place.beyond(noise);
+}
+
+}  // namespace hapsim
