@@ -16,7 +16,7 @@ constexpr double kAtFloor = 1.1;  // errors over the floor below which nothing i
 
 // What may be said of each effect (LeftOver::kind), fixed before anything was diagnosed.
 const std::map<std::string, std::vector<std::string>>& kinds() {
-  static const std::vector<std::string> set_up{"set-up", "direction"},
+  static const std::vector<std::string> set_up{"set-up", "direction", "learned-axes"},
       body{"body", "place", "position", "learned-place"}, zero{"offset", "drift", "learned-drift"},
       depth{"depth", "learned-depth"}, time{"contact-time", "rate", "learned-kernel"},
       session{"session-time", "drift", "cycle", "learned-drift", "learned-gain"};
@@ -36,7 +36,7 @@ const std::map<std::string, std::vector<std::string>>& kinds() {
       {"deadband", depth},
       {"backlash", depth},
       {"adhesion", depth},
-      {"friction", {"direction"}},
+      {"friction", {"direction", "learned-axes"}},
       {"temperature", {"temperature"}},
       {"softening", session},
       {"plastic", {"depth", "learned-depth", "session-time", "cycle", "offset"}},

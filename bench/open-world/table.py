@@ -20,7 +20,7 @@ SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time
         "phase": "history", "cycle": "order", "rate": "speed", "position": "place", "body": "place", "place": "place",
         "press-direction": "direction", "direction": "direction axes", "learned-depth": "depth",
         "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",
-        "learned-place": "place", "press": "session order"}
+        "learned-place": "place", "learned-axes": "direction axes", "press": "session order"}
 
 
 def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0):

@@ -112,6 +112,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   if (!few_presses) {
     doubt_other_sizes(base, g, folds, d);
     doubt_beside_curves(base, g, folds, d);
+    curves_for_doubted(base, g, folds, options, d);
   }
   const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);

@@ -310,6 +310,26 @@ void put_in_order(std::vector<Finding>& findings) {
   });
 }
 
+void curves_for_doubted(Baseline& base, const TrialGround& g, const Folds& folds,
+                        const DiagnoseOptions& options, Diagnosis& d) {
+  const bool doubted = std::any_of(d.findings.begin(), d.findings.end(),
+                                   [](const Finding& f) { return f.doubted && f.curve.empty(); });
+  if (!doubted || !d.rivals.empty() || any_missing(d, is_learned) ||
+      left_over(base.fitted, g).noise_alone())
+    return;
+  Baseline learned_base = base;
+  Diagnosis learned;
+  search_from(Kind::kLearned, Rivals::kEnd, learned_base, g, folds, options, learned);
+  if (!learned.rivals.empty() || !any_missing(learned, is_learned)) return;
+  for (const Finding& found : learned.findings) {
+    if (found.verdict != Verdict::kMissing) continue;
+    std::erase_if(d.findings, [&](const Finding& f) { return f.effect == found.effect; });
+    d.findings.push_back(found);
+  }
+  put_in_order(d.findings);
+  base = std::move(learned_base);
+}
+
 void search(Baseline& base, const TrialGround& g, const Folds& folds,
             const DiagnoseOptions& options, Diagnosis& d) {
   Baseline other_base = base;

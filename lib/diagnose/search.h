@@ -19,4 +19,9 @@ void put_in_order(std::vector<Finding>& findings);
 void search(Baseline& base, const TrialGround& ground, const Folds& folds,
             const DiagnoseOptions& options, Diagnosis& d);
 
+// Where a name that was found is not stood by and more than noise is left without it, the curves of
+// no law that pass the gates are found in its place.
+void curves_for_doubted(Baseline& base, const TrialGround& ground, const Folds& folds,
+                        const DiagnoseOptions& options, Diagnosis& d);
+
 }  // namespace hapsim

@@ -8,7 +8,8 @@
 namespace hapsim {
 namespace {
 
-constexpr Eigen::Index kOfAxes = 21, kPieces = 4, kNumbers = kOfAxes + 2 * kPieces;
+constexpr double kBent = 0.25;  // of the largest force, where an axis' own curve has its bends
+constexpr Eigen::Index kOfAxes = 24, kPieces = 3, kNumbers = kOfAxes + 2 * kPieces;
 
 // What columns take of a residual: squares [N^2], by how many numbers.
 struct Taken {
@@ -45,17 +46,24 @@ Eigen::MatrixXd law_columns(const Eigen::VectorXd& forces, const Dataset& datase
       most_across = std::max(most_across, across.back().norm());
     }
   }
+  const Vec3 most_by_axis =
+      forces.reshaped(3, forces.size() / 3).rowwise().lpNorm<Eigen::Infinity>();
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(forces.size(), kNumbers);
   for (at = 0; at < forces.size(); at += 3) {
     const auto sample = static_cast<std::size_t>(at / 3);
     Eigen::Index column = 0;
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double own = forces[at + axis], bent = kBent * most_by_axis[axis];
+      for (const double law :
+           {own, std::abs(own), std::max(0.0, own - bent), std::min(0.0, own + bent)})
+        columns(at + axis, column++) = law;
       for (Eigen::Index by = 0; by < 3; ++by) {
+        if (by == axis) continue;
         const double f = forces[at + by];
         columns(at + axis, column++) = f;
         columns(at + axis, column++) = f * std::abs(f);
-        if (axis == by) columns(at + axis, column++) = std::abs(f);
       }
+    }
     for (Eigen::Index piece = 0; piece < kPieces; ++piece) {
       const double from = static_cast<double>(piece) / static_cast<double>(kPieces);
       columns.block<3, 1>(at, kOfAxes + 2 * piece) = beyond(along[sample], from * most_along);
@@ -69,7 +77,7 @@ Eigen::MatrixXd law_columns(const Eigen::VectorXd& forces, const Dataset& datase
 
 bool is_one_law(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                 const TrialGround& g) {
-  constexpr double kMost = 0.9, kAsMuch = 0.98;
+  constexpr double kMost = 0.9, kAsMuch = 0.96;
   const double noise = g.allowance.noise;
   const Taken all{residual.squaredNorm(), residual.size()};
   const Taken by_law = taken(law_columns(forces, g.dataset), residual);

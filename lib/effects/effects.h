@@ -15,8 +15,8 @@ namespace hapsim {
   X(base) X(shift) \
   X(tool_radius) X(tip) X(slack) X(friction) X(adhesion) X(learned_place) X(learned_depth) \
   X(learned_kernel) X(arm_compliance) X(drag) X(tool_inertia) X(sensor_rotation) \
-  X(sensor_crosstalk) X(sensor_gain) X(learned_gain) X(sensor_curve) X(sensor_hysteresis) \
-  X(sensor_lag) X(filter) X(sensor_bias) X(sensor_drift) X(sensor_settling) X(sensor_hum) \
+  X(sensor_crosstalk) X(sensor_gain) X(learned_axes) X(learned_gain) X(sensor_curve) \
+  X(sensor_hysteresis) X(sensor_lag) X(filter) X(sensor_bias) X(sensor_drift) X(sensor_settling) X(sensor_hum) \
   X(learned_drift) X(deadband) X(clock) X(clipping) X(tare)
 // clang-format on
 

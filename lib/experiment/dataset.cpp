@@ -156,6 +156,7 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   if (dataset.tools() == 1 && dataset.recording.has_ball())
     summary.ball_radius = dataset.recording.tool_radius();
   summary.peak_force = 1e-12;
+  summary.largest.setConstant(1e-12);
   const auto ceilings = find_ceilings(dataset.recording.f);
   for (std::size_t k = 0; k < 3; ++k)
     if (ceilings[k].reached()) summary.ceiling[static_cast<Eigen::Index>(k)] = ceilings[k].force;
@@ -168,8 +169,11 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   double deepest = 0;
   for (const Episode& e : dataset.episodes) {
     for (std::size_t i = 0; i < e.rows.size(); ++i) {
-      if (!dataset.recording.f.empty())
-        summary.peak_force = std::max(summary.peak_force, dataset.recording.f[e.rows[i]].norm());
+      if (!dataset.recording.f.empty()) {
+        const Vec3& f = dataset.recording.f[e.rows[i]];
+        summary.peak_force = std::max(summary.peak_force, f.norm());
+        summary.largest = summary.largest.cwiseMax(f.cwiseAbs());
+      }
       deepest = std::max(deepest, e.view.u[i].norm());
       if (summary.has_time && i > 0) steps.push_back(e.view.t[i] - e.view.t[i - 1]);
     }

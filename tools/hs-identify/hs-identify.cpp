@@ -151,8 +151,9 @@ int run(const Arguments& arguments) {
     if (arguments.given(flag::field) && !starts.front().has(field))
       fail_usage("--field is of " + field + ", which this model has not", "add --add " + field);
     if (arguments.given(flag::curves) && learned_curves(starts.front()).empty())
-      fail_usage("--curves is of learned effects, and this model has none",
-                 "add --add learned-depth, learned-kernel or learned-drift");
+      fail_usage(
+          "--curves is of learned effects, and this model has none",
+          "add --add learned-depth, learned-kernel, learned-axes, learned-gain or learned-drift");
   };
   if (arguments.given(flag::boundary))
     request.refine = [&](const Fit& fitted) {

@@ -265,8 +265,9 @@ inline ToolSpec identify_specification() {
        .writes = kTableExtensions},
       {.flag = flag::curves,
        .value = "FILE",
-       .help = "Writes what learned-depth, learned-kernel and learned-drift have learned (CSV): "
-               "each curve with its 95 % band.",
+       .help =
+           "Writes what the curves of no law (learned-depth, -kernel, -axes, -gain, -drift) have "
+           "learned (CSV): each with its 95 % band.",
        .group = "Output",
        .writes = kTableExtensions},
       image_flag(),

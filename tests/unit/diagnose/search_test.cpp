@@ -48,5 +48,31 @@ TEST(Search, OffsetsByChanceAreAValueAPress) {
   EXPECT_EQ(named(w), std::set<std::string>{"tare"});
 }
 
+// A support that slides sideways; without a name in doubt nothing is done.
+TEST(Search, ACurveTakesThePlaceOfANameThatIsNotStoodBy) {
+  Experiment w = test::experiment();
+  test::measure_finer(w, test::elastic(1.5e4, 0.42), 0.01, 3);
+  for (Vec3& f : w.dataset.recording.f) {
+    const double side = std::hypot(f.x(), f.y());
+    if (side > 0.1) f.head<2>() *= (0.1 + 0.2 * (side - 0.1)) / side;
+  }
+  const TrialGround ground(w, w.allowance());
+  const Folds folds = make_folds(w.dataset, 6);
+  const Baseline elastic = make_baseline(test::elastic(1.5e4, 0.42), ground, folds);
+  for (const bool doubted : {false, true}) {
+    Baseline base = elastic;
+    Diagnosis d;
+    Finding curve;
+    curve.effect = "sensor-curve";
+    curve.verdict = Verdict::kPossible;
+    curve.doubted = doubted;
+    d.findings.push_back(curve);
+    curves_for_doubted(base, ground, folds, {}, d);
+    EXPECT_EQ(base.fitted.model.has("learned-axes"), doubted);
+    EXPECT_EQ(d.findings.front().effect, doubted ? "learned-axes" : "sensor-curve");
+    EXPECT_EQ(d.findings.back().verdict, Verdict::kPossible);
+  }
+}
+
 }  // namespace
 }  // namespace hapsim
