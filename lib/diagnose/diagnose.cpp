@@ -111,8 +111,8 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
     put_in_order(d.findings);
   if (!few_presses) {
     doubt_other_sizes(base, g, folds, d);
-    doubt_beside_curves(base, g, folds, d);
     curves_for_doubted(base, g, folds, options, d);
+    doubt_beside_curves(base, g, folds, d);
   }
   const bool ambiguous = !d.rivals.empty();
   if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);

@@ -207,6 +207,11 @@ std::string words_of(const LeftOver& left) {
         "at what gives way or holds in some directions only (friction, a support that slides), and "
         "at the axes of the sensor and of the motion, before the body",
         much);
+  if (left.kind == kPress)
+    return fmt::format(
+        "{}, and it is a gain that changes from press to press, at one place too: look at what "
+        "changes between presses, the grip, the temperature, the body itself",
+        much);
   if (left.kind == kBody)
     return fmt::format(
         "{}, and it is a stiffness that differs by place ({}): look at the body, its shape and its "
@@ -249,6 +254,7 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
       left.error * left.error - left.beside_gains * left.beside_gains > 0.5 * all_of_it;
   if (!by_gains) left.kind = "left";
   if (left.kind == kBody && is_one_law(residual, f, g)) left.kind = kDirection;
+  if (left.kind == kBody && is_by_press(residual, f, g)) left.kind = kPress;
   std::string also;
   if (left.structured && left.beside_gains > kLikeNoise) {
     const Observation seen = first_observation(f, by_gains ? p.beside : residual, g);

@@ -11,7 +11,7 @@ namespace hapsim {
 
 // Kinds of LeftOver.
 inline constexpr const char *kSetUp = "set-up", *kBody = "body", *kFrequency = "frequency",
-                            *kEvent = "event", *kDirection = "direction";
+                            *kEvent = "event", *kDirection = "direction", *kPress = "press";
 
 // The allowance for mesh and shape error is a prior of the six gains c_p of each position
 // (experiment/weights.h), of standard deviation delta. What the forces say of them is tested: with
@@ -33,10 +33,10 @@ struct LeftOver {
   bool structured = false;  // beside the allowance: more than noise, and samples foretell samples
   LockedEvents events;      // looked for where neither is the case
   // "": noise alone; "set-up", "body", "place" (one), "direction" (of the force, one law for all
-  // positions) where the allowance is strained, "event" of single samples at one part of the
-  // presses (of whole presses: Diagnosis::odd_presses), "frequency" of a line that stands out of
-  // the session or a part of it where hs-compare tells nothing, else what it tells: "depth",
-  // "contact-time", "offset", ...
+  // positions), "press" (a gain of each) where the allowance is strained, "event" of single samples
+  // at one part of the presses (of whole presses: Diagnosis::odd_presses), "frequency" of a line
+  // that stands out of the session or a part of it where hs-compare tells nothing, else what it
+  // tells: "depth", "contact-time", "offset", ...
   std::string kind;
 
   bool noise_alone() const { return !strained && !structured && !events.found; }

@@ -60,10 +60,13 @@ Course course_of(const Episode& e) {
   return c;
 }
 
+constexpr double kNear =
+    0.7;  // of two lengths or times that count as one, the smaller over the other
+
+// But for its times.
 bool alike(const Course& a, const Course& b) {
   constexpr double kSlant = 0.3;  // [rad]
-  const auto near = [](double x, double y) { return std::abs(x - y) <= 0.3 * std::max(x, y); };
-  return near(a.depth, b.depth) && near(a.reached, b.reached) && near(a.duration, b.duration) &&
+  return std::min(a.depth, b.depth) >= kNear * std::max(a.depth, b.depth) &&
          std::abs(a.slant - b.slant) < kSlant;
 }
 
@@ -107,17 +110,29 @@ bool went_further(const std::vector<bool>& odd, const Dataset& dataset) {
   return false;
 }
 
-// Whether neither its place nor its motion is why the press is odd.
+// What others of like depth and slant took, the least and the most.
+struct Times {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  void take(double t) { least = std::min(least, t), most = std::max(most, t); }
+  bool hold(double t) const { return kNear * least <= t && kNear * t <= most; }
+};
+
+// Whether neither its place nor its motion is why the press is odd. A law of time or speed that
+// made it odd would make one of the slower or one of the faster ones odd as well.
 bool spoken_against(std::size_t press, const std::vector<bool>& odd, const Dataset& dataset) {
   const Course course = course_of(dataset.episodes[press]);
-  bool place = false, motion = false;
+  bool place = false;
+  Times reached, duration;
   for (std::size_t k = 0; k < odd.size(); ++k) {
     if (odd[k]) continue;
     const Episode& other = dataset.episodes[k];
     place = place || other.position == dataset.episodes[press].position;
-    motion = motion || alike(course, course_of(other));
+    const Course c = course_of(other);
+    if (!alike(course, c)) continue;
+    reached.take(c.reached);
+    duration.take(c.duration);
   }
-  return place && motion;
+  return place && reached.hold(course.reached) && duration.hold(course.duration);
 }
 
 Experiment without(const std::vector<bool>& odd, const Experiment& e) {

@@ -13,9 +13,10 @@ namespace hapsim {
 // anew (a forward search, Atkinson and Riani, 2000, run backwards), until what the others leave is
 // noise alone; those which then err no more than kOdd times noise and allowance come back. At most
 // every fourth press is odd. An odd press says nothing of the body or the law where the place and
-// the motion both speak against it: at its place another press is as the model says, and elsewhere
-// one of like depth, slant and times is, and they are not those that went furthest, in some
-// direction, or fastest. Else none is found: the place or the motion is the story.
+// the motion both speak against it: at its place another press is as the model says, and others of
+// like depth and slant are, some no slower and some no faster, and they are not those that went
+// furthest, in some direction, or fastest. Else none is found: the place or the motion is the
+// story.
 struct OddPresses {
   static constexpr double kOdd = 2;
   std::vector<int> ids;  // as the recording numbers them, in its order; empty: none

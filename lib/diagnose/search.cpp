@@ -268,13 +268,21 @@ bool any_missing(const Diagnosis& d, bool (*kind)(const EffectCard&)) {
   });
 }
 
+std::size_t count_missing(const Diagnosis& d) {
+  return static_cast<std::size_t>(
+      std::count_if(d.findings.begin(), d.findings.end(),
+                    [](const Finding& f) { return f.verdict == Verdict::kMissing; }));
+}
+
+constexpr double kAsLittle = 1.1;  // an unseen error over another that counts as no larger
+constexpr std::size_t kCrowd = 3;  // so many names may stand for one thing that has none
+
 // A value of each press follows whatever differs from press to press and foretells no other one.
 // Where a set without it leaves noise alone, or errs as little on what is unseen, within a tenth
 // (there each press is given its value), that is what the data say.
 void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Baseline& base,
                             const TrialGround& g, const Folds& folds,
                             const DiagnoseOptions& options, Diagnosis& d) {
-  constexpr double kAsLittle = 1.1;
   const auto offsets = std::find_if(d.findings.begin(), d.findings.end(), [](const Finding& f) {
     return f.verdict == Verdict::kMissing && require_effect(f.effect).card().per_press;
   });
@@ -339,17 +347,21 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   // What the allowance for mesh and shape swallows may be what a wrong name leaves.
   const LeftOver left = d.rivals.empty() ? left_over(base.fitted, g) : d.left;
   const bool explained = left.noise_alone() && left.error < kLikeNoise;
-  bool any = false, offsets = false;
+  std::size_t names = 0;
+  bool offsets = false;
   for (const Finding& f : d.findings) {
     if (f.verdict != Verdict::kMissing && f.verdict != Verdict::kIndistinguishable) continue;
-    any = true;
+    ++names;
     offsets = offsets || require_effect(f.effect).card().per_press;
   }
-  if ((explained && !offsets) || !any || folds.held_out.empty()) return;
+  const bool crowd = d.rivals.empty() && names >= kCrowd;
+  if ((explained && !offsets && !crowd) || names == 0 || folds.held_out.empty()) return;
   search_from(Kind::kLearned, Rivals::kGoOn, other_base, g, folds, options, other);
-  if (!any_missing(other, is_learned) ||
-      unseen_error(other_base, other) >= kPlainlyLess * unseen_error(base, d))
-    return;
+  if (!any_missing(other, is_learned)) return;
+  const double now = unseen_error(base, d), then = unseen_error(other_base, other);
+  const bool fewer = crowd && other.rivals.empty() && count_missing(other) < names &&
+                     left_over(other_base.fitted, g).noise_alone();
+  if (then >= kPlainlyLess * now && !(fewer && then <= kAsLittle * now)) return;
   base = std::move(other_base);
   d = std::move(other);
 }

@@ -14,8 +14,9 @@ void put_in_order(std::vector<Finding>& findings);
 // where there are any, what the best of them leaves. A name is believed first; where all names
 // together leave more than noise, or one of them is an offset of each press, which imitates
 // anything, a curve of no law is tried in their place, and stands where it foretells plainly
-// better: the cause is then of its kind, and of none of their forms. `base` becomes the model with
-// all that is missing.
+// better: the cause is then of its kind, and of none of their forms. In the place of three names
+// and more it is tried too, and stands with what fewer are needed beside it where noise alone is
+// left and it foretells as well. `base` becomes the model with all that is missing.
 void search(Baseline& base, const TrialGround& ground, const Folds& folds,
             const DiagnoseOptions& options, Diagnosis& d);
 

@@ -18,12 +18,29 @@ struct Taken {
   double beyond(double noise) const {
     return squares - static_cast<double>(numbers) * noise * noise;
   }
+  Taken& operator+=(const Taken& other) {
+    squares += other.squares;
+    numbers += other.numbers;
+    return *this;
+  }
 };
 
 Taken taken(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
   const Eigen::VectorXd r = qr.householderQ().transpose() * residual;
   return {r.head(qr.rank()).squaredNorm(), qr.rank()};
+}
+
+Taken taken_by_places(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                      const Dataset& dataset) {
+  Taken all;
+  for (const GainBlock& place : gain_directions(dataset, all_episodes(dataset), forces))
+    all += taken(place.Z, residual(place.rows));
+  return all;
+}
+
+bool is_most(const Taken& part, const Eigen::VectorXd& residual, double noise) {
+  return part.beyond(noise) > 0.9 * Taken{residual.squaredNorm(), residual.size()}.beyond(noise);
 }
 
 // v where it is longer than `from`, less that.
@@ -77,18 +94,28 @@ Eigen::MatrixXd law_columns(const Eigen::VectorXd& forces, const Dataset& datase
 
 bool is_one_law(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                 const TrialGround& g) {
-  constexpr double kMost = 0.9, kAsMuch = 0.96;
+  constexpr double kAsMuch = 0.96;
   const double noise = g.allowance.noise;
-  const Taken all{residual.squaredNorm(), residual.size()};
   const Taken by_law = taken(law_columns(forces, g.dataset), residual);
-  Taken by_place;
-  for (const GainBlock& place : gain_directions(g.dataset, all_episodes(g.dataset), forces)) {
-    const Taken here = taken(place.Z, residual(place.rows));
-    by_place.squares += here.squares;
-    by_place.numbers += here.numbers;
-  }
-  return by_law.numbers < by_place.numbers && by_law.beyond(noise) > kMost * all.beyond(noise) &&
+  const Taken by_place = taken_by_places(residual, forces, g.dataset);
+  return by_law.numbers < by_place.numbers && is_most(by_law, residual, noise) &&
          by_law.beyond(noise) > kAsMuch * by_place.beyond(noise);
+}
+
+bool is_by_press(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                 const TrialGround& g) {
+  constexpr double kPlainlyMore = 1.2;
+  const double noise = g.allowance.noise;
+  Taken by_press;
+  Eigen::Index at = 0;
+  for (const Episode& e : g.dataset.episodes) {
+    const auto size = 3 * static_cast<Eigen::Index>(e.rows.size());
+    by_press += taken(forces.segment(at, size), residual.segment(at, size));
+    at += size;
+  }
+  return is_most(by_press, residual, noise) &&
+         by_press.beyond(noise) >
+             kPlainlyMore * taken_by_places(residual, forces, g.dataset).beyond(noise);
 }
 
 }  // namespace hapsim

@@ -1,4 +1,5 @@
-// What all positions may share of what a model leaves: a law of the force's direction and size.
+// What else than a stiffness of each position may take what a model leaves, in as few numbers: a
+// law of the force's direction and size that all positions share, or a gain of each press.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,5 +16,10 @@ namespace hapsim {
 // three straight pieces. `forces`: of the model.
 bool is_one_law(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                 const TrialGround& ground);
+
+// Whether a gain of each press takes nine tenths of `residual`, and plainly more than a stiffness
+// of each position does: then it is not the place that presses differ by.
+bool is_by_press(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                 const TrialGround& ground);
 
 }  // namespace hapsim

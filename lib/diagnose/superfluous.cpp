@@ -1,7 +1,9 @@
 #include "diagnose/superfluous.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "effects/catalogue.h"
 #include "model/model_edit.h"
@@ -54,12 +56,18 @@ std::optional<Simpler> simpler_in_place(const std::string& effect, const Baselin
                                         const TrialGround& g, const Folds& folds,
                                         const Gates& gates) {
   const EffectCard& card = require_effect(effect).card();
-  if (card.is_map || card.is_field || card.learned || card.contains.empty()) return std::nullopt;
+  if (card.is_map || card.is_field || card.contains.empty()) return std::nullopt;
   Model lesser = base.fitted.model;
   remove_effect(lesser, effect);
   const Baseline without = make_baseline(lesser, g, {});
   if (!without.fitted.converged) return std::nullopt;
-  for (const std::string& name : card.contains) {
+  std::vector<std::string> simplest_first = card.contains;
+  std::stable_sort(simplest_first.begin(), simplest_first.end(),
+                   [](const std::string& a, const std::string& b) {
+                     return require_effect(a).card().parameters.size() <
+                            require_effect(b).card().parameters.size();
+                   });
+  for (const std::string& name : simplest_first) {
     std::string lack;
     const std::optional<Candidate> candidate = try_effect(require_effect(name), without, g, lack);
     if (!candidate || errs_plainly_more(candidate->fitted, base)) continue;

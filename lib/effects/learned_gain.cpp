@@ -54,7 +54,7 @@ class LearnedGain : public Effect {
         .form_error = 0.05,
         .learned = true,
         .signature = "forces that are too large or too small by a share that follows the session",
-        .confounders = {"softening", "temperature", "sensor-gain", "learned-drift"},
+        .confounders = {"softening", "temperature", "sensor-gain", "learned-drift", "tare"},
         .separated_by =
             "the first position pressed again several times through the session, and the "
             "temperature recorded"};

@@ -87,6 +87,19 @@ TEST(LeftOver, WhatOneLawOfTheForceTakesIsNoMatterOfPlace) {
   EXPECT_EQ(left.kind, "direction") << left.words;
 }
 
+// Gripped anew for each press, by chance.
+TEST(LeftOver, WhatChangesFromPressToPressIsNoMatterOfPlace) {
+  int sample = 0;
+  double gain = 1;
+  Random random(5);
+  const LeftOver left = left_of(0.01, [&](int, const Vec3& f) {
+    if (sample++ % 41 == 0) gain = 1 + 0.15 * random.normal();
+    return Vec3(gain * f);
+  });
+  EXPECT_TRUE(left.strained);
+  EXPECT_EQ(left.kind, "press") << left.words;
+}
+
 // A hum: the allowance does not hold it, and hs-compare finds nothing that it goes with.
 TEST(LeftOver, AHumIsToldByItsFrequency) {
   int sample = 0;
