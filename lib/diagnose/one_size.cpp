@@ -102,13 +102,38 @@ bool claims_a_size(const std::string& effect) {
   return !card.learned && !card.is_map && !card.is_field;
 }
 
-void doubt(const SizeSpread& spread, Finding& f) {
+void doubt(const std::string& why, Finding& f) {
   f.doubted = f.verdict == Verdict::kMissing;
   f.verdict = Verdict::kPossible;
-  f.evidence += fmt::format(
-      "; more than noise is left, and its size differs by {:.0f} % between {}: it may "
-      "stand for another cause",
-      100 * spread.share, spread.among);
+  f.evidence += "; " + why + ": it may stand for another cause";
+}
+
+std::string words_of(const SizeSpread& spread) {
+  return fmt::format("more than noise is left, and its size differs by {:.0f} % between {}",
+                     100 * spread.share, spread.among);
+}
+
+double square(double x) {
+  return x * x;
+}
+
+bool is_claimed(const Finding& f, const Baseline& base) {
+  return f.verdict == Verdict::kMissing && claims_a_size(f.effect) &&
+         base.fitted.model.has(f.effect);
+}
+
+// The first that takes less away, with all of its terms, than is left beyond noise in the end.
+Finding* outweighed(const Baseline& base, const TrialGround& g, std::vector<Finding>& findings) {
+  const double left = square(base.fitted.error.pooled) - square(g.allowance.noise);
+  for (Finding& f : findings) {
+    if (!is_claimed(f, base)) continue;
+    double taken = 0;
+    for (const Finding& term : findings)
+      if (term.effect == f.effect && term.verdict == Verdict::kMissing)
+        taken += square(term.rmse_now.pooled) - square(term.rmse_after.pooled);
+    if (taken < left) return &f;
+  }
+  return nullptr;
 }
 
 // The missing effect whose size differs most, and more than it may.
@@ -117,9 +142,7 @@ Finding* worst(const Baseline& base, const TrialGround& g, std::vector<Finding>&
   Finding* found = nullptr;
   most.share = kOneSize;
   for (Finding& f : findings) {
-    if (f.verdict != Verdict::kMissing || !claims_a_size(f.effect) ||
-        !base.fitted.model.has(f.effect))
-      continue;
+    if (!is_claimed(f, base)) continue;
     const SizeSpread spread = size_spread(f.effect, base.fitted, g);
     if (spread.share <= most.share) continue;
     most = spread;
@@ -139,7 +162,7 @@ void doubt_rivals(const TrialGround& g, Diagnosis& d) {
     spreads.push_back(size_spread(f.effect, as_it_is(d.rivals[k], g.experiment), g));
     if (spreads.back().share <= kOneSize) return;
   }
-  for (std::size_t k = 0; k < rivals.size(); ++k) doubt(spreads[k], *rivals[k]);
+  for (std::size_t k = 0; k < rivals.size(); ++k) doubt(words_of(spreads[k]), *rivals[k]);
   d.rivals.clear();
 }
 
@@ -152,16 +175,19 @@ void doubt_other_sizes(Baseline& base, const TrialGround& g, const Folds& folds,
   if (ambiguous) doubt_rivals(g, d);
   SizeSpread spread;
   while (d.rivals.empty()) {
-    Finding* f = worst(base, g, d.findings, spread);
+    Finding* f = outweighed(base, g, d.findings);
+    const bool by_weight = f != nullptr;
+    if (!by_weight) f = worst(base, g, d.findings, spread);
     if (f == nullptr) break;
     const std::string effect = f->effect;
+    const std::string why = by_weight ? "more is left than it takes away" : words_of(spread);
     Model lesser = base.fitted.model;
     remove_effect(lesser, effect);
     Baseline without = make_baseline(lesser, g, folds);
     if (!without.fitted.converged) break;
     base = std::move(without);
     for (Finding& each : d.findings)  // with all of its terms
-      if (each.effect == effect && each.verdict == Verdict::kMissing) doubt(spread, each);
+      if (each.effect == effect && each.verdict == Verdict::kMissing) doubt(why, each);
   }
   put_in_order(d.findings);
 }

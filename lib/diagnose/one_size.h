@@ -25,8 +25,9 @@ struct SizeSpread {
 SizeSpread size_spread(const std::string& effect, const Fit& fitted, const TrialGround& ground);
 
 // Where `base`, the model with all that is missing, or with the best of the rivals, leaves more
-// than noise: names whose size differs by more than kOneSize become possible, the worst first, and
-// `base` is without them; rivals do where that is so of all of them, for a set with the truth in it
+// than noise: names that take less away than is left, and then those whose size differs by more
+// than kOneSize, the worst first, become possible, and `base` is without them; rivals do where that
+// is so of the sizes of all of them, for a set with the truth in it
 // is true. Curves of no law and maps claim no size. d.rivals, d.findings and
 // `base` as the search leaves them.
 void doubt_other_sizes(Baseline& base, const TrialGround& ground, const Folds& folds, Diagnosis& d);

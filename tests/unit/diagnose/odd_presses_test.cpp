@@ -13,9 +13,11 @@ namespace {
 const Model kLinear = test::elastic(1.5e4, 0.42);
 
 // change(press, episode, force) is what is measured of a force of that press.
-OddPresses odd_of(const std::function<Vec3(int, const Episode&, const Vec3&)>& change) {
+OddPresses odd_of(const std::function<Vec3(int, const Episode&, const Vec3&)>& change,
+                  const std::function<void(std::vector<Episode>&)>& otherwise = {}) {
   Experiment w = test::experiment();
   test::measure_finer(w, kLinear, 0.01, 3);
+  if (otherwise) otherwise(w.dataset.episodes);
   const Selection all = all_episodes(w.dataset);
   for (const int e : all)
     for (const int row : w.dataset.episodes[e].rows) {
@@ -45,6 +47,21 @@ TEST(OddPresses, OneIsEnough) {
     return press == 7 && sample % 41 > 20 ? Vec3(f + Vec3(0.05, -0.03, 0.1)) : f;
   });
   EXPECT_EQ(odd.ids, std::vector<int>{7});
+}
+
+// Straight presses take 0.2 or 1 s to their depth. A law of the speed that makes one of 0.45 s odd
+// would make those odd, one of 0.05 s not.
+TEST(OddPresses, AreSpokenAgainstBySlowerAndFasterOnes) {
+  for (const double reached : {0.45, 0.05}) {
+    const OddPresses odd =
+        odd_of([](int press, const Episode&,
+                  const Vec3& f) { return Vec3((press == 10 ? 0.5 : 1.0) * f); },
+               [&](std::vector<Episode>& presses) {
+                 for (double& t : presses[10].view.t)
+                   t = t < 0.2 ? t * reached / 0.2 : reached + (t - 0.2) * (2 - reached) / 1.8;
+               });
+    EXPECT_EQ(odd.ids, reached > 0.2 ? std::vector<int>{10} : std::vector<int>{});
+  }
 }
 
 TEST(OddPresses, AreNoneWhereNothingIsHidden) {

@@ -64,11 +64,13 @@ TEST(OneSize, WhatComesAndGoesWithPressesHasNone) {
   EXPECT_EQ(spread.among, "presses");
 }
 
-Diagnosis with_finding(const std::string& effect, Verdict verdict) {
+// Which takes the error from `now` to nothing [N].
+Diagnosis with_finding(const std::string& effect, Verdict verdict, double now = 1) {
   Diagnosis d;
   Finding f;
   f.effect = effect;
   f.verdict = verdict;
+  f.rmse_now = ForceError{now};
   d.findings.push_back(f);
   return d;
 }
@@ -84,6 +86,24 @@ TEST(OneSize, SuchANameIsPossibleAtMostAndLeavesTheModel) {
   EXPECT_TRUE(d.findings.front().doubted);
   EXPECT_NE(d.findings.front().evidence.find("its size differs"), std::string::npos);
   EXPECT_FALSE(base.fitted.model.has("viscoelastic"));
+}
+
+// A hum beside it, of which the name knows nothing: it must weigh more than what it leaves.
+TEST(OneSize, WhatTakesLessThanIsLeftIsNotStoodBy) {
+  Experiment w = test::experiment();
+  test::measure_finer(w, kWithOneTerm, 0.01, 3);
+  int sample = 0;
+  for (Vec3& f : w.dataset.recording.f) f += 0.05 * std::sin(1.9 * ++sample) * Vec3::Ones();
+  const TrialGround ground(w, {0.01, 0.01});
+  const Folds folds = make_folds(w.dataset, 6);
+  for (const double taken : {0.02, 0.06}) {
+    Baseline base = make_baseline(kWithOneTerm, ground, folds);
+    Diagnosis d = with_finding("viscoelastic", Verdict::kMissing, taken);
+    doubt_other_sizes(base, ground, folds, d);
+    const bool less = taken < 0.05 / std::sqrt(2);
+    EXPECT_EQ(d.findings.front().verdict, less ? Verdict::kPossible : Verdict::kMissing);
+    EXPECT_EQ(base.fitted.model.has("viscoelastic"), !less);
+  }
 }
 
 TEST(OneSize, WhatLeavesNoMoreThanNoiseIsStoodBy) {
