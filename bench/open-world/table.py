@@ -1,13 +1,14 @@
 """table.py OUT [RECORDING...]: hidden cause, verdict, what was named, kind that was said to be left, errors over the
 noise (of the elastic model, and with all that is named).
 
-named: what is missing is the cause, and nothing else. set: a set of at most three that are told to look alike, with
-the cause in it, nothing wrong beside it; wide: such a set of more. kind: its kind is said, by what is left or by a
-curve of no law. open: called unexplained without a kind, or with another, or what acts beside it is named and more is
-said to be left. hedged: something wrong is named, but the words say that more is left, or that the set-up would do the
-same. companion: the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model
-leaves no more than noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a
-null called complete; where noise itself is the cause, no name."""
+named: what is missing is the cause, and nothing else; what acts beside it may be told by the curve that contains it.
+set: a set of at most three that are told to look alike, with the cause in it, nothing wrong beside it; wide: such a set
+of more. kind: its kind is said, by what is left or by a curve of no law. open: called unexplained without a kind, or
+with another, or what acts beside it is named and more is said to be left. hedged: something wrong is named, but the
+words say that more is left, or that the set-up would do the same. companion: the cause, and a wrong name beside it,
+nothing left. unseen: called complete, and the elastic model leaves no more than noise (1.1 times), or what acts beside
+it is named and leaves no more. wrong: the rest. right: a null called complete; where noise itself is the cause, no
+name."""
 import csv
 import json
 import pathlib
@@ -23,6 +24,9 @@ SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time
         "learned-place": "place", "learned-axes": "direction axes", "press": "session order"}
 
 
+CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
+
+
 def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0):
     kinds = set(kind.split())
     if "noise" in kinds:
@@ -36,12 +40,13 @@ def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end
         return word in kinds or kinds & set(SAID.get(word, "").split())
 
     good = set(names) | set(n for n in missing + alike if n.startswith("learned-") and tells(n))
-    clean = set(missing) <= good | set(known)
+    beside = set(known) | set(CONTAINED[n] for n in known if n in CONTAINED)
+    clean = set(missing) <= good | beside
     if good & set(missing) and clean and verdict == "incomplete" and not said:
         return "named" if set(names) & set(missing) - set(SAID) else "kind"
     if good & set(alike) and clean:
         return "set" if len(alike) <= 3 else "wide"
-    if clean and not set(alike) - set(known):
+    if clean and not set(alike) - beside:
         if not said and known and verdict == "incomplete":
             return "unseen" if end < 1.1 else "wrong"
         return "kind" if said and tells(said) or good & set(missing) else "open"

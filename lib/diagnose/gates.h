@@ -54,6 +54,9 @@ inline constexpr double kForetoldFall = 0.05;
 // error on what is unseen.
 inline constexpr double kPlainlyLess = 0.9;
 
+// So many names may stand for one thing that has none.
+inline constexpr std::size_t kCrowd = 3;
+
 // Where there are more places than that, so many of them tell first which effects are worth finite
 // elements at all of them.
 inline constexpr std::size_t kManyPlaces = 60, kScreened = 24;
@@ -108,32 +111,35 @@ inline std::vector<std::string> gates_in_words() {
           "err alike, a model without missing effects is unexplained, and beside missing ones that "
           "is said: the names do not explain all; so are samples far off that come at one part of "
           "the "
-          "presses. Where anything is left, a name is kept only if what it does has one size in "
-          "the "
-          "whole recording: one whose size differs by more than {:g} % between presses, depths, "
-          "times since the press began or axes (root mean square, beyond chance) stands for "
-          "another "
-          "cause and is possible at most. Gains that all positions share come from the "
-          "set-up (sensor, robot, tool), those that differ by place from the body; the rest is "
-          "told "
-          "as hs-compare tells it.",
+          "presses. Where anything is left, a name is kept only if it takes more away than is left "
+          "and if what it does has one size in the whole recording: one whose size differs by more "
+          "than {:g} % between presses, depths, times since the press began or axes (root mean "
+          "square, beyond chance) stands for another cause and is possible at most. Gains that all "
+          "positions share come from the set-up (sensor, robot, tool), those that differ by place "
+          "from the body, unless a law of the force's direction and size that is the same at all "
+          "positions takes as much, by fewer numbers, or a gain of each press takes more; the rest "
+          "is told as hs-compare tells it, or by the frequency of a line, of the whole session or "
+          "a part of it.",
           1 / kStrained, 100 * kOneSize),
       "A few presses (at most every fourth) are told by their numbers where all that is left is "
       "theirs: the model fitted without them leaves noise alone, others at their places are as it "
-      "says, and so are others elsewhere of like depth, slant and times, and they are not those "
-      "that went furthest or fastest. A value a press (tare) is possible only where a set without "
+      "says, and so are others of like depth and slant, some no slower and some no faster, and "
+      "they are not those that went furthest or fastest. A value a press (tare) is possible only "
+      "where a set without "
       "it leaves noise alone or errs as little on what is unseen, within a tenth. Forces that are "
       "rounded "
       "to coarse steps count as so much noisier.",
       "Where no effect that has a name passes (or none more) and what is left is more than noise, "
       "curves that have no law are tried and judged in the same way: over the depth "
-      "(learned-depth), the time since the tool moved (learned-kernel) and the session "
-      "(learned-drift); learned-place stands beside the named ones. Such a name states no cause: "
+      "(learned-depth), the force along z and across it (learned-axes), the time since the tool "
+      "moved (learned-kernel) and the session (learned-drift, learned-gain); learned-place stands "
+      "beside the named ones. Such a name states no cause: "
       "it says of what kind the cause is, what it does, and by how much the unseen error falls "
       "with it; a name over the same thing that needs such a curve beside it has not the cause's "
       "form and is possible only. Where all names together leave more than noise, such curves are "
-      "tried in their "
-      "place too, and stand where the unseen error is plainly less."};
+      "tried in their place too, and stand where the unseen error is plainly less; so they are "
+      "where a name is not kept, and in the place of " +
+          std::to_string(kCrowd) + " names or more, where they stand if fewer of them do as well."};
 }
 
 }  // namespace hapsim

@@ -268,14 +268,34 @@ bool any_missing(const Diagnosis& d, bool (*kind)(const EffectCard&)) {
   });
 }
 
-std::size_t count_missing(const Diagnosis& d) {
-  return static_cast<std::size_t>(
-      std::count_if(d.findings.begin(), d.findings.end(),
-                    [](const Finding& f) { return f.verdict == Verdict::kMissing; }));
+bool is_settled(const Finding& f) {
+  return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
+}
+
+// How many things a diagnosis takes, rivals for one.
+std::size_t count_of(const Diagnosis& d) {
+  const auto missing = std::count_if(d.findings.begin(), d.findings.end(), [](const Finding& f) {
+    return f.verdict == Verdict::kMissing;
+  });
+  return static_cast<std::size_t>(missing) + (d.rivals.empty() ? 0 : 1);
+}
+
+LeftOver left_of(const Baseline& base, const TrialGround& g, const Diagnosis& d) {
+  return d.rivals.empty() ? left_over(base.fitted, g) : d.left;
+}
+
+// Curves are missing, or cannot be told from each other.
+bool ends_in_curves(const Diagnosis& d) {
+  bool any = false;
+  for (const Finding& f : d.findings) {
+    const bool learned = require_effect(f.effect).card().learned;
+    if (f.verdict == Verdict::kIndistinguishable && !learned) return false;
+    any = any || (is_settled(f) && learned);
+  }
+  return any;
 }
 
 constexpr double kAsLittle = 1.1;  // an unseen error over another that counts as no larger
-constexpr std::size_t kCrowd = 3;  // so many names may stand for one thing that has none
 
 // A value of each press follows whatever differs from press to press and foretells no other one.
 // Where a set without it leaves noise alone, or errs as little on what is unseen, within a tenth
@@ -309,11 +329,8 @@ void prefer_without_offsets(const Baseline& first, const Diagnosis& nothing, Bas
 }  // namespace
 
 void put_in_order(std::vector<Finding>& findings) {
-  const auto settled = [](const Finding& f) {
-    return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
-  };
   std::stable_sort(findings.begin(), findings.end(), [&](const Finding& a, const Finding& b) {
-    if (settled(a) || settled(b)) return settled(a) && !settled(b);
+    if (is_settled(a) || is_settled(b)) return is_settled(a) && !is_settled(b);
     return a.criterion_gain > b.criterion_gain;
   });
 }
@@ -329,6 +346,8 @@ void curves_for_doubted(Baseline& base, const TrialGround& g, const Folds& folds
   Diagnosis learned;
   search_from(Kind::kLearned, Rivals::kEnd, learned_base, g, folds, options, learned);
   if (!learned.rivals.empty() || !any_missing(learned, is_learned)) return;
+  for (Finding& f : d.findings)
+    if (f.curve.empty()) f.doubted = false;  // it need not be added for what it foretells
   for (const Finding& found : learned.findings) {
     if (found.verdict != Verdict::kMissing) continue;
     std::erase_if(d.findings, [&](const Finding& f) { return f.effect == found.effect; });
@@ -345,22 +364,22 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   search_from(Kind::kNamed, Rivals::kGoOn, base, g, folds, options, d);
   prefer_without_offsets(other_base, other, base, g, folds, options, d);
   // What the allowance for mesh and shape swallows may be what a wrong name leaves.
-  const LeftOver left = d.rivals.empty() ? left_over(base.fitted, g) : d.left;
+  const LeftOver left = left_of(base, g, d);
   const bool explained = left.noise_alone() && left.error < kLikeNoise;
   std::size_t names = 0;
   bool offsets = false;
   for (const Finding& f : d.findings) {
-    if (f.verdict != Verdict::kMissing && f.verdict != Verdict::kIndistinguishable) continue;
+    if (!is_settled(f)) continue;
     ++names;
     offsets = offsets || require_effect(f.effect).card().per_press;
   }
   const bool crowd = d.rivals.empty() && names >= kCrowd;
   if ((explained && !offsets && !crowd) || names == 0 || folds.held_out.empty()) return;
   search_from(Kind::kLearned, Rivals::kGoOn, other_base, g, folds, options, other);
-  if (!any_missing(other, is_learned)) return;
+  if (!ends_in_curves(other)) return;
   const double now = unseen_error(base, d), then = unseen_error(other_base, other);
-  const bool fewer = crowd && other.rivals.empty() && count_missing(other) < names &&
-                     left_over(other_base.fitted, g).noise_alone();
+  const bool fewer =
+      crowd && count_of(other) < names && left_of(other_base, g, other).noise_alone();
   if (then >= kPlainlyLess * now && !(fewer && then <= kAsLittle * now)) return;
   base = std::move(other_base);
   d = std::move(other);

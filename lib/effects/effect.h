@@ -180,16 +180,16 @@ struct PlaceGain {
 // What a data set offers, from which starts are chosen.
 struct DataSummary {
   bool has_time = false;
-  double sample_step = 0;       // median time step [s]
-  double press_duration = 0;    // median [s]
-  double session = 0;           // [s]
-  double modulus = 1e4;         // E of the model at hand [Pa]
-  double peak_force = 1;        // [N]
-  Vec3 largest = Vec3::Ones();  // force along each axis, whatever its sign [N]
-  double peak_stiffness = 1;    // [N/m]
-  double temperature = 20;      // to count from [degC]
-  double depth = 2e-3;          // deepest displacement [m]
-  double tool_radius = 4e-3;    // [m]
+  double sample_step = 0;                  // median time step [s]
+  double press_duration = 0;               // median [s]
+  double session = 0;                      // [s]
+  double modulus = 1e4;                    // E of the model at hand [Pa]
+  double peak_force = 1;                   // [N]
+  double peak_along = 1, peak_across = 1;  // |fz| and |(fx, fy)| [N]
+  double peak_stiffness = 1;               // [N/m]
+  double temperature = 20;                 // to count from [degC]
+  double depth = 2e-3;                     // deepest displacement [m]
+  double tool_radius = 4e-3;               // [m]
   std::size_t presses = 1;
   double ball_radius = 0;       // [m] of a tool that is declared a ball; 0: another
   Vec3 ceiling = Vec3::Zero();  // readings of an axis that are exactly its largest [N]; 0: none

@@ -155,8 +155,7 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
   summary.presses = dataset.recording.presses().size();
   if (dataset.tools() == 1 && dataset.recording.has_ball())
     summary.ball_radius = dataset.recording.tool_radius();
-  summary.peak_force = 1e-12;
-  summary.largest.setConstant(1e-12);
+  summary.peak_force = summary.peak_along = summary.peak_across = 1e-12;
   const auto ceilings = find_ceilings(dataset.recording.f);
   for (std::size_t k = 0; k < 3; ++k)
     if (ceilings[k].reached()) summary.ceiling[static_cast<Eigen::Index>(k)] = ceilings[k].force;
@@ -172,7 +171,8 @@ DataSummary summarise(const Dataset& dataset, double modulus) {
       if (!dataset.recording.f.empty()) {
         const Vec3& f = dataset.recording.f[e.rows[i]];
         summary.peak_force = std::max(summary.peak_force, f.norm());
-        summary.largest = summary.largest.cwiseMax(f.cwiseAbs());
+        summary.peak_along = std::max(summary.peak_along, std::abs(f.z()));
+        summary.peak_across = std::max(summary.peak_across, f.head<2>().norm());
       }
       deepest = std::max(deepest, e.view.u[i].norm());
       if (summary.has_time && i > 0) steps.push_back(e.view.t[i] - e.view.t[i - 1]);

@@ -71,6 +71,7 @@ TEST(Search, ACurveTakesThePlaceOfANameThatIsNotStoodBy) {
     EXPECT_EQ(base.fitted.model.has("learned-axes"), doubted);
     EXPECT_EQ(d.findings.front().effect, doubted ? "learned-axes" : "sensor-curve");
     EXPECT_EQ(d.findings.back().verdict, Verdict::kPossible);
+    EXPECT_FALSE(d.findings.back().doubted);
   }
 }
 

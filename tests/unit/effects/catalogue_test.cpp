@@ -124,7 +124,7 @@ TEST_P(EveryEffect, DerivativesAreDifferences) {
   if (effect.card().stage == Stage::kBody && effect.card().is_map) return;
   PressView press = example_press();
   const auto& cards = effect.card().parameters;
-  DataSummary data{true, 0.02, 0.8, 100, 2e4, 1, Vec3::Ones(), 300};
+  DataSummary data{true, 0.02, 0.8, 100, 2e4, 1, 1, 1, 300};
   std::vector<std::vector<double>> points;
   for (std::vector<double> start : effect.starts(data, 1)) {
     for (double& x : start)

@@ -71,20 +71,18 @@ TEST(SensorCurve, BendsEachAxisOddly) {
   EXPECT_NEAR((f[1] + f[0]).norm(), 0, 1e-12);
 }
 
-// A value for each way of x and y, one for both of z, at the knots of the largest force.
-TEST(LearnedAxes, EachWayHasACurveOfItsOwn) {
+// Halved across z at its largest force, 0.8 times along it at 0.7 of that.
+TEST(LearnedAxes, AcrossAndAlongZHaveCurvesOfTheirOwn) {
   Values values;
-  for (const char* name : {"px", "nx", "py", "ny", "pz"})
-    for (int k = 1; k <= 3; ++k) values.push_back({0, name + std::to_string(k), 0});
-  values[2].value = std::log(0.5);   // px3
-  values[4].value = std::log(2.0);   // nx2
-  values[13].value = std::log(0.8);  // pz2
-  for (const char* name : {"sx", "sy", "sz"}) values.push_back({0, name, 0.4});
+  for (const char* name : {"a0", "a1", "a2", "a3", "z1", "z2", "z3"}) values.push_back({0, name, 0});
+  values[3].value = std::log(0.5);
+  values[5].value = std::log(0.8);
+  for (const char* name : {"sa", "sz"}) values.push_back({0, name, 0.5});
   const auto f =
       forces_after(learned_axes_effect(),
-                   test::press_along({{-2e-3, 0, -1.4e-3}, {1.4e-3, 1e-3, 1.4e-3}}), values);
-  EXPECT_NEAR((f[0] - Vec3(0.5 * 0.4, 0, 0.8 * 0.28)).norm(), 0, 1e-12);
-  EXPECT_NEAR((f[1] - Vec3(-2 * 0.28, -0.2, -0.8 * 0.28)).norm(), 0, 1e-12);
+                   test::press_along({{-1.5e-3, 2e-3, -1.75e-3}, {0, 0, 1.75e-3}}), values);
+  EXPECT_NEAR((f[0] - Vec3(0.15, -0.2, 0.8 * 0.35)).norm(), 0, 1e-12);
+  EXPECT_NEAR((f[1] - Vec3(0, 0, -0.8 * 0.35)).norm(), 0, 1e-12);
 }
 
 // 0.05 s behind a ramp and a hold; the low pass's memory fades within a sample.
