@@ -110,8 +110,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
       doubt_what_places_share(base, g, folds, options.gates, d.findings))
     put_in_order(d.findings);
   if (!few_presses) {
-    doubt_other_sizes(base, g, folds, d);
-    curves_for_doubted(base, g, folds, options, d);
+    while (doubt_one(base, g, folds, d)) curves_for_doubted(base, g, folds, options, d);
     doubt_beside_curves(base, g, folds, d);
   }
   const bool ambiguous = !d.rivals.empty();

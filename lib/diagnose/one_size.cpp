@@ -113,42 +113,18 @@ std::string words_of(const SizeSpread& spread) {
                      100 * spread.share, spread.among);
 }
 
-double square(double x) {
-  return x * x;
-}
-
-bool is_claimed(const Finding& f, const Baseline& base) {
-  return f.verdict == Verdict::kMissing && claims_a_size(f.effect) &&
-         base.fitted.model.has(f.effect);
-}
-
-// The first that takes less away, with all of its terms, than is left beyond noise in the end.
-Finding* outweighed(const Baseline& base, const TrialGround& g, std::vector<Finding>& findings) {
-  const double left = square(base.fitted.error.pooled) - square(g.allowance.noise);
-  for (Finding& f : findings) {
-    if (!is_claimed(f, base)) continue;
-    double taken = 0;
-    for (const Finding& term : findings)
-      if (term.effect == f.effect && term.verdict == Verdict::kMissing)
-        taken += square(term.rmse_now.pooled) - square(term.rmse_after.pooled);
-    if (taken < left) return &f;
+// The last of the missing effects whose size differs by more than it may: what was found before it
+// may differ because of its form.
+const Finding* of_other_sizes(const Baseline& base, const TrialGround& g,
+                              const std::vector<Finding>& findings, SizeSpread& spread) {
+  for (auto f = findings.rbegin(); f != findings.rend(); ++f) {
+    if (f->verdict != Verdict::kMissing || !claims_a_size(f->effect) ||
+        !base.fitted.model.has(f->effect))
+      continue;
+    spread = size_spread(f->effect, base.fitted, g);
+    if (spread.share > kOneSize) return &*f;
   }
   return nullptr;
-}
-
-// The missing effect whose size differs most, and more than it may.
-Finding* worst(const Baseline& base, const TrialGround& g, std::vector<Finding>& findings,
-               SizeSpread& most) {
-  Finding* found = nullptr;
-  most.share = kOneSize;
-  for (Finding& f : findings) {
-    if (!is_claimed(f, base)) continue;
-    const SizeSpread spread = size_spread(f.effect, base.fitted, g);
-    if (spread.share <= most.share) continue;
-    most = spread;
-    found = &f;
-  }
-  return found;
 }
 
 void doubt_rivals(const TrialGround& g, Diagnosis& d) {
@@ -168,28 +144,49 @@ void doubt_rivals(const TrialGround& g, Diagnosis& d) {
 
 }  // namespace
 
-void doubt_other_sizes(Baseline& base, const TrialGround& g, const Folds& folds, Diagnosis& d) {
+const Finding* outweighed(const Baseline& base, const TrialGround& g,
+                          const std::vector<Finding>& findings) {
+  const auto square = [](double x) { return x * x; };
+  const double left = square(base.fitted.error.pooled) - square(g.allowance.noise);
+  for (auto f = findings.rbegin(); f != findings.rend(); ++f) {
+    const EffectCard& card = require_effect(f->effect).card();
+    if (f->verdict != Verdict::kMissing || card.is_map || card.is_field ||
+        !base.fitted.model.has(f->effect))
+      continue;
+    double taken = 0;
+    for (const Finding& term : findings)
+      if (term.effect == f->effect && term.verdict == Verdict::kMissing)
+        taken += square(term.rmse_now.pooled) - square(term.rmse_after.pooled);
+    if (taken < left) return &*f;
+  }
+  return nullptr;
+}
+
+bool doubt_one(Baseline& base, const TrialGround& g, const Folds& folds, Diagnosis& d) {
   const bool ambiguous = !d.rivals.empty();
   const LeftOver left = ambiguous ? d.left : left_over(base.fitted, g);
-  if (left.noise_alone() || left.error < kLikeNoise) return;
-  if (ambiguous) doubt_rivals(g, d);
-  SizeSpread spread;
-  while (d.rivals.empty()) {
-    Finding* f = outweighed(base, g, d.findings);
-    const bool by_weight = f != nullptr;
-    if (!by_weight) f = worst(base, g, d.findings, spread);
-    if (f == nullptr) break;
-    const std::string effect = f->effect;
-    const std::string why = by_weight ? "more is left than it takes away" : words_of(spread);
-    Model lesser = base.fitted.model;
-    remove_effect(lesser, effect);
-    Baseline without = make_baseline(lesser, g, folds);
-    if (!without.fitted.converged) break;
-    base = std::move(without);
-    for (Finding& each : d.findings)  // with all of its terms
-      if (each.effect == effect && each.verdict == Verdict::kMissing) doubt(why, each);
+  if (left.noise_alone() || left.error < kLikeNoise) return false;
+  if (ambiguous) {
+    doubt_rivals(g, d);
+    put_in_order(d.findings);
+    return d.rivals.empty();
   }
+  SizeSpread spread;
+  const Finding* f = outweighed(base, g, d.findings);
+  const bool by_weight = f != nullptr;
+  if (!by_weight) f = of_other_sizes(base, g, d.findings, spread);
+  if (f == nullptr) return false;
+  const std::string effect = f->effect;
+  const std::string why = by_weight ? "more is left than it takes away" : words_of(spread);
+  Model lesser = base.fitted.model;
+  remove_effect(lesser, effect);
+  Baseline without = make_baseline(lesser, g, folds);
+  if (!without.fitted.converged) return false;
+  base = std::move(without);
+  for (Finding& each : d.findings)  // with all of its terms
+    if (each.effect == effect && each.verdict == Verdict::kMissing) doubt(why, each);
   put_in_order(d.findings);
+  return true;
 }
 
 }  // namespace hapsim

@@ -24,12 +24,17 @@ struct SizeSpread {
 // is in the model.
 SizeSpread size_spread(const std::string& effect, const Fit& fitted, const TrialGround& ground);
 
+// The last finding that is missing and takes less away, with all of its terms, than `base`, the
+// model with all of them, leaves beyond noise (squares); null: none. It may stand for anything, as
+// a name or as a curve of no law; of maps and fields nothing is said.
+const Finding* outweighed(const Baseline& base, const TrialGround& ground,
+                          const std::vector<Finding>& findings);
+
 // Where `base`, the model with all that is missing, or with the best of the rivals, leaves more
-// than noise: names that take less away than is left, and then those whose size differs by more
-// than kOneSize, the worst first, become possible, and `base` is without them; rivals do where that
-// is so of the sizes of all of them, for a set with the truth in it
-// is true. Curves of no law and maps claim no size. d.rivals, d.findings and
-// `base` as the search leaves them.
-void doubt_other_sizes(Baseline& base, const TrialGround& ground, const Folds& folds, Diagnosis& d);
+// than noise: the last that takes less away than is left (outweighed()), else the last name whose
+// size differs by more than kOneSize, becomes possible, and `base` is without it; rivals do where
+// the sizes of all of them differ so, for a set with the truth in it is true. Curves of no law and
+// maps claim no size. d.rivals, d.findings and `base` as the search leaves them. Whether any did.
+bool doubt_one(Baseline& base, const TrialGround& ground, const Folds& folds, Diagnosis& d);
 
 }  // namespace hapsim

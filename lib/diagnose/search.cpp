@@ -6,6 +6,7 @@
 #include "diagnose/beside_rivals.h"
 #include "diagnose/held_out.h"
 #include "diagnose/left_over.h"
+#include "diagnose/one_size.h"
 #include "diagnose/probability.h"
 #include "diagnose/rivals_together.h"
 #include "diagnose/round_winner.h"
@@ -61,7 +62,7 @@ void take_simpler(Baseline& base, const TrialGround& g, const Folds& folds,
         require_effect(earlier.effect).card().contains.empty())
       continue;
     options.tell("in the place of " + earlier.effect);
-    auto simpler = simpler_in_place(earlier.effect, base, g, folds, options.gates);
+    auto simpler = simpler_in_place(earlier.effect, options.unknown, base, g, folds, options.gates);
     if (!simpler) continue;
     base = std::move(simpler->base);
     earlier.effect = simpler->candidate.effect->card().name;
@@ -199,8 +200,9 @@ void search_from(Kind kind, Rivals rivals_may, Baseline& base, const TrialGround
     Round& round = last[static_cast<std::size_t>(kind)];
     round = try_all(kind, base, g, folds, options, random);
     const std::size_t best = best_of(round, options.gates, can_hold_out);
+    // Curves state no cause: the best of them stands, and others that pass are told with it.
     const std::vector<std::size_t> rivals =
-        best == round.findings.size()
+        best == round.findings.size() || kind == Kind::kLearned
             ? std::vector<std::size_t>{}
             : best_and_rivals(round, best, g, options.gates, can_hold_out);
     if (best == round.findings.size() || none_of_many(round, rivals, g)) {
@@ -284,17 +286,6 @@ LeftOver left_of(const Baseline& base, const TrialGround& g, const Diagnosis& d)
   return d.rivals.empty() ? left_over(base.fitted, g) : d.left;
 }
 
-// Curves are missing, or cannot be told from each other.
-bool ends_in_curves(const Diagnosis& d) {
-  bool any = false;
-  for (const Finding& f : d.findings) {
-    const bool learned = require_effect(f.effect).card().learned;
-    if (f.verdict == Verdict::kIndistinguishable && !learned) return false;
-    any = any || (is_settled(f) && learned);
-  }
-  return any;
-}
-
 constexpr double kAsLittle = 1.1;  // an unseen error over another that counts as no larger
 
 // A value of each press follows whatever differs from press to press and foretells no other one.
@@ -345,7 +336,9 @@ void curves_for_doubted(Baseline& base, const TrialGround& g, const Folds& folds
   Baseline learned_base = base;
   Diagnosis learned;
   search_from(Kind::kLearned, Rivals::kEnd, learned_base, g, folds, options, learned);
-  if (!learned.rivals.empty() || !any_missing(learned, is_learned)) return;
+  if (!learned.rivals.empty() || !any_missing(learned, is_learned) ||
+      outweighed(learned_base, g, learned.findings) != nullptr)
+    return;
   for (Finding& f : d.findings)
     if (f.curve.empty()) f.doubted = false;  // it need not be added for what it foretells
   for (const Finding& found : learned.findings) {
@@ -376,7 +369,7 @@ void search(Baseline& base, const TrialGround& g, const Folds& folds,
   const bool crowd = d.rivals.empty() && names >= kCrowd;
   if ((explained && !offsets && !crowd) || names == 0 || folds.held_out.empty()) return;
   search_from(Kind::kLearned, Rivals::kGoOn, other_base, g, folds, options, other);
-  if (!ends_in_curves(other)) return;
+  if (!any_missing(other, is_learned)) return;
   const double now = unseen_error(base, d), then = unseen_error(other_base, other);
   const bool fewer =
       crowd && count_of(other) < names && left_of(other_base, g, other).noise_alone();

@@ -52,9 +52,9 @@ std::optional<Baseline> without_superfluous(const std::string& effect, const Bas
   return without;
 }
 
-std::optional<Simpler> simpler_in_place(const std::string& effect, const Baseline& base,
-                                        const TrialGround& g, const Folds& folds,
-                                        const Gates& gates) {
+std::optional<Simpler> simpler_in_place(const std::string& effect, const std::string& unknown,
+                                        const Baseline& base, const TrialGround& g,
+                                        const Folds& folds, const Gates& gates) {
   const EffectCard& card = require_effect(effect).card();
   if (card.is_map || card.is_field || card.contains.empty()) return std::nullopt;
   Model lesser = base.fitted.model;
@@ -68,6 +68,7 @@ std::optional<Simpler> simpler_in_place(const std::string& effect, const Baselin
                             require_effect(b).card().parameters.size();
                    });
   for (const std::string& name : simplest_first) {
+    if (name == unknown) continue;
     std::string lack;
     const std::optional<Candidate> candidate = try_effect(require_effect(name), without, g, lack);
     if (!candidate || errs_plainly_more(candidate->fitted, base)) continue;

@@ -20,11 +20,10 @@ struct Simpler {
   Measured measured;  // beside the model without either
   Baseline base;
 };
-// What `effect` contains as a special case in its place, the first of the card's list beside which
-// `effect` fails those gates. Nothing when it is needed as it is; not of maps, nor of what is
-// learned, which states no cause.
-std::optional<Simpler> simpler_in_place(const std::string& effect, const Baseline& base,
-                                        const TrialGround& ground, const Folds& folds,
-                                        const Gates& gates);
+// What `effect` contains as a special case in its place, the simplest beside which `effect` fails
+// those gates; not `unknown`. Nothing when it is needed as it is; not of maps and fields.
+std::optional<Simpler> simpler_in_place(const std::string& effect, const std::string& unknown,
+                                        const Baseline& base, const TrialGround& ground,
+                                        const Folds& folds, const Gates& gates);
 
 }  // namespace hapsim

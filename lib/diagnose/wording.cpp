@@ -222,8 +222,8 @@ std::string doubted_words(const Diagnosis& d) {
       names += (names.empty() ? "" : ", ") + f.effect;
   return names.empty() ? ""
                        : " " + names +
-                             " would take a part of it away, but not with one size in the whole "
-                             "recording: that is no name of the cause.";
+                             " would take a part of it away, but less than is left, or not with "
+                             "one size in the whole recording: that is no name of the cause.";
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ TEST(OneSize, SuchANameIsPossibleAtMostAndLeavesTheModel) {
   const Folds folds = make_folds(w.dataset, 6);
   Baseline base = make_baseline(kWithOneTerm, ground, folds);
   Diagnosis d = with_finding("viscoelastic", Verdict::kMissing);
-  doubt_other_sizes(base, ground, folds, d);
+  doubt_one(base, ground, folds, d);
   EXPECT_EQ(d.findings.front().verdict, Verdict::kPossible);
   EXPECT_TRUE(d.findings.front().doubted);
   EXPECT_NE(d.findings.front().evidence.find("its size differs"), std::string::npos);
@@ -99,7 +99,7 @@ TEST(OneSize, WhatTakesLessThanIsLeftIsNotStoodBy) {
   for (const double taken : {0.02, 0.06}) {
     Baseline base = make_baseline(kWithOneTerm, ground, folds);
     Diagnosis d = with_finding("viscoelastic", Verdict::kMissing, taken);
-    doubt_other_sizes(base, ground, folds, d);
+    doubt_one(base, ground, folds, d);
     const bool less = taken < 0.05 / std::sqrt(2);
     EXPECT_EQ(d.findings.front().verdict, less ? Verdict::kPossible : Verdict::kMissing);
     EXPECT_EQ(base.fitted.model.has("viscoelastic"), !less);
@@ -113,7 +113,7 @@ TEST(OneSize, WhatLeavesNoMoreThanNoiseIsStoodBy) {
   const Folds folds = make_folds(w.dataset, 6);
   Baseline base = make_baseline(kWithOneTerm, ground, folds);
   Diagnosis d = with_finding("viscoelastic", Verdict::kMissing);
-  doubt_other_sizes(base, ground, folds, d);
+  doubt_one(base, ground, folds, d);
   EXPECT_EQ(d.findings.front().verdict, Verdict::kMissing);
   EXPECT_TRUE(base.fitted.model.has("viscoelastic"));
 }
