@@ -110,7 +110,9 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
       doubt_what_places_share(base, g, folds, options.gates, d.findings))
     put_in_order(d.findings);
   if (!few_presses) {
-    while (doubt_one(base, g, folds, d)) curves_for_doubted(base, g, folds, options, d);
+    // What is found beside a curve may be doubted in turn, and so on, but not for ever.
+    for (int k = 0; doubt_one(base, g, folds, d); ++k)
+      if (k < options.gates.most_effects) curves_for_doubted(base, g, folds, options, d);
     doubt_beside_curves(base, g, folds, d);
   }
   const bool ambiguous = !d.rivals.empty();

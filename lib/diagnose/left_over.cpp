@@ -203,9 +203,8 @@ std::string words_of(const LeftOver& left) {
   if (left.kind == kDirection)
     return fmt::format(
         "{}, and it goes with the direction and the size of the force, alike at all positions: "
-        "look "
-        "at what gives way or holds in some directions only (friction, a support that slides), and "
-        "at the axes of the sensor and of the motion, before the body",
+        "look at what gives way or holds in some directions only (friction, a support that "
+        "slides), and at the axes of the sensor and of the motion, before the body",
         much);
   if (left.kind == kPress)
     return fmt::format(

@@ -60,8 +60,8 @@ Course course_of(const Episode& e) {
   return c;
 }
 
-constexpr double kNear =
-    0.7;  // of two lengths or times that count as one, the smaller over the other
+// Of two lengths or times that count as one, the smaller over the other.
+constexpr double kNear = 0.7;
 
 // But for its times.
 bool alike(const Course& a, const Course& b) {

@@ -65,9 +65,8 @@ class LearnedAxes : public Effect {
         .title = "forces grow by laws of their own along z and across it, everywhere alike",
         .equation =
             "(fx, fy) = (fx, fy)_true exp(P(|(fx, fy)_true| / sa)), fz = fz_true exp(Q(|fz_true| / "
-            "sz)), P and Q cubic splines through a0 to a3, and 0 and z1 to z3, at 0, 0.35, 0.7 and "
-            "1; "
-            "z is that of the recording",
+            "sz)), P and Q cubic splines at 0, 0.35, 0.7 and 1 through a0 to a3, and through 0 and "
+            "z1 to z3; z is that of the recording",
         .source =
             "regression splines (Hastie, Tibshirani and Friedman, The Elements of "
             "Statistical Learning, 5.2)",

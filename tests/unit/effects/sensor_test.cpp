@@ -74,7 +74,8 @@ TEST(SensorCurve, BendsEachAxisOddly) {
 // Halved across z at its largest force, 0.8 times along it at 0.7 of that.
 TEST(LearnedAxes, AcrossAndAlongZHaveCurvesOfTheirOwn) {
   Values values;
-  for (const char* name : {"a0", "a1", "a2", "a3", "z1", "z2", "z3"}) values.push_back({0, name, 0});
+  for (const char* name : {"a0", "a1", "a2", "a3", "z1", "z2", "z3"})
+    values.push_back({0, name, 0});
   values[3].value = std::log(0.5);
   values[5].value = std::log(0.8);
   for (const char* name : {"sa", "sz"}) values.push_back({0, name, 0.5});
