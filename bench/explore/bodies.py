@@ -41,7 +41,7 @@ BODIES = [
     ("block-nothing", "block", "", []),
     ("phantom-relaxing-bias", "phantom", RELAXING + BIAS, ["viscoelastic", "sensor-bias"]),
     ("block-fibres", "block", rows("anisotropic", ratio=2, shear=1, tilt=1.4, azimuth=0.3), ["anisotropic"]),
-    ("organ-damper", "organ", rows("damper", c=35, body=0), ["damper"]),
+    ("organ-damper", "organ", rows("damper", c=35, tau=0), ["damper"]),
     ("block-lump-deep", "block", lump(-0.025, -0.012, 0.026, 0.008, 8), (-0.025, -0.012, 0.026)),
     ("phantom-skin", "phantom", rows("layer", thickness=0.002, ratio=4), ["layer"]),
     ("organ-bias", "organ", BIAS, ["sensor-bias"]),

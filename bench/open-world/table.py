@@ -22,8 +22,7 @@ SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time
         "press-direction": "direction", "direction": "direction axes", "learned-depth": "depth",
         "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",
         "learned-place": "place", "learned-axes": "direction axes", "press": "session order"}
-
-
+# What acts beside a cause, and the curve that contains it (the effects' cards).
 CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
 
 

@@ -133,7 +133,7 @@ inline std::vector<std::string> gates_in_words() {
       "curves that have no law are tried and judged in the same way: over the depth "
       "(learned-depth), the force along z and across it (learned-axes), the time since the tool "
       "moved (learned-kernel) and the session (learned-drift, learned-gain); learned-place stands "
-      "beside the named ones. Such a name states no cause: "
+      "beside the named ones. Of several that pass the best is told. Such a name states no cause: "
       "it says of what kind the cause is, what it does, and by how much the unseen error falls "
       "with it; a name over the same thing that needs such a curve beside it has not the cause's "
       "form and is possible only. Where all names together leave more than noise, such curves are "

@@ -252,8 +252,11 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
       left.strained &&
       left.error * left.error - left.beside_gains * left.beside_gains > 0.5 * all_of_it;
   if (!by_gains) left.kind = "left";
-  if (left.kind == kBody && is_one_law(residual, f, g)) left.kind = kDirection;
-  if (left.kind == kBody && is_by_press(residual, f, g)) left.kind = kPress;
+  if (left.kind == kBody) {
+    const Account account = account_of(residual, f, g);
+    if (account == Account::kOneLaw) left.kind = kDirection;
+    if (account == Account::kPresses) left.kind = kPress;
+  }
   std::string also;
   if (left.structured && left.beside_gains > kLikeNoise) {
     const Observation seen = first_observation(f, by_gains ? p.beside : residual, g);

@@ -39,10 +39,6 @@ Taken taken_by_places(const Eigen::VectorXd& residual, const Eigen::VectorXd& fo
   return all;
 }
 
-bool is_most(const Taken& part, const Eigen::VectorXd& residual, double noise) {
-  return part.beyond(noise) > 0.9 * Taken{residual.squaredNorm(), residual.size()}.beyond(noise);
-}
-
 // v where it is longer than `from`, less that.
 Vec3 beyond(const Vec3& v, double from) {
   const double size = v.norm();
@@ -90,32 +86,33 @@ Eigen::MatrixXd law_columns(const Eigen::VectorXd& forces, const Dataset& datase
   return columns;
 }
 
-}  // namespace
-
-bool is_one_law(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
-                const TrialGround& g) {
-  constexpr double kAsMuch = 0.96;
-  const double noise = g.allowance.noise;
-  const Taken by_law = taken(law_columns(forces, g.dataset), residual);
-  const Taken by_place = taken_by_places(residual, forces, g.dataset);
-  return by_law.numbers < by_place.numbers && is_most(by_law, residual, noise) &&
-         by_law.beyond(noise) > kAsMuch * by_place.beyond(noise);
-}
-
-bool is_by_press(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
-                 const TrialGround& g) {
-  constexpr double kPlainlyMore = 1.2;
-  const double noise = g.allowance.noise;
-  Taken by_press;
+Taken taken_by_presses(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                       const Dataset& dataset) {
+  Taken all;
   Eigen::Index at = 0;
-  for (const Episode& e : g.dataset.episodes) {
+  for (const Episode& e : dataset.episodes) {
     const auto size = 3 * static_cast<Eigen::Index>(e.rows.size());
-    by_press += taken(forces.segment(at, size), residual.segment(at, size));
+    all += taken(forces.segment(at, size), residual.segment(at, size));
     at += size;
   }
-  return is_most(by_press, residual, noise) &&
-         by_press.beyond(noise) >
-             kPlainlyMore * taken_by_places(residual, forces, g.dataset).beyond(noise);
+  return all;
+}
+
+}  // namespace
+
+Account account_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                   const TrialGround& g) {
+  constexpr double kMost = 0.9, kAsMuch = 0.96, kPlainlyMore = 1.2;
+  const double noise = g.allowance.noise;
+  const double most = kMost * Taken{residual.squaredNorm(), residual.size()}.beyond(noise);
+  const Taken places = taken_by_places(residual, forces, g.dataset);
+  const double presses = taken_by_presses(residual, forces, g.dataset).beyond(noise);
+  if (presses > most && presses > kPlainlyMore * places.beyond(noise)) return Account::kPresses;
+  const Taken law = taken(law_columns(forces, g.dataset), residual);
+  if (law.numbers < places.numbers && law.beyond(noise) > most &&
+      law.beyond(noise) > kAsMuch * places.beyond(noise))
+    return Account::kOneLaw;
+  return Account::kPlaces;
 }
 
 }  // namespace hapsim

@@ -8,18 +8,17 @@
 
 namespace hapsim {
 
-// Whether a law that is the same at all positions takes nine tenths of `residual`, and as much as a
-// stiffness of each position does (six gains each, experiment/weights.h; 0.96 of it: bodies that
-// differ by place reach 0.94), by fewer numbers: then place has no part in it. The law: each axis
-// of the recording answers to its own force by a curve of four straight pieces, and to each of the
-// others by a straight and a square part; the force along the normal and across it go by curves of
-// three straight pieces. `forces`: of the model.
-bool is_one_law(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
-                const TrialGround& ground);
+enum class Account { kPlaces, kOneLaw, kPresses };
 
-// Whether a gain of each press takes nine tenths of `residual`, and plainly more than a stiffness
-// of each position does: then it is not the place that presses differ by.
-bool is_by_press(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
-                 const TrialGround& ground);
+// kOneLaw where a law that is the same at all positions takes nine tenths of `residual`, and as
+// much as a stiffness of each position does (six gains each, experiment/weights.h; 0.96 of it:
+// bodies that differ by place reach 0.94), by fewer numbers: then place has no part in it. The law:
+// each axis of the recording answers to its own force by a curve of four straight pieces, and to
+// each of the others by a straight and a square part; the force along the normal and across it go
+// by curves of three straight pieces. kPresses where a gain of each press takes nine tenths, and
+// 1.2 times what the positions do: then it is not the place that presses differ by. `forces`: of
+// the model.
+Account account_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                   const TrialGround& ground);
 
 }  // namespace hapsim

@@ -19,9 +19,7 @@ class MotionRotation : public Effect {
             "1989",
         .assumptions =
             "the same rotation during the whole session; places and forces are not turned",
-        .parameters = {{"rx", "rad", "rotation about x", 0, 0, -1, 1, 0.02, false},
-                       {"ry", "rad", "rotation about y", 0, 0, -1, 1, 0.02, false},
-                       {"rz", "rad", "rotation about z", 0, 0, -1, 1, 0.02, false}},
+        .parameters = Turn::parameters(),
         .like_shape = true,
         .signature = "sideways forces where the motion is straight, alike at all places",
         .confounders = {"sensor-rotation", "shift", "anisotropic", "sensor-crosstalk"},

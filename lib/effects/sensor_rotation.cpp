@@ -16,9 +16,7 @@ class SensorRotation : public Effect {
         .equation = "f = R f_true, R = exp([r]x): turned about r by |r|",
         .source = "rotation vector: Euler-Rodrigues formula",
         .assumptions = "the same rotation during the whole session; displacements are not turned",
-        .parameters = {{"rx", "rad", "rotation about x", 0, 0, -1, 1, 0.02, false},
-                       {"ry", "rad", "rotation about y", 0, 0, -1, 1, 0.02, false},
-                       {"rz", "rad", "rotation about z", 0, 0, -1, 1, 0.02, false}},
+        .parameters = Turn::parameters(),
         .like_shape = true,
         .signature =
             "sideways forces in the proportion of the normal force, turned everywhere alike",

@@ -14,6 +14,12 @@ Eigen::Matrix3d cross(const Vec3& w) {
 
 }  // namespace
 
+std::vector<ParameterCard> Turn::parameters() {
+  return {{"rx", "rad", "rotation about x", 0, 0, -1, 1, 0.02, false},
+          {"ry", "rad", "rotation about y", 0, 0, -1, 1, 0.02, false},
+          {"rz", "rad", "rotation about z", 0, 0, -1, 1, 0.02, false}};
+}
+
 Turn::Turn(const Values& values, const EffectCard& card) {
   Vec3 w;
   for (int k = 0; k < 3; ++k) {

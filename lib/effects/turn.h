@@ -8,6 +8,7 @@ namespace hapsim {
 
 class Turn {
  public:
+  static std::vector<ParameterCard> parameters();
   Turn(const Values& values, const EffectCard& card);
   const Eigen::Matrix3d& R() const { return R_; }
 
