@@ -17,7 +17,7 @@ import sys
 
 # Of hs-compare's words and of curves without a law: what each says of a cause. An offset, pressed or not, is the
 # sensor's zero; what goes with the session is time.
-SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time": "time session", "contact-time": "history",
+SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time": "time session", "contact-time": "history", "history": "history", "reading": "depth axes",
         "phase": "history", "cycle": "order", "rate": "speed", "position": "place", "body": "place", "place": "place",
         "press-direction": "direction", "direction": "direction axes", "learned-depth": "depth",
         "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",

@@ -25,6 +25,9 @@ struct Grouping {
   std::vector<int> bin;  // of each row, -1: none (kRows)
 };
 
+// Name of the grouping by temperature, which is an effect's name too.
+inline constexpr const char* kByTemperature = "temperature";
+
 // All groupings the recording allows: position, depth, rate, contact-time, session-time, direction
 // (components), press-direction, cycle (first or later press of a place), temperature, phase
 // (loading, hold, unloading, not pressed). Depth bins hold about equally many rows, bounds rounded;

@@ -25,7 +25,7 @@ std::string opening(const std::string& name) {
   if (name == "direction") return "The error depends on the force's direction";
   if (name == "press-direction") return "The error depends on which way the tool moves";
   if (name == "cycle") return "The error differs between first and later presses of a place";
-  if (name == "temperature") return "The error changes with the temperature";
+  if (name == kByTemperature) return "The error changes with the temperature";
   return "The error differs between loading, hold and unloading";
 }
 
@@ -35,7 +35,7 @@ std::string where(const Grouping& grouping, int bin) {
   if (grouping.name == "contact-time" && label.rfind("in the first", 0) == 0)
     return label + " of each press";
   if (std::isdigit(static_cast<unsigned char>(label[0])))
-    return (grouping.name == "depth" || grouping.name == "rate" || grouping.name == "temperature"
+    return (grouping.name == "depth" || grouping.name == "rate" || grouping.name == kByTemperature
                 ? "at "
                 : "from ") +
            label;

@@ -140,7 +140,7 @@ Grouping by_temperature(const RowFacts& facts) {
     if (bound > sorted.front() && (bounds.empty() || bound > bounds.back()))
       bounds.push_back(bound);
   }
-  return ranged("temperature", "By temperature", facts, facts.temperature, bounds,
+  return ranged(kByTemperature, "By temperature", facts, facts.temperature, bounds,
                 {"degC", 1, "below", "above"});
 }
 

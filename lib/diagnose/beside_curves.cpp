@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "diagnose/in_place.h"
+#include "diagnose/left_over.h"
 #include "diagnose/search.h"
 #include "effects/catalogue.h"
-#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -21,6 +22,18 @@ std::string curve_beside(const std::string& name, const std::vector<Finding>& fi
   return "";
 }
 
+// Of `effect` with all of its terms. `foretells`: what it takes away is taken by nothing else.
+void doubt_form(const std::string& effect, const std::string& curve, const std::string& why,
+                bool foretells, std::vector<Finding>& findings) {
+  for (Finding& each : findings) {
+    if (each.effect != effect || each.verdict != Verdict::kMissing) continue;
+    each.verdict = Verdict::kPossible;
+    each.doubted = foretells;
+    each.curve = curve;
+    each.evidence += "; " + why + ": its form is not the cause's";
+  }
+}
+
 }  // namespace
 
 void doubt_beside_curves(Baseline& base, const TrialGround& g, const Folds& folds, Diagnosis& d) {
@@ -30,18 +43,38 @@ void doubt_beside_curves(Baseline& base, const TrialGround& g, const Folds& fold
     if (f.verdict != Verdict::kMissing || require_effect(f.effect).card().learned) continue;
     const std::string effect = f.effect, curve = curve_beside(effect, d.findings);
     if (curve.empty()) continue;
-    Model lesser = base.fitted.model;
-    remove_effect(lesser, effect);
-    Baseline without = make_baseline(lesser, g, folds);
+    Baseline without = without_effect(effect, base, g, folds);
     if (!without.fitted.converged) continue;
     base = std::move(without);
-    for (Finding& each : d.findings) {  // with all of its terms
-      if (each.effect != effect || each.verdict != Verdict::kMissing) continue;
-      each.verdict = Verdict::kPossible;
-      each.doubted = true;
-      each.curve = curve;
-      each.evidence += "; beside it " + curve + " is needed: its form is not the cause's";
-    }
+    doubt_form(effect, curve, "beside it " + curve + " is needed", true, d.findings);
+  }
+  put_in_order(d.findings);
+}
+
+void curves_for_laws(Baseline& base, const TrialGround& g, const Folds& folds,
+                     const DiagnoseOptions& options, Diagnosis& d) {
+  if (!d.rivals.empty() || left_over(base.fitted, g).noise_alone()) return;
+  std::vector<std::string> names;
+  for (auto f = d.findings.rbegin(); f != d.findings.rend(); ++f)
+    if (f->verdict == Verdict::kMissing && std::count(names.begin(), names.end(), f->effect) == 0)
+      names.push_back(f->effect);
+  for (const std::string& effect : names) {
+    options.tell("a curve in the place of " + effect);
+    std::optional<InPlace> found =
+        curve_in_place(effect, options.unknown, base, g, folds, options.gates);
+    if (!found) continue;
+    const auto first = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
+      return f.effect == effect && f.verdict == Verdict::kMissing;
+    });
+    Finding curve = *first;
+    describe_in_place(*found, g.dataset, curve);
+    curve.rmse_after = found->base.fitted.error;
+    curve.held_out_after = found->candidate.held_out.error;
+    doubt_form(effect, curve.effect, curve.effect + " errs less on what is unseen", false,
+               d.findings);
+    std::erase_if(d.findings, [&](const Finding& f) { return f.effect == curve.effect; });
+    d.findings.push_back(curve);
+    base = std::move(found->base);
   }
   put_in_order(d.findings);
 }

@@ -1,4 +1,4 @@
-// Names of laws beside a curve over the same thing.
+// Names of laws against curves over the same thing.
 #pragma once
 
 #include "diagnose/candidate.h"
@@ -12,5 +12,11 @@ namespace hapsim {
 // ask for them too; nor where rivals are left. d.findings and `base` as the search leaves them.
 void doubt_beside_curves(Baseline& base, const TrialGround& ground, const Folds& folds,
                          Diagnosis& d);
+
+// Where all that is missing leaves more than noise, a law is believed only if no curve over the
+// same thing errs less on what is unseen (curve_in_place()): that one is missing then, the name
+// possible, and `base` with the curve instead. The last that was found comes first.
+void curves_for_laws(Baseline& base, const TrialGround& ground, const Folds& folds,
+                     const DiagnoseOptions& options, Diagnosis& d);
 
 }  // namespace hapsim

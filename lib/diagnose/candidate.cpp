@@ -79,6 +79,13 @@ Baseline make_baseline(const Model& model, const TrialGround& g, const Folds& fo
   return base;
 }
 
+Baseline without_effect(const std::string& effect, const Baseline& base, const TrialGround& g,
+                        const Folds& folds) {
+  Model lesser = base.fitted.model;
+  remove_effect(lesser, effect);
+  return make_baseline(lesser, g, folds);
+}
+
 bool worth_a_fit(const Effect& effect, const Baseline& base, const TrialGround& g) {
   constexpr double kShare = 0.5;  // of the price
   const EffectCard& card = effect.card();

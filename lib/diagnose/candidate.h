@@ -31,6 +31,9 @@ struct Candidate {
 };
 
 Baseline make_baseline(const Model& model, const TrialGround& ground, const Folds& folds);
+// Without `effect` and all of its terms, refitted.
+Baseline without_effect(const std::string& effect, const Baseline& base, const TrialGround& ground,
+                        const Folds& folds);
 // Whether an effect is worth a fit: of one that is `screened`, whether what its starts change and
 // their derivatives, in any proportion, take away half of what its parameters cost (the information
 // criterion's log n each) from the residual. Costs one evaluation a start; chance takes some 1 a

@@ -113,6 +113,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
     // What is found beside a curve may be doubted in turn, and so on, but not for ever.
     for (int k = 0; doubt_one(base, g, folds, d); ++k)
       if (k < options.gates.most_effects) curves_for_doubted(base, g, folds, options, d);
+    curves_for_laws(base, g, folds, options, d);
     doubt_beside_curves(base, g, folds, d);
   }
   const bool ambiguous = !d.rivals.empty();
@@ -120,7 +121,10 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;
   if (few_presses || !ambiguous) d.left = left_over(base.fitted, g);
-  if (!few_presses && !ambiguous && !d.left.noise_alone()) blame_odd_presses(base.fitted, g, d);
+  if (!few_presses && !d.left.noise_alone()) {
+    tell_kinds(ambiguous ? as_it_is(d.rivals.front(), g.experiment) : base.fitted, g, d.left);
+    if (!ambiguous) blame_odd_presses(base.fitted, g, d);
+  }
   d.torque = torque_left(base.fitted, g);
   d.marker = marker_left(base.fitted, g, options.markers);
   const bool missing =

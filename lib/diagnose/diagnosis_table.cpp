@@ -188,7 +188,10 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
   j["left"] = {{"kind", d.left.kind},
                {"error_over_noise", d.left.error},
                {"strain", d.left.strain},
-               {"common", d.left.common}};
+               {"common", d.left.common},
+               {"kinds", nlohmann::json::array()}};
+  for (const LeftKind& k : d.left.kinds)
+    j["left"]["kinds"].push_back({{"kind", k.kind}, {"share", k.share}});
   j["odd_presses"] = d.odd_presses;
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));

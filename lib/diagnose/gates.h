@@ -42,7 +42,7 @@ inline constexpr double kNoRival = 50, kLikeWhite = 1.5;
 
 // An effect whose size differs by more between parts of one recording (root mean square, beyond
 // chance), where more than noise is left, stands for something else.
-inline constexpr double kOneSize = 0.2;
+inline constexpr double kOneSize = 0.25;
 
 // Fewer presses have too few signs to flip (five, and all with one sign, are 1/16 by chance); sets
 // of effects are then judged by what the first parts of the presses foretell of the rest, whose
@@ -119,7 +119,11 @@ inline std::vector<std::string> gates_in_words() {
           "from the body, unless a law of the force's direction and size that is the same at all "
           "positions takes as much, by fewer numbers, or a gain of each press takes more; the rest "
           "is told as hs-compare tells it, or by the frequency of a line, of the whole session or "
-          "a part of it.",
+          "a part of it. Laws of many kinds (a zero, depth, history, speed, phase, session, axes, "
+          "the "
+          "reading of each axis, place) are fitted to what is left in two thirds of the presses "
+          "and judged by the others: the share of the squares beyond noise that each foretells is "
+          "told, and the first names the kind.",
           1 / kStrained, 100 * kOneSize),
       "A few presses (at most every fourth) are told by their numbers where all that is left is "
       "theirs: the model fitted without them leaves noise alone, others at their places are as it "
@@ -136,7 +140,9 @@ inline std::vector<std::string> gates_in_words() {
       "beside the named ones. Of several that pass the best is told. Such a name states no cause: "
       "it says of what kind the cause is, what it does, and by how much the unseen error falls "
       "with it; a name over the same thing that needs such a curve beside it has not the cause's "
-      "form and is possible only. Where all names together leave more than noise, such curves are "
+      "form and is possible only, and so it is where more than noise is left and such a curve in "
+      "its place errs less on what is unseen. Where all names together leave more than noise, such "
+      "curves are "
       "tried in their place too, and stand where the unseen error is plainly less; so they are "
       "where a name is not kept, and in the place of " +
           std::to_string(kCrowd) + " names or more, where they stand if fewer of them do as well."};

@@ -12,7 +12,6 @@
 #include "diagnose/gates.h"
 #include "diagnose/left_line.h"
 #include "diagnose/measure.h"
-#include "diagnose/shared_law.h"
 #include "estimate/probability.h"
 
 namespace hapsim {
@@ -178,7 +177,8 @@ Observation first_observation(const Eigen::VectorXd& f, const Eigen::VectorXd& b
   return found.empty() ? Observation{} : found.front();
 }
 
-std::string words_of(const LeftOver& left) {
+// What it is, without what was seen beside it.
+std::string kind_in_words(const LeftOver& left) {
   const std::string much = fmt::format("{:.2g} x the noise is left", left.error);
   const std::string strain =
       fmt::format("{:.2g} times the squares that mesh and shape are allowed", left.strain);
@@ -219,6 +219,13 @@ std::string words_of(const LeftOver& left) {
   return much + " with structure";
 }
 
+std::string words_of(const LeftOver& left) {
+  std::string words = kind_in_words(left) + left.observed;
+  if (words.back() != '.') words += '.';
+  const std::string kinds = words_of(left.kinds);
+  return kinds.empty() ? words : words + " " + kinds;
+}
+
 }  // namespace
 
 LeftOver left_over(const Fit& fitted, const TrialGround& g) {
@@ -252,31 +259,41 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
       left.strained &&
       left.error * left.error - left.beside_gains * left.beside_gains > 0.5 * all_of_it;
   if (!by_gains) left.kind = "left";
-  if (left.kind == kBody) {
-    const Account account = account_of(residual, f, g);
-    if (account == Account::kOneLaw) left.kind = kDirection;
-    if (account == Account::kPresses) left.kind = kPress;
-  }
-  std::string also;
   if (left.structured && left.beside_gains > kLikeNoise) {
     const Observation seen = first_observation(f, by_gains ? p.beside : residual, g);
     if (!by_gains && !seen.kind.empty()) left.kind = seen.kind;
-    if (!seen.sentence.empty()) also = ". " + seen.sentence;
+    if (!seen.sentence.empty()) left.observed = ". " + seen.sentence;
     const LineLeft line =
         by_gains || left.kind != "left" ? LineLeft{} : find_line_left(residual, g.dataset);
     if (line.frequency > 0) {
       left.kind = kFrequency;
       const std::string when =
           line.always ? "" : fmt::format(", from {:.0f} to {:.0f} s", line.from, line.until);
-      also += fmt::format(
+      left.observed += fmt::format(
           "{} Most of it is at {:.3g} Hz{}: look at what turns, breathes or hums at that rate, or "
           "so far from a multiple of the recording's own",
-          also.empty() ? "." : "", line.frequency, when);
+          left.observed.empty() ? "." : "", line.frequency, when);
     }
   }
-  left.words = words_of(left) + also;
-  if (left.words.back() != '.') left.words += '.';
+  left.words = words_of(left);
   return left;
+}
+
+void tell_kinds(const Fit& fitted, const TrialGround& g, LeftOver& left) {
+  if (left.noise_alone()) return;
+  const Selection all = all_episodes(g.dataset);
+  const Eigen::VectorXd f = model_forces(fitted, g.experiment, all, false).f;
+  left.kinds = kinds_of(measured_forces(g.dataset, all) - f, f, g);
+  const auto is = [&](std::initializer_list<const char*> kinds) {
+    return std::find(kinds.begin(), kinds.end(), left.kind) != kinds.end();
+  };
+  if (!is({kEvent, kFrequency, "place"})) {
+    if (!left.kinds.empty())
+      left.kind = left.kinds.front().kind;
+    else if (!is({kBody, kSetUp}))
+      left.kind = "left";
+  }
+  left.words = words_of(left);
 }
 
 }  // namespace hapsim

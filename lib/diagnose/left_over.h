@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "diagnose/left_kinds.h"
 #include "diagnose/locked_events.h"
 #include "diagnose/trial_ground.h"
 #include "fit/fit.h"
@@ -32,12 +33,13 @@ struct LeftOver {
   bool strained = false;    // by all positions, by their mean or by one, beyond chance (kStrained)
   bool structured = false;  // beside the allowance: more than noise, and samples foretell samples
   LockedEvents events;      // looked for where neither is the case
-  // "": noise alone; "set-up", "body", "place" (one), "direction" (of the force, one law for all
-  // positions), "press" (a gain of each) where the allowance is strained, "event" of single samples
-  // at one part of the presses (of whole presses: Diagnosis::odd_presses), "frequency" of a line
-  // that stands out of the session or a part of it where hs-compare tells nothing, else what it
-  // tells: "depth", "contact-time", "offset", ...
+  // "": noise alone; "set-up", "body", "place" (one) where the allowance is strained, "event" of
+  // single samples at one part of the presses (of whole presses: Diagnosis::odd_presses),
+  // "frequency" of a line that stands out of the session or a part of it where hs-compare tells
+  // nothing, else what it tells: "depth", "contact-time", "offset", ...; of tell_kinds(): theirs
   std::string kind;
+  std::vector<LeftKind> kinds;  // by tell_kinds()
+  std::string observed;         // what hs-compare sees in it, and the line: sentences
 
   bool noise_alone() const { return !strained && !structured && !events.found; }
   // How much is left, of which kind, and where to look: sentences; "" of noise alone.
@@ -45,5 +47,10 @@ struct LeftOver {
 };
 
 LeftOver left_over(const Fit& fitted, const TrialGround& ground);
+
+// Adds what presses that were left out say (kinds_of()), with words. The kind becomes the first of
+// them, unless it is an event, a line or one place; "left" where they say nothing of what no gains
+// of places or of all account for.
+void tell_kinds(const Fit& fitted, const TrialGround& ground, LeftOver& left);
 
 }  // namespace hapsim

@@ -60,10 +60,8 @@ SizeSpread size_spread(const std::string& effect, const Fit& fitted, const Trial
   Model without = fitted.model;
   remove_effect(without, effect);
   const Weights weights(g.dataset, all, signal.f, g.allowance.noise, g.allowance.floor);
-  Eigen::MatrixXd own =
+  const Eigen::VectorXd change =
       signal.f - model_forces(as_it_is(without, g.experiment), g.experiment, all, false).f;
-  const Eigen::VectorXd change = own;
-  weights.whiten(own);
   Eigen::MatrixXd jacobian = signal.df;
   weights.whiten(jacobian);
   Eigen::VectorXd residual = measured_forces(g.dataset, all) - signal.f;
@@ -72,17 +70,17 @@ SizeSpread size_spread(const std::string& effect, const Fit& fitted, const Trial
   const std::vector<int> free = fitted.model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c)
     if (fitted.model.parameters[free[c]].effect != effect) others.push_back(static_cast<int>(c));
-  take_out(jacobian(Eigen::all, others), own);
-  const double size = own.squaredNorm();
   const double chance = autocorrelation_time(residual, g) * residual.squaredNorm() /
                         static_cast<double>(residual.size());
   SizeSpread spread;
-  if (!(size > 0)) return spread;
   for (const Parts& parts : parts_of(g.dataset)) {
     Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(residual.size(), parts.count);
     for (Eigen::Index i = 0; i < residual.size(); ++i)
       columns(i, parts.of[static_cast<std::size_t>(i)]) = change[i];
     weights.whiten(columns);
+    take_out(jacobian(Eigen::all, others), columns);
+    const double size = columns.squaredNorm();
+    if (!(size > 0)) continue;
     take_out(jacobian, columns);
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
     qr.setThreshold(1e-6);
@@ -178,9 +176,7 @@ bool doubt_one(Baseline& base, const TrialGround& g, const Folds& folds, Diagnos
   if (f == nullptr) return false;
   const std::string effect = f->effect;
   const std::string why = by_weight ? "more is left than it takes away" : words_of(spread);
-  Model lesser = base.fitted.model;
-  remove_effect(lesser, effect);
-  Baseline without = make_baseline(lesser, g, folds);
+  Baseline without = without_effect(effect, base, g, folds);
   if (!without.fitted.converged) return false;
   base = std::move(without);
   for (Finding& each : d.findings)  // with all of its terms

@@ -18,10 +18,10 @@ struct SizeSpread {
 // others. With d what the effect changes of the whitened forces and r what the model leaves, each
 // part b gets a size of its own, r ~ sum_b c_b d 1_b, beside all that the model's own parameters
 // follow: the squares that this takes off, less what chance takes (as many mean squares of r, of so
-// many samples as err alike, as there are parts), over those of d beside the other effects'
-// parameters. That is the score test of varying coefficients (Breusch and Pagan, Econometrica 47,
-// 1979), told as a size. Parts are presses, depths, times since the press began and axes. `effect`
-// is in the model.
+// many samples as err alike, as there are parts), over those of all the d 1_b beside the other
+// effects' parameters. That is the score test of varying coefficients (Breusch and Pagan,
+// Econometrica 47, 1979), told as a size. Parts are presses, depths, times since the press began
+// and axes. `effect` is in the model.
 SizeSpread size_spread(const std::string& effect, const Fit& fitted, const TrialGround& ground);
 
 // The last finding that is missing and takes less away, with all of its terms, than `base`, the

@@ -5,6 +5,7 @@
 
 #include "diagnose/beside_rivals.h"
 #include "diagnose/held_out.h"
+#include "diagnose/in_place.h"
 #include "diagnose/left_over.h"
 #include "diagnose/one_size.h"
 #include "diagnose/probability.h"
@@ -65,14 +66,7 @@ void take_simpler(Baseline& base, const TrialGround& g, const Folds& folds,
     auto simpler = simpler_in_place(earlier.effect, options.unknown, base, g, folds, options.gates);
     if (!simpler) continue;
     base = std::move(simpler->base);
-    earlier.effect = simpler->candidate.effect->card().name;
-    earlier.criterion_gain = simpler->measured.criterion_gain;
-    earlier.memory = simpler->measured.memory;
-    earlier.where = describe_where(simpler->candidate);
-    earlier.next_measurement = simpler->candidate.effect->card().separated_by;
-    earlier.values.clear();
-    earlier.smallest = Finding{}.smallest;
-    describe_fit(simpler->candidate, simpler->measured, g.dataset, earlier);
+    describe_in_place(*simpler, g.dataset, earlier);
     Finding& latest = d.findings.back();
     latest.rmse_after = base.fitted.error;
     latest.held_out_after = held_out_for(require_effect(latest.effect), base).error;

@@ -6,7 +6,6 @@
 #include "diagnose/measure.h"
 #include "effects/catalogue.h"
 #include "fit/learned_field.h"
-#include "model/model_edit.h"
 
 namespace hapsim {
 namespace {
@@ -15,9 +14,7 @@ namespace {
 std::optional<Baseline> as_well_by_places(const Effect& effect, const Baseline& base,
                                           const TrialGround& g, const Folds& folds,
                                           const Gates& gates) {
-  Model lesser = base.fitted.model;
-  remove_effect(lesser, effect.card().name);
-  Baseline without = make_baseline(lesser, g, folds);
+  Baseline without = without_effect(effect.card().name, base, g, folds);
   if (!without.fitted.converged) return std::nullopt;
   Candidate candidate;
   candidate.effect = &effect;
@@ -30,7 +27,8 @@ std::optional<Baseline> as_well_by_places(const Effect& effect, const Baseline& 
 // What is left does, or it is left beside places that are known to.
 bool places_differ(const Fit& fitted, const TrialGround& g) {
   if (learns_field(fitted.model)) return false;
-  const LeftOver left = left_over(fitted, g);
+  LeftOver left = left_over(fitted, g);
+  tell_kinds(fitted, g, left);
   return left.kind == kBody || (has_map(fitted.model) && !left.noise_alone());
 }
 

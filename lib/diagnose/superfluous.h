@@ -15,15 +15,10 @@ std::optional<Baseline> without_superfluous(const std::string& effect, const Bas
                                             const TrialGround& ground, const Folds& folds,
                                             const Gates& gates);
 
-struct Simpler {
-  Candidate candidate;
-  Measured measured;  // beside the model without either
-  Baseline base;
-};
-// What `effect` contains as a special case in its place, the simplest beside which `effect` fails
-// those gates; not `unknown`. Nothing when it is needed as it is; not of maps and fields.
-std::optional<Simpler> simpler_in_place(const std::string& effect, const std::string& unknown,
-                                        const Baseline& base, const TrialGround& ground,
-                                        const Folds& folds, const Gates& gates);
+// Whether `effect` of `base` passes those gates beside `lesser`, which is held out with it.
+bool is_needed(const Effect& effect, const Baseline& base, const Baseline& lesser,
+               const TrialGround& ground, const Folds& folds, const Gates& gates);
+// So much that the model lacks something: only others are worth the refits of the folds.
+bool errs_plainly_more(const Fit& fitted, const Baseline& base);
 
 }  // namespace hapsim

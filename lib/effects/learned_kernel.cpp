@@ -67,7 +67,8 @@ class LearnedKernel : public Effect {
         .form_error = 0.05,
         .learned = true,
         .signature = "an error that follows the time since the tool moved, by no law that is known",
-        .confounders = {"viscoelastic", "damper", "sensor-lag", "softening"},
+        .confounders = {"viscoelastic", "qlv", "damper", "sensor-lag", "filter",
+                        "sensor-hysteresis", "softening"},
         .separated_by = "the same press at three speeds, with a hold ten times as long",
         .contains = {"viscoelastic"}};
     return card;

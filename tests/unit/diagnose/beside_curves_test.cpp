@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "support/synthetic.h"
@@ -44,6 +45,54 @@ TEST(BesideCurves, OnlyTheLawOverTheSameThingIsDoubted) {
   EXPECT_EQ(verdicts["learned-drift"], Verdict::kMissing);
   EXPECT_EQ(d.findings.back().curve, "learned-drift");
   EXPECT_TRUE(base.fitted.model.has("viscoelastic"));
+}
+
+// What is made of `law`, found missing, where forces are changed by change(sample, depth over the
+// deepest, force).
+template <class Change>
+Diagnosis with_curves(const std::string& law, const Model& model, const Change& change) {
+  Experiment w = test::experiment();
+  test::measure_finer(w, model, 0.01, 3);
+  Recording& recording = w.dataset.recording;
+  double deepest = 0;
+  for (const Vec3& u : recording.u) deepest = std::max(deepest, u.norm());
+  for (std::size_t i = 0; i < recording.f.size(); ++i)
+    recording.f[i] = change(static_cast<int>(i), recording.u[i].norm() / deepest, recording.f[i]);
+  const TrialGround ground(w, w.allowance());
+  const Folds folds = make_folds(w.dataset, 6);
+  std::vector<double> values;
+  for (const ParameterCard& p : require_effect(law).card().parameters) values.push_back(p.start);
+  const Model with = model.has(law) ? model : test::with(model, law, values);
+  Baseline base = make_baseline(with, ground, folds);
+  Diagnosis d;
+  d.findings.push_back(missing(law));
+  curves_for_laws(base, ground, folds, {}, d);
+  for (const Finding& f : d.findings)
+    EXPECT_EQ(base.fitted.model.has(f.effect), f.verdict == Verdict::kMissing) << f.effect;
+  return d;
+}
+
+TEST(CurvesForLaws, TheCurveStandsWhereTheFormIsWrong) {
+  const Diagnosis d =
+      with_curves("hyperelastic", test::elastic(1.5e4, 0.42), [](int, double depth, const Vec3& f) {
+        return Vec3((1 + 0.5 * std::sin(M_PI * depth)) * f);
+      });
+  ASSERT_EQ(d.findings.size(), 2);
+  EXPECT_EQ(d.findings[0].effect, "learned-depth");
+  EXPECT_EQ(d.findings[0].verdict, Verdict::kMissing);
+  EXPECT_EQ(d.findings[1].verdict, Verdict::kPossible);
+  EXPECT_EQ(d.findings[1].curve, "learned-depth");
+  EXPECT_FALSE(d.findings[1].doubted);  // what it foretells the curve does
+}
+
+TEST(CurvesForLaws, TheLawStandsWhereSomethingElseIsLeft) {
+  const Diagnosis d = with_curves(
+      "viscoelastic", test::with(test::elastic(1.5e4, 0.42), "viscoelastic", {5e3, 0.4}),
+      [](int i, double, const Vec3& f) {
+        return Vec3(f + 0.03 * std::sin(1.9 * i) * Vec3::Ones());
+      });
+  ASSERT_EQ(d.findings.size(), 1);
+  EXPECT_EQ(d.findings[0].verdict, Verdict::kMissing);
 }
 
 }  // namespace

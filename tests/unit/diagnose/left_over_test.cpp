@@ -23,7 +23,9 @@ LeftOver left_of(double noise, const Change& change, bool refitted = true) {
     }
   const TrialGround ground(w, {noise, 0.01});
   const Fit fitted = refitted ? fit(kTruth, w, all, {noise, 0.01, true}) : as_it_is(kTruth, w);
-  return left_over(fitted, ground);
+  LeftOver left = left_over(fitted, ground);
+  tell_kinds(fitted, ground, left);
+  return left;
 }
 
 TEST(LeftOver, IsNoiseWhereNothingIsHidden) {

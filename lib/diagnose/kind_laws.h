@@ -1,0 +1,41 @@
+// Laws of many kinds that may take what a model leaves, each linear in its numbers.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "experiment/dataset.h"
+
+namespace hapsim {
+
+// What the samples that are looked at tell of themselves, one each.
+struct LawSamples {
+  using Column = Eigen::VectorXd;      // one number a sample
+  using Vectors = Eigen::Matrix3Xd;    // one vector a sample
+  std::vector<Eigen::Index> kept;      // of all, in the order of all_episodes()
+  std::vector<Eigen::Index> since;     // how many samples of its press came before
+  bool timed = false, warmed = false;  // time, temperature were recorded
+  Column depth, speed, growth, age, session, number, temperature;
+  Vectors f, along, across, velocity, rate;  // along and across the normal; rate of the force
+};
+
+// Of a model's `forces` (stacked [N]). Of more than 20,000 samples every n-th is kept.
+LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset);
+
+struct KindLaw {
+  std::string kind;  // of LeftOver::kind
+  // What the law may do to the forces of the samples kept (stacked [N]), a column each number.
+  std::function<Eigen::MatrixXd()> columns;
+};
+
+// From few numbers to many (diagnose/left_kinds.h says what they are). The arguments must outlive
+// them.
+std::vector<KindLaw> kind_laws(const LawSamples& samples, const Eigen::VectorXd& forces,
+                               const Dataset& dataset);
+
+// The rows of stacked vectors that the samples are.
+std::vector<Eigen::Index> stacked_components(const LawSamples& samples);
+
+}  // namespace hapsim

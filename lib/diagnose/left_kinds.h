@@ -1,0 +1,41 @@
+// What that which a model leaves goes with, judged by presses that were left out.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "diagnose/trial_ground.h"
+
+namespace hapsim {
+
+// How much of what is left beyond noise a kind of law foretells.
+struct LeftKind {
+  std::string kind;  // of LeftOver::kind
+  double share = 0;  // of the squares beyond noise, on presses that it was not fitted to
+};
+
+// Of what `residual` [N] holds beyond noise: the kinds of law that foretell it, the largest share
+// first; of shares that are alike the one of fewest numbers. Each is linear in its numbers
+// (diagnose/kind_laws.h), has a gain of all forces along the normal and one across it beside it,
+// and counts where it foretells a tenth more than these alone (the set-up's: than nothing):
+//   offset, drift   a zero; one by the session's time (hat functions)
+//   depth, contact-time, rate, phase, session-time, cycle, temperature
+//                   gains that differ by depth, time since the press began, speed (with what the
+//                   rate of the force and the velocity do), loading, hold and unloading by depth,
+//                   time of the session, number of the press at its place, temperature
+//   history         what the increments of force did so and so long before (a kernel of finite
+//                   length, lags in steps of a third)
+//   reading         an error of each axis by its own force, in forty steps: a converter's
+//   set-up          any 3 x 3 matrix; direction: the law of shared_law.h
+//   body            six gains of each position (experiment/weights.h)
+//   press           a gain of each press, foretold by other samples of the same press, where that
+//                   is nine tenths and no law of unseen presses foretells half
+// `forces`: of the model. Empty for fewer presses than kLeastPresses.
+std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
+                               const TrialGround& ground);
+
+// "Presses that were left out are foretold to 74 % of it by the speed, ..."; "" of none.
+std::string words_of(const std::vector<LeftKind>& kinds);
+
+}  // namespace hapsim
