@@ -14,10 +14,11 @@ import numpy as np
 import bodies
 import causes
 import newcomers
+import outsiders
 import stiffnesses
 import strangers
 
-EVERY = causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer()
+EVERY = causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() + outsiders.every_outsider()
 
 
 class Null:

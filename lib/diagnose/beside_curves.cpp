@@ -53,7 +53,10 @@ void doubt_beside_curves(Baseline& base, const TrialGround& g, const Folds& fold
 
 void curves_for_laws(Baseline& base, const TrialGround& g, const Folds& folds,
                      const DiagnoseOptions& options, Diagnosis& d) {
-  if (!d.rivals.empty() || left_over(base.fitted, g).noise_alone()) return;
+  if (!d.rivals.empty()) return;
+  LeftOver left = left_over(base.fitted, g);
+  if (left.noise_alone()) return;
+  tell_kinds(base.fitted, g, left);
   std::vector<std::string> names;
   for (auto f = d.findings.rbegin(); f != d.findings.rend(); ++f)
     if (f->verdict == Verdict::kMissing && std::count(names.begin(), names.end(), f->effect) == 0)
@@ -61,7 +64,7 @@ void curves_for_laws(Baseline& base, const TrialGround& g, const Folds& folds,
   for (const std::string& effect : names) {
     options.tell("a curve in the place of " + effect);
     std::optional<InPlace> found =
-        curve_in_place(effect, options.unknown, base, g, folds, options.gates);
+        curve_in_place(effect, left.kind, options.unknown, base, g, folds, options.gates);
     if (!found) continue;
     const auto first = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
       return f.effect == effect && f.verdict == Verdict::kMissing;

@@ -14,7 +14,7 @@ void doubt_beside_curves(Baseline& base, const TrialGround& ground, const Folds&
                          Diagnosis& d);
 
 // Where all that is missing leaves more than noise, a law is believed only if no curve over the
-// same thing errs less on what is unseen (curve_in_place()): that one is missing then, the name
+// same thing does better on what is unseen (curve_in_place()): that one is missing then, the name
 // possible, and `base` with the curve instead. The last that was found comes first.
 void curves_for_laws(Baseline& base, const TrialGround& ground, const Folds& folds,
                      const DiagnoseOptions& options, Diagnosis& d);

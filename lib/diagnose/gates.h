@@ -141,7 +141,8 @@ inline std::vector<std::string> gates_in_words() {
       "it says of what kind the cause is, what it does, and by how much the unseen error falls "
       "with it; a name over the same thing that needs such a curve beside it has not the cause's "
       "form and is possible only, and so it is where more than noise is left and such a curve in "
-      "its place errs less on what is unseen. Where all names together leave more than noise, such "
+      "its place errs less on what is unseen (or no more, where what is left is of the same kind). "
+      "Where all names together leave more than noise, such "
       "curves are "
       "tried in their place too, and stand where the unseen error is plainly less; so they are "
       "where a name is not kept, and in the place of " +

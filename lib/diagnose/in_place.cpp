@@ -1,6 +1,7 @@
 #include "diagnose/in_place.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -68,9 +69,10 @@ std::optional<InPlace> simpler_in_place(const std::string& effect, const std::st
   return std::nullopt;
 }
 
-std::optional<InPlace> curve_in_place(const std::string& effect, const std::string& unknown,
-                                      const Baseline& base, const TrialGround& g,
-                                      const Folds& folds, const Gates& gates) {
+std::optional<InPlace> curve_in_place(const std::string& effect, const std::string& left,
+                                      const std::string& unknown, const Baseline& base,
+                                      const TrialGround& g, const Folds& folds,
+                                      const Gates& gates) {
   const EffectCard& card = require_effect(effect).card();
   if (card.is_map || card.is_field || card.learned || folds.held_out.empty()) return std::nullopt;
   const std::vector<std::string> curves = curves_over(effect, base.fitted.model);
@@ -78,14 +80,16 @@ std::optional<InPlace> curve_in_place(const std::string& effect, const std::stri
   const Baseline without = without_effect(effect, base, g, {});
   if (!without.fitted.converged) return std::nullopt;
   std::optional<InPlace> best;
-  double least = (1 - gates.held_out_fall) * base.on_known_map.error.pooled;
+  double least = std::numeric_limits<double>::infinity();
   for (const std::string& name : curves) {
     if (name == unknown) continue;
     std::optional<Candidate> candidate = tried(name, without, base, g);
     if (!candidate) continue;
     Baseline with = make_baseline(candidate->fitted.model, g, folds);
     const double unseen = held_out_for(*candidate->effect, with).error.pooled;
-    if (unseen >= least) continue;
+    const std::vector<std::string>& kinds = candidate->effect->card().kinds;
+    const double fall = std::count(kinds.begin(), kinds.end(), left) > 0 ? 0 : gates.held_out_fall;
+    if (unseen >= std::min(least, (1 - fall) * base.on_known_map.error.pooled)) continue;
     least = unseen;
     best = in_place(std::move(*candidate), without, std::move(with), g);
   }

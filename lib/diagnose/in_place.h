@@ -23,11 +23,14 @@ std::optional<InPlace> simpler_in_place(const std::string& effect, const std::st
                                         const Folds& folds, const Gates& gates);
 
 // The curve without a law, over the same thing as `effect` (its card's confounders and what it
-// contains), that errs least on what is unseen, where that is less than `base` with `effect` does,
-// by what the gates ask. Nothing where no curve does; not of curves, maps and fields.
-std::optional<InPlace> curve_in_place(const std::string& effect, const std::string& unknown,
-                                      const Baseline& base, const TrialGround& ground,
-                                      const Folds& folds, const Gates& gates);
+// contains), that errs least on what is unseen, where that is less than `base` with `effect` does
+// by what the gates ask; where what that leaves, of kind `left`, is of the curve's own kind
+// (EffectCard::kinds), and so tells that the law has another form, where it is no more. Nothing
+// where no curve does; not of curves, maps and fields.
+std::optional<InPlace> curve_in_place(const std::string& effect, const std::string& left,
+                                      const std::string& unknown, const Baseline& base,
+                                      const TrialGround& ground, const Folds& folds,
+                                      const Gates& gates);
 
 // What the finding of an effect says of what stands in its place.
 void describe_in_place(const InPlace& found, const Dataset& dataset, Finding& finding);

@@ -80,7 +80,7 @@ const char* goes_with(const std::string& kind) {
       {kSetUp, "axes that are mixed (sensor, robot)"},
       {kDirection, "the direction and the size of the force"},
       {kBody, "the place"},
-      {kPress, "a gain of each press (of which other samples tell)"}};
+      {kPress, "a gain of each press (tried on its other samples)"}};
   return words.at(kind);
 }
 
@@ -130,10 +130,11 @@ std::string words_of(const std::vector<LeftKind>& kinds) {
   std::string words;
   for (std::size_t k = 0; k < std::min(kMost, kinds.size()); ++k) {
     if (kinds[k].share < kHalf * kinds.front().share) break;
-    words += fmt::format("{}{:.0f} % of it by {}", k == 0 ? "" : ", ", 100 * kinds[k].share,
-                         goes_with(kinds[k].kind));
+    words += k == 0 ? fmt::format("{} foretells {:.0f} % of that", goes_with(kinds[k].kind),
+                                  100 * kinds[k].share)
+                    : fmt::format(", {} {:.0f} %", goes_with(kinds[k].kind), 100 * kinds[k].share);
   }
-  return words.empty() ? "" : "Presses that were left out are foretold to " + words + ".";
+  return words.empty() ? "" : "Tried on presses that were left out, " + words + ".";
 }
 
 }  // namespace hapsim

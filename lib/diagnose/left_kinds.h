@@ -35,7 +35,7 @@ struct LeftKind {
 std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                                const TrialGround& ground);
 
-// "Presses that were left out are foretold to 74 % of it by the speed, ..."; "" of none.
+// "Tried on presses that were left out, the speed foretells 74 % of that, ..."; "" of none.
 std::string words_of(const std::vector<LeftKind>& kinds);
 
 }  // namespace hapsim

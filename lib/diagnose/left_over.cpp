@@ -181,7 +181,9 @@ Observation first_observation(const Eigen::VectorXd& f, const Eigen::VectorXd& b
 std::string kind_in_words(const LeftOver& left) {
   const std::string much = fmt::format("{:.2g} x the noise is left", left.error);
   const std::string strain =
-      fmt::format("{:.2g} times the squares that mesh and shape are allowed", left.strain);
+      left.strained
+          ? fmt::format(" ({:.2g} times the squares that mesh and shape are allowed)", left.strain)
+          : "";
   if (left.events.found)
     return fmt::format(
         "{}, in single samples at one part of the presses ({} of {} presses err by more than {:g} "
@@ -191,10 +193,12 @@ std::string kind_in_words(const LeftOver& left) {
         100 * left.events.until);
   if (left.kind == kSetUp)
     return fmt::format(
-        "{}, and it is the same gain at all positions ({:.2g} standard deviations of what mesh and "
-        "shape may do): look at what they share, the sensor, the robot and the tool, before the "
-        "body",
-        much, left.common);
+        "{}, and it is the same gain at all positions{}: look at what they share, the sensor, the "
+        "robot and the tool, before the body",
+        much,
+        left.strained ? fmt::format(" ({:.2g} standard deviations of what mesh and shape may do)",
+                                    left.common)
+                      : "");
   if (left.kind == "place")
     return fmt::format(
         "{}; the position ({:.1f}, {:.1f}, {:.1f}) mm has a stiffness of its own that no other "
@@ -213,7 +217,7 @@ std::string kind_in_words(const LeftOver& left) {
         much);
   if (left.kind == kBody)
     return fmt::format(
-        "{}, and it is a stiffness that differs by place ({}): look at the body, its shape and its "
+        "{}, and it is a stiffness that differs by place{}: look at the body, its shape and its "
         "support",
         much, strain);
   return much + " with structure";

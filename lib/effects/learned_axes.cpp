@@ -81,7 +81,8 @@ class LearnedAxes : public Effect {
         .confounders = {"sensor-curve", "friction", "sensor-gain", "motion-scale", "anisotropic"},
         .separated_by =
             "a calibration weight along each axis, both ways; the same sideways press on a body "
-            "that is glued to the table"};
+            "that is glued to the table",
+        .kinds = {"direction", "set-up"}};
     return card;
   }
 

@@ -92,7 +92,8 @@ class LearnedDepth : public Effect {
         .signature = "an error that follows the depth at every place, by no law that is known",
         .confounders = {"hyperelastic", "tip", "layer", "sensor-curve", "touch"},
         .separated_by =
-            "presses at other depths, a tool of another radius, and a calibration weight"};
+            "presses at other depths, a tool of another radius, and a calibration weight",
+        .kinds = {"depth", "reading"}};
     return card;
   }
 

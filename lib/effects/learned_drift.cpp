@@ -67,7 +67,8 @@ class LearnedDrift : public Effect {
         .signature = "an error that follows the time of the session, in the air as well",
         .confounders = {"sensor-drift", "tare", "temperature", "softening"},
         .separated_by = "samples in the air, and the first position pressed again at the end",
-        .contains = {"sensor-drift", "sensor-settling", "sensor-bias"}};
+        .contains = {"sensor-drift", "sensor-settling", "sensor-bias"},
+        .kinds = {"offset", "drift"}};
     return card;
   }
 

@@ -57,7 +57,8 @@ class LearnedGain : public Effect {
         .confounders = {"softening", "temperature", "sensor-gain", "learned-drift", "tare"},
         .separated_by =
             "the first position pressed again several times through the session, and the "
-            "temperature recorded"};
+            "temperature recorded",
+        .kinds = {"session-time", "cycle", "press"}};
     return card;
   }
 

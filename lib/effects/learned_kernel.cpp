@@ -70,7 +70,8 @@ class LearnedKernel : public Effect {
         .confounders = {"viscoelastic", "qlv", "damper", "sensor-lag", "filter",
                         "sensor-hysteresis", "softening"},
         .separated_by = "the same press at three speeds, with a hold ten times as long",
-        .contains = {"viscoelastic"}};
+        .contains = {"viscoelastic"},
+        .kinds = {"history", "contact-time", "rate", "phase"}};
     return card;
   }
 
@@ -112,10 +113,10 @@ class LearnedKernel : public Effect {
     return {curve};
   }
 
-  // From two samples to a whole press: shorter ones are a damper's, longer ones are not seen.
+  // From half a sample, which does what a damper does, to a whole press: longer ones are not seen.
   std::vector<std::vector<double>> starts(const DataSummary& data, int) const override {
-    const double shortest = std::max(2 * data.sample_step, 1e-3);
-    const double longest = std::max(data.press_duration, 32 * shortest);
+    const double shortest = std::max(0.5 * data.sample_step, 2.5e-4);
+    const double longest = std::max(data.press_duration, 128 * shortest);
     return {{0.05, 0.05, 0.05, 0.05, 0.05, 0.05, shortest, longest}};
   }
 };
