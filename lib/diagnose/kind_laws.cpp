@@ -11,7 +11,7 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kMany = 20000;
+constexpr std::size_t kMany = 10000;
 
 using Column = LawSamples::Column;
 using Vectors = LawSamples::Vectors;
@@ -87,6 +87,21 @@ Columns by_rate(const LawSamples& s) {
   const std::vector<Column> speeds = hats(s.speed, quantiles(s.speed, 6));
   add_times(speeds, s.f, c);
   add_times(speeds, s.rate, c);
+  add_times(hats(s.fastest, quantiles(s.fastest, 4)), s.f, c);
+  return c;
+}
+
+// Gains along the normal, across it and of each axis.
+Columns by_session(const LawSamples& s) {
+  const std::vector<Column> times = hats(s.session, even(s.session, 9));
+  Columns c;
+  add_times(times, s.along, c);
+  add_times(times, s.across, c);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    Vectors own = Vectors::Zero(3, s.f.cols());
+    own.row(axis) = s.f.row(axis);
+    add_times(times, own, c);
+  }
   return c;
 }
 
@@ -193,7 +208,8 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
       (all + static_cast<Eigen::Index>(stride) - 1) / static_cast<Eigen::Index>(stride);
   LawSamples s;
   s.timed = s.warmed = true;
-  for (Column* c : {&s.depth, &s.speed, &s.growth, &s.age, &s.session, &s.number, &s.temperature})
+  for (Column* c :
+       {&s.depth, &s.speed, &s.fastest, &s.growth, &s.age, &s.session, &s.number, &s.temperature})
     *c = Column::Zero(count);
   for (Vectors* v : {&s.f, &s.along, &s.across, &s.velocity, &s.rate}) *v = Vectors::Zero(3, count);
   std::map<int, int> pressed;
@@ -209,13 +225,16 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
     const Vectors v = s.timed ? slope(u, e.view.t) : Vectors::Zero(3, n);
     const Vectors df = s.timed ? slope(f, e.view.t) : Vectors::Zero(3, n);
     const int number = pressed[e.position]++;
+    double fastest = 0;
     for (Eigen::Index i = 0; i < n; ++i) {
+      fastest = std::max(fastest, v.col(i).norm());
       if ((at + i) % static_cast<Eigen::Index>(stride) != 0) continue;
       const auto k = static_cast<Eigen::Index>(s.kept.size());
       s.kept.push_back(at + i);
       s.since.push_back(i);
       s.depth[k] = u.col(i).norm();
       s.speed[k] = v.col(i).norm();
+      s.fastest[k] = fastest;
       s.growth[k] = s.depth[k] > 0 ? v.col(i).dot(u.col(i)) / s.depth[k] : s.speed[k];
       s.number[k] = number;
       if (s.warmed) s.temperature[k] = e.view.temperature[static_cast<std::size_t>(i)];
@@ -243,12 +262,13 @@ std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& force
   law("offset", [&] { return zeros({Column::Ones(s.depth.size())}); });
   law("cycle", [&] { return by_number(s); });
   law(kSetUp, [&] { return by_matrix(s); });
-  law("depth", [&] { return by(s.depth, quantiles(s.depth, 7), s); });
+  for (const int knots : {7, 20})
+    law("depth", [&s, knots] { return by(s.depth, quantiles(s.depth, knots), s); });
   law("phase", [&] { return by_phase(s); });
   if (s.warmed)
     law(kByTemperature, [&] { return by(s.temperature, quantiles(s.temperature, 4), s); });
   if (s.timed) {
-    law("session-time", [&] { return by(s.session, even(s.session, 9), s); });
+    law("session-time", [&] { return by_session(s); });
     law("contact-time", [&] { return by(s.age, quantiles(s.age, 6), s); });
     law("rate", [&] { return by_rate(s); });
     law("drift", [&] { return zeros(hats(s.session, even(s.session, 9))); });

@@ -17,11 +17,12 @@ struct LawSamples {
   std::vector<Eigen::Index> kept;      // of all, in the order of all_episodes()
   std::vector<Eigen::Index> since;     // how many samples of its press came before
   bool timed = false, warmed = false;  // time, temperature were recorded
-  Column depth, speed, growth, age, session, number, temperature;
+  // Of the depth the growth; the fastest so far in the press.
+  Column depth, speed, fastest, growth, age, session, number, temperature;
   Vectors f, along, across, velocity, rate;  // along and across the normal; rate of the force
 };
 
-// Of a model's `forces` (stacked [N]). Of more than 20,000 samples every n-th is kept.
+// Of a model's `forces` (stacked [N]). Of more than 10,000 samples every n-th is kept.
 LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset);
 
 struct KindLaw {
@@ -30,8 +31,8 @@ struct KindLaw {
   std::function<Eigen::MatrixXd()> columns;
 };
 
-// From few numbers to many (diagnose/left_kinds.h says what they are). The arguments must outlive
-// them.
+// The simplest first (diagnose/left_kinds.h says what they are); a kind may have several. The
+// arguments must outlive them.
 std::vector<KindLaw> kind_laws(const LawSamples& samples, const Eigen::VectorXd& forces,
                                const Dataset& dataset);
 

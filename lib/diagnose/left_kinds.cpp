@@ -104,7 +104,14 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
   const double all = r.squaredNorm();
   const auto judge = [&](const std::string& kind, double before, double left) {
     left = std::max(left, noise);
-    if (before - left >= kTold * beyond) found.push_back({kind, (all - left) / beyond});
+    if (before - left < kTold * beyond) return;
+    const double share = (all - left) / beyond;
+    const auto known =
+        std::find_if(found.begin(), found.end(), [&](const LeftKind& k) { return k.kind == kind; });
+    if (known == found.end())
+      found.push_back({kind, share});
+    else
+      known->share = std::max(known->share, share);
   };
   const Eigen::MatrixXd gains = gains_of_all(s);
   const double by_gains = std::min(all, unforetold_squares(gains, r, parts, kRidge));

@@ -16,14 +16,15 @@ struct LeftKind {
 };
 
 // Of what `residual` [N] holds beyond noise: the kinds of law that foretell it, the largest share
-// first; of shares that are alike the one of fewest numbers. Each is linear in its numbers
+// first; of shares that are alike the simplest. Each is linear in its numbers
 // (diagnose/kind_laws.h), has a gain of all forces along the normal and one across it beside it,
 // and counts where it foretells a tenth more than these alone (the set-up's: than nothing):
 //   offset, drift   a zero; one by the session's time (hat functions)
 //   depth, contact-time, rate, phase, session-time, cycle, temperature
-//                   gains that differ by depth, time since the press began, speed (with what the
-//                   rate of the force and the velocity do), loading, hold and unloading by depth,
-//                   time of the session, number of the press at its place, temperature
+//                   gains that differ by depth, time since the press began, speed (also the
+//                   largest so far; with what the rate of the force and the velocity do), loading,
+//                   hold and unloading by depth, time of the session (of each axis too), number
+//                   of the press at its place, temperature
 //   history         what the increments of force did so and so long before (a kernel of finite
 //                   length, lags in steps of a third)
 //   reading         an error of each axis by its own force, in forty steps: a converter's

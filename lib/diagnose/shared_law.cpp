@@ -8,7 +8,7 @@ namespace hapsim {
 namespace {
 
 constexpr double kBent = 0.25;  // of the largest force, where an axis' own curve has its bends
-constexpr Eigen::Index kOfAxes = 24, kPieces = 3, kNumbers = kOfAxes + 2 * kPieces;
+constexpr Eigen::Index kOfAxes = 30, kPieces = 3, kNumbers = kOfAxes + 2 * kPieces;
 
 // v where it is longer than `from`, less that.
 Vec3 beyond(const Vec3& v, double from) {
@@ -46,8 +46,8 @@ Eigen::MatrixXd law_columns(const Eigen::VectorXd& forces, const Dataset& datase
       for (Eigen::Index by = 0; by < 3; ++by) {
         if (by == axis) continue;
         const double f = forces[at + by];
-        columns(at + axis, column++) = f;
-        columns(at + axis, column++) = f * std::abs(f);
+        for (const double law : {f, std::abs(f), f * std::abs(f)})
+          columns(at + axis, column++) = law;
       }
     }
     for (Eigen::Index piece = 0; piece < kPieces; ++piece) {
