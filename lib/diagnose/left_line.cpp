@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "diagnose/foreseen.h"
 #include "estimate/spectral_line.h"
 
 namespace hapsim {
@@ -62,6 +63,29 @@ LineLeft find_line_left(const Eigen::VectorXd& residual, const Dataset& dataset)
     }
   }
   return {};
+}
+
+double swing_left(const Eigen::VectorXd& residual, const Dataset& dataset, double noise) {
+  constexpr double kMost = 0.5, kLeastShare = 0.05, kMostShare = 0.9;  // of the Nyquist frequency
+  std::vector<Eigen::Index> lengths;
+  std::vector<double> steps;
+  for (const Episode& e : dataset.episodes) {
+    lengths.push_back(static_cast<Eigen::Index>(e.rows.size()));
+    for (std::size_t i = 1; i < e.view.t.size(); ++i)
+      steps.push_back(e.view.t[i] - e.view.t[i - 1]);
+  }
+  const double squares = residual.squaredNorm();
+  const double beyond = squares - noise * noise * static_cast<double>(residual.size());
+  if (steps.empty() || !(beyond > 0)) return 0;
+  const Forecast next = forecast(residual, lengths, 2);
+  const double a = next.by[0], b = next.by[1];
+  if (next.share * squares < kMost * beyond || a * a + 4 * b >= 0) return 0;
+  const double share = std::acos(std::clamp(a / (2 * std::sqrt(-b)), -1.0, 1.0)) / M_PI;
+  if (share < kLeastShare || share > kMostShare) return 0;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
+                   steps.end());
+  const double step = steps[steps.size() / 2];
+  return step > 0 ? share / (2 * step) : 0;
 }
 
 }  // namespace hapsim

@@ -19,4 +19,10 @@ struct LineLeft {
 // recording has no time that goes on from press to press.
 LineLeft find_line_left(const Eigen::VectorXd& residual, const Dataset& dataset);
 
+// The frequency [Hz] about which a residual swings that has no line (it comes and goes, or runs
+// through frequencies): where each sample is foretold by the two before it, to most of what is
+// beyond `noise` [N], as of a swing that is damped (autoregression of second order: Yule, Phil.
+// Trans. A 226, 1927). 0 where it does not.
+double swing_left(const Eigen::VectorXd& residual, const Dataset& dataset, double noise);
+
 }  // namespace hapsim

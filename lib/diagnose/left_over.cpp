@@ -287,7 +287,8 @@ void tell_kinds(const Fit& fitted, const TrialGround& g, LeftOver& left) {
   if (left.noise_alone()) return;
   const Selection all = all_episodes(g.dataset);
   const Eigen::VectorXd f = model_forces(fitted, g.experiment, all, false).f;
-  left.kinds = kinds_of(measured_forces(g.dataset, all) - f, f, g);
+  const Eigen::VectorXd residual = measured_forces(g.dataset, all) - f;
+  left.kinds = kinds_of(residual, f, g);
   const auto is = [&](std::initializer_list<const char*> kinds) {
     return std::find(kinds.begin(), kinds.end(), left.kind) != kinds.end();
   };
@@ -296,6 +297,14 @@ void tell_kinds(const Fit& fitted, const TrialGround& g, LeftOver& left) {
       left.kind = left.kinds.front().kind;
     else if (!is({kBody, kSetUp}))
       left.kind = "left";
+  }
+  const double swing = is({"left"}) ? swing_left(residual, g.dataset, g.allowance.noise) : 0;
+  if (swing > 0) {
+    left.kind = kFrequency;
+    left.observed += fmt::format(
+        "{} It swings about {:.2g} Hz, not steadily: look at what turns or hums only at times, or "
+        "at a speed that changes",
+        left.observed.empty() ? "." : "", swing);
   }
   left.words = words_of(left);
 }

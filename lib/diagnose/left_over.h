@@ -49,8 +49,8 @@ struct LeftOver {
 LeftOver left_over(const Fit& fitted, const TrialGround& ground);
 
 // Adds what presses that were left out say (kinds_of()), with words. The kind becomes the first of
-// them, unless it is an event, a line or one place; "left" where they say nothing of what no gains
-// of places or of all account for.
+// them, unless it is an event, a line or one place; where they say nothing of what no gains of
+// places or of all account for, "frequency" of a swing that is no line, or "left".
 void tell_kinds(const Fit& fitted, const TrialGround& ground, LeftOver& left);
 
 }  // namespace hapsim

@@ -127,6 +127,18 @@ TEST(LeftOver, AHumOfAWhileIsToldWithItsTime) {
   EXPECT_NE(left.words.find(" s: look"), std::string::npos) << left.words;
 }
 
+// From every fifth sample to every twentieth, through the session.
+TEST(LeftOver, AHumThatRunsDownSwingsWithoutALine) {
+  int sample = 0;
+  double angle = 0;
+  const LeftOver left = left_of(0.01, [&](int, const Vec3& f) {
+    angle += 1.25 - 0.0012 * sample++;
+    return Vec3(f + 0.05 * std::sin(angle) * Vec3::Ones());
+  });
+  EXPECT_EQ(left.kind, "frequency") << left.words;
+  EXPECT_NE(left.words.find("It swings about"), std::string::npos) << left.words;
+}
+
 // Of neighbours that err otherwise, and at no frequency: a sensor that shows every reading twice,
 // with the sign changed.
 TEST(LeftOver, WhatSamplesForetellIsNoNoiseWhereNeighboursDiffer) {
