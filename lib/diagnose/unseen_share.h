@@ -16,8 +16,7 @@ std::vector<int> press_parts(const Dataset& dataset);
 // `parts` is foretold by `columns`, fitted to the others by least squares: cross-validation (Stone,
 // J. Roy. Stat. Soc. B 36, 1974). `ridge`, of a column's squares in all parts, keeps small what the
 // others hardly tell (Hoerl & Kennard, Technometrics 12, 1970). May be more than the residual's
-// own. Of long recordings
-// every n-th sample stands for n.
+// own.
 double unforetold_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
                           const std::vector<int>& parts, double ridge);
 
