@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "diagnose/held_out.h"
 #include "diagnose/in_place.h"
 #include "diagnose/left_over.h"
 #include "diagnose/search.h"
@@ -32,6 +33,13 @@ void doubt_form(const std::string& effect, const std::string& curve, const std::
     each.curve = curve;
     each.evidence += "; " + why + ": its form is not the cause's";
   }
+}
+
+// Of the squares beyond noise [N].
+double share_taken(const Finding& f, double noise) {
+  const double now = f.rmse_now.pooled * f.rmse_now.pooled;
+  const double after = f.rmse_after.pooled * f.rmse_after.pooled;
+  return std::clamp((now - after) / std::max(now - noise * noise, 1e-300), 0.0, 1.0);
 }
 
 }  // namespace
@@ -66,18 +74,26 @@ void curves_for_laws(Baseline& base, const TrialGround& g, const Folds& folds,
     std::optional<InPlace> found =
         curve_in_place(effect, left.kind, options.unknown, base, g, folds, options.gates);
     if (!found) continue;
+    const Baseline without_law = without_effect(effect, base, g, folds);
     const auto first = std::find_if(d.findings.begin(), d.findings.end(), [&](const Finding& f) {
       return f.effect == effect && f.verdict == Verdict::kMissing;
     });
     Finding curve = *first;
-    describe_in_place(*found, g.dataset, curve);
+    curve.p_value = std::max(curve.p_value, found->measured.p_by_size);
+    curve.rmse_now = without_law.fitted.error;
+    curve.held_out_now = held_out_for(*found->candidate.effect, without_law).error;
     curve.rmse_after = found->base.fitted.error;
     curve.held_out_after = found->candidate.held_out.error;
-    doubt_form(effect, curve.effect, curve.effect + " errs less on what is unseen", false,
+    curve.share = share_taken(curve, g.allowance.noise);
+    describe_in_place(*found, g.dataset, curve);
+    doubt_form(effect, curve.effect, curve.effect + " does no worse on what is unseen", false,
                d.findings);
     std::erase_if(d.findings, [&](const Finding& f) { return f.effect == curve.effect; });
     d.findings.push_back(curve);
     base = std::move(found->base);
+    left = left_over(base.fitted, g);
+    if (left.noise_alone()) break;
+    tell_kinds(base.fitted, g, left);
   }
   put_in_order(d.findings);
 }

@@ -114,16 +114,16 @@ inline std::vector<std::string> gates_in_words() {
           "presses. Where anything is left, a name is kept only if it takes more away than is left "
           "and if what it does has one size in the whole recording: one whose size differs by more "
           "than {:g} % between presses, depths, times since the press began or axes (root mean "
-          "square, beyond chance) stands for another cause and is possible at most. Gains that all "
-          "positions share come from the set-up (sensor, robot, tool), those that differ by place "
-          "from the body, unless a law of the force's direction and size that is the same at all "
-          "positions takes as much, by fewer numbers, or a gain of each press takes more; the rest "
-          "is told as hs-compare tells it, or by the frequency of a line, of the whole session or "
-          "a part of it. Laws of many kinds (a zero, depth, history, speed, phase, session, axes, "
-          "the "
-          "reading of each axis, place) are fitted to what is left in two thirds of the presses "
-          "and judged by the others: the share of the squares beyond noise that each foretells is "
-          "told, and the first names the kind.",
+          "square, beyond chance) stands for another cause and is possible at most. What is left "
+          "is "
+          "told by laws of many kinds (a zero, depth, history, speed, phase, session, mixed axes, "
+          "the direction of the force, the reading of each axis, a stiffness of each place, a gain "
+          "of each press): they are fitted to it in two thirds of the presses and judged by the "
+          "others (a gain of a press by other samples of it), the share of the squares beyond "
+          "noise that each foretells is told, and the first names the kind. An event of single "
+          "samples, a line of frequency in the session or a part of it, and one position that "
+          "errs alone come before them; where no kind foretells a tenth, a swing about one "
+          "frequency is told, and else that something is left.",
           1 / kStrained, 100 * kOneSize),
       "A few presses (at most every fourth) are told by their numbers where all that is left is "
       "theirs: the model fitted without them leaves noise alone, others at their places are as it "
@@ -142,9 +142,8 @@ inline std::vector<std::string> gates_in_words() {
       "with it; a name over the same thing that needs such a curve beside it has not the cause's "
       "form and is possible only, and so it is where more than noise is left and such a curve in "
       "its place errs less on what is unseen (or no more, where what is left is of the same kind). "
-      "Where all names together leave more than noise, such "
-      "curves are "
-      "tried in their place too, and stand where the unseen error is plainly less; so they are "
+      "Where all names together leave more than noise, such curves are tried in their place too, "
+      "and stand where the unseen error is plainly less; so they are "
       "where a name is not kept, and in the place of " +
           std::to_string(kCrowd) + " names or more, where they stand if fewer of them do as well."};
 }

@@ -11,7 +11,7 @@
 namespace hapsim {
 namespace {
 
-constexpr std::size_t kMany = 10000;
+constexpr std::size_t kMany = 10000;  // samples
 
 using Column = LawSamples::Column;
 using Vectors = LawSamples::Vectors;
@@ -67,12 +67,14 @@ void add_times(const std::vector<Column>& factors, const Vectors& v, Columns& to
   for (const Column& factor : factors) to.emplace_back(v * factor.asDiagonal());
 }
 
-void add_on_axes(const std::vector<Column>& factors, Columns& to) {
+Columns zeros(const std::vector<Column>& factors) {
+  Columns c;
   for (const Column& factor : factors)
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      to.emplace_back(Vectors::Zero(3, factor.size()));
-      to.back().row(axis) = factor.transpose();
+      c.emplace_back(Vectors::Zero(3, factor.size()));
+      c.back().row(axis) = factor.transpose();
     }
+  return c;
 }
 
 Columns by(const Column& x, const std::vector<double>& knots, const LawSamples& s) {
@@ -183,12 +185,6 @@ Columns by_history(const LawSamples& s, const Eigen::VectorXd& forces, const Dat
     c.push_back(along);
     c.push_back(across);
   }
-  return c;
-}
-
-Columns zeros(const std::vector<Column>& factors) {
-  Columns c;
-  add_on_axes(factors, c);
   return c;
 }
 

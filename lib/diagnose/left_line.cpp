@@ -75,7 +75,8 @@ double swing_left(const Eigen::VectorXd& residual, const Dataset& dataset, doubl
       steps.push_back(e.view.t[i] - e.view.t[i - 1]);
   }
   const double squares = residual.squaredNorm();
-  const double beyond = squares - noise * noise * static_cast<double>(residual.size());
+  const double beyond =
+      squares - noise * noise * dataset.axes() / 3.0 * static_cast<double>(residual.size());
   if (steps.empty() || !(beyond > 0)) return 0;
   const Forecast next = forecast(residual, lengths, 2);
   const double a = next.by[0], b = next.by[1];

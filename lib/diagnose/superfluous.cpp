@@ -8,8 +8,6 @@
 #include "effects/catalogue.h"
 
 namespace hapsim {
-// A model that errs so much more lacks the effect; only others are worth the refits of the folds.
-constexpr double kPlainlyMore = 1.1;
 
 bool is_needed(const Effect& effect, const Baseline& base, const Baseline& lesser,
                const TrialGround& g, const Folds& folds, const Gates& gates) {
@@ -31,6 +29,7 @@ bool is_needed(const Effect& effect, const Baseline& base, const Baseline& lesse
 }
 
 bool errs_plainly_more(const Fit& fitted, const Baseline& base) {
+  constexpr double kPlainlyMore = 1.1;
   return !fitted.converged || fitted.error.pooled > kPlainlyMore * base.fitted.error.pooled;
 }
 

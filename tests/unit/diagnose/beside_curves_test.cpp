@@ -82,7 +82,14 @@ TEST(CurvesForLaws, TheCurveStandsWhereTheFormIsWrong) {
   EXPECT_EQ(d.findings[0].verdict, Verdict::kMissing);
   EXPECT_EQ(d.findings[1].verdict, Verdict::kPossible);
   EXPECT_EQ(d.findings[1].curve, "learned-depth");
-  EXPECT_FALSE(d.findings[1].doubted);  // what it foretells the curve does
+  EXPECT_FALSE(d.findings[1].doubted);   // what it foretells the curve does
+  const Finding& curve = d.findings[0];  // its own numbers, not the law's
+  EXPECT_LT(curve.rmse_after.pooled, curve.rmse_now.pooled);
+  EXPECT_LT(curve.held_out_after.pooled, curve.held_out_now.pooled);
+  const double noise_squared = 1e-4, now = curve.rmse_now.pooled * curve.rmse_now.pooled;
+  EXPECT_NEAR(curve.share,
+              (now - curve.rmse_after.pooled * curve.rmse_after.pooled) / (now - noise_squared),
+              1e-9);
 }
 
 TEST(CurvesForLaws, TheLawStandsWhereSomethingElseIsLeft) {
