@@ -78,6 +78,7 @@ int main() {
       item("Its law may err by",
            std::to_string(std::lround(100 * card.form_error)) +
                " % of the force that it changes; a diagnosis infers nothing from less");
+    item("Kind", joined(card.kinds));
     item("Taken for", joined(card.confounders));
     item("To tell them apart", card.separated_by);
     item("Includes", joined(card.contains));

@@ -14,56 +14,6 @@ namespace {
 
 constexpr double kAtFloor = 1.1;  // errors over the floor below which nothing is left
 
-// What may be said of each effect (LeftOver::kind), fixed before anything was diagnosed.
-const std::map<std::string, std::vector<std::string>>& kinds() {
-  static const std::vector<std::string> set_up{"set-up", "direction", "learned-axes"},
-      body{"body", "place", "position", "learned-place"}, zero{"offset", "drift", "learned-drift"},
-      depth{"depth", "learned-depth"}, time{"contact-time", "rate", "learned-kernel"},
-      session{"session-time", "drift", "cycle", "learned-drift", "learned-gain"};
-  static const std::map<std::string, std::vector<std::string>> table{
-      {"viscoelastic", time},
-      {"fractional", time},
-      {"poroelastic", time},
-      {"qlv", time},
-      {"damper", time},
-      {"sensor-lag", time},
-      {"filter", time},
-      {"clock", time},
-      {"sensor-hysteresis", {"rate", "direction", "depth"}},
-      {"hyperelastic", depth},
-      {"tip", depth},
-      {"sensor-curve", depth},
-      {"deadband", depth},
-      {"backlash", depth},
-      {"adhesion", depth},
-      {"friction", {"direction", "learned-axes"}},
-      {"temperature", {"temperature"}},
-      {"softening", session},
-      {"plastic", {"depth", "learned-depth", "session-time", "cycle", "offset"}},
-      {"sensor-drift", session},
-      {"sensor-settling", session},
-      {"sensor-hum", {"frequency", "session-time", "drift"}},
-      {"breathing", {"frequency", "session-time", "drift", "rate", "contact-time"}},
-      {"sensor-bias", zero},
-      {"tare", zero},
-      {"drag", {"offset", "rate"}},
-      {"tool-inertia", {"rate", "direction", "event"}},
-      {"sensor-rotation", set_up},
-      {"sensor-gain", set_up},
-      {"sensor-crosstalk", set_up},
-      {"motion-scale", set_up},
-      {"motion-rotation", set_up},
-      {"arm-compliance", set_up},
-      {"tool-radius", {"set-up", "body", "learned-place"}},
-      {"regions", body},
-      {"layer", body},
-      {"pre-stress", {"set-up", "direction", "body", "learned-place"}},
-      {"inclusion", body},
-      {"anisotropic", {"set-up", "direction", "body", "learned-place"}},
-      {"base", body}};
-  return table;
-}
-
 std::vector<std::string> words(const std::string& text) {
   std::istringstream in(text);
   return {std::istream_iterator<std::string>(in), {}};
@@ -74,25 +24,44 @@ bool states_no_cause(const std::string& effect) {
   return card.learned || card.is_field;
 }
 
+bool is_kind_of(const std::string& hidden, const std::string& kind) {
+  const std::vector<std::string>& kinds = require_effect(hidden).card().kinds;
+  return std::count(kinds.begin(), kinds.end(), kind) > 0;
+}
+
+// What is named instead is first of all of a kind of what is hidden.
+bool is_kin(const std::string& hidden, const std::string& named) {
+  const std::vector<std::string>& kinds = require_effect(named).card().kinds;
+  return !kinds.empty() && is_kind_of(hidden, kinds.front());
+}
+
 const char* judged(const Trial& t) {
   if (!t.rivals.empty()) return "set";
-  const auto& of = kinds().find(t.effects);
-  const auto is_kind = [&](const std::string& said) {
-    return of != kinds().end() && std::count(of->second.begin(), of->second.end(), said) > 0;
-  };
   const std::vector<std::string> missing = words(t.missing);
   if (!missing.empty() && std::all_of(missing.begin(), missing.end(), states_no_cause))
-    return std::any_of(missing.begin(), missing.end(), is_kind) ? "kind" : "open";
-  if (!t.missing.empty()) return !t.left.empty() ? "hedged" : t.after <= kAtFloor ? "same" : "sure";
+    return std::any_of(missing.begin(), missing.end(),
+                       [&](const std::string& curve) { return is_of_kind(t.effects, curve); })
+               ? "kind"
+               : "open";
+  if (!missing.empty()) {
+    if (!t.left.empty()) return "hedged";
+    if (t.after <= kAtFloor) return "same";
+    return std::all_of(missing.begin(), missing.end(),
+                       [&](const std::string& named) { return is_kin(t.effects, named); })
+               ? "kin"
+               : "sure";
+  }
   if (t.verdict == "complete") return "unseen";
-  return is_kind(t.left) ? "kind" : "open";
+  return is_kind_of(t.effects, t.left) ? "kind" : "open";
 }
 
 }  // namespace
 
 bool is_of_kind(const std::string& hidden, const std::string& learned) {
-  const auto of = kinds().find(hidden);
-  return of != kinds().end() && std::count(of->second.begin(), of->second.end(), learned) > 0;
+  if (!states_no_cause(learned)) return false;
+  const std::vector<std::string>& kinds = require_effect(learned).card().kinds;
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](const std::string& kind) { return is_kind_of(hidden, kind); });
 }
 
 bool can_be_left_out(const Truth& truth) {

@@ -3,12 +3,13 @@ noise (of the elastic model, and with all that is named).
 
 named: what is missing is the cause, and nothing else; what acts beside it may be told by the curve that contains it.
 set: a set of at most three that are told to look alike, with the cause in it, nothing wrong beside it; wide: such a set
-of more. kind: its kind is said, by what is left or by a curve of no law. open: called unexplained without a kind, or
-with another, or what acts beside it is named and more is said to be left. hedged: something wrong is named, but the
-words say that more is left, or that the set-up would do the same. companion: the cause, and a wrong name beside it,
-nothing left. unseen: called complete, and the elastic model leaves no more than noise (1.1 times), or what acts beside
-it is named and leaves no more. wrong: the rest. right: a null called complete; where noise itself is the cause, no
-name."""
+of more. kind: its kind is said, by what is left or by a curve of no law; alike: so is another, of three at most that
+presses do not tell apart. kin: other effects are named, each of which is first of all of the cause's kind
+(EffectCard::kinds). open: called unexplained without a kind, or with another, or what acts beside it is named and more
+is said to be left. hedged: something wrong is named, but the words say that more is left, or that the set-up would do
+the same. companion: the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model
+leaves no more than noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a
+null called complete; where noise itself is the cause, no name."""
 import csv
 import json
 import pathlib
@@ -19,14 +20,16 @@ import sys
 # sensor's zero; what goes with the session is time.
 SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time": "time session", "contact-time": "history", "history": "history", "reading": "depth axes",
         "phase": "history", "cycle": "order", "rate": "speed", "position": "place", "body": "place", "place": "place",
-        "press-direction": "direction", "direction": "direction axes", "learned-depth": "depth",
+        "press-direction": "direction", "set-up": "set-up axes", "direction": "direction axes", "learned-depth": "depth",
         "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",
         "learned-place": "place", "learned-axes": "direction axes", "press": "session order"}
 # What acts beside a cause, and the curve that contains it (the effects' cards).
 CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
+MOST_ALIKE = 3
 
 
-def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0):
+def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=()):
+    """first: of each effect the first of its kinds; others: kinds that what is left may have as well."""
     kinds = set(kind.split())
     if "noise" in kinds:
         return "right" if not missing and not alike else "hedged" if said or hint else "wrong"
@@ -48,7 +51,11 @@ def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end
     if clean and not set(alike) - beside:
         if not said and known and verdict == "incomplete":
             return "unseen" if end < 1.1 else "wrong"
-        return "kind" if said and tells(said) or good & set(missing) else "open"
+        if said and tells(said) or good & set(missing):
+            return "kind"
+        return "alike" if len(others) < MOST_ALIKE and any(tells(other) for other in others) else "open"
+    if missing and all(name in good | beside or tells((first or {}).get(name, "")) for name in missing):
+        return "kin"
     if said or hint:
         return "hedged"
     return "companion" if good & set(missing) or (known and set(known) <= set(missing)) else "wrong"
@@ -65,7 +72,9 @@ def row(out, name, truth):
             judge(truth["names"].split(), truth["kind"], missing, alike, found["verdict"], said,
                   "before the body" in found["explanation"],
                   found["rmse"] / found["force_noise"], truth["known"].split(),
-                  found["rmse_with_missing_effects"] / found["force_noise"]))
+                  found["rmse_with_missing_effects"] / found["force_noise"],
+                  {e["effect"]: e["kinds"][0] for e in found["effects"] if e.get("kinds")},
+                  [k["kind"] for k in found.get("left", {}).get("kinds", [])[1:] if k.get("alike")]))
 
 
 if __name__ == "__main__":

@@ -17,8 +17,10 @@ import newcomers
 import outsiders
 import stiffnesses
 import strangers
+import visitors
 
-EVERY = causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() + outsiders.every_outsider()
+EVERY = (causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() +
+         outsiders.every_outsider() + visitors.every_visitor())
 
 
 class Null:

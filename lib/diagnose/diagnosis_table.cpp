@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/shell_words.h"
 #include "diagnose/wording.h"
+#include "effects/catalogue.h"
 
 namespace hapsim {
 namespace {
@@ -133,7 +134,9 @@ namespace {
 nlohmann::json finding_json(const Finding& f, const DiagnosedFiles& files) {
   const bool tested = f.verdict != Verdict::kNotTestable;
   const auto number = [&](double v) { return tested ? nlohmann::json(v) : nlohmann::json(); };
+  const Effect* const effect = find_effect(f.effect);
   nlohmann::json j{{"effect", f.effect},
+                   {"kinds", effect ? effect->card().kinds : std::vector<std::string>{}},
                    {"verdict", verdict_name(f.verdict)},
                    {"rmse_now", number(f.rmse_now.told())},
                    {"rmse_after", number(f.rmse_after.told())},
@@ -191,7 +194,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
                {"common", d.left.common},
                {"kinds", nlohmann::json::array()}};
   for (const LeftKind& k : d.left.kinds)
-    j["left"]["kinds"].push_back({{"kind", k.kind}, {"share", k.share}});
+    j["left"]["kinds"].push_back({{"kind", k.kind}, {"share", k.share}, {"alike", k.alike}});
   j["odd_presses"] = d.odd_presses;
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "compare/breakdown.h"
@@ -63,72 +64,83 @@ std::vector<Column> hats(const Column& x, const std::vector<double>& knots) {
   return hat;
 }
 
-void add_times(const std::vector<Column>& factors, const Vectors& v, Columns& to) {
-  for (const Column& factor : factors) to.emplace_back(v * factor.asDiagonal());
+// What a law may do that acts alike on all samples: gains along the normal and across it, those of
+// each axis, a zero of each axis and along the normal.
+Columns gains(const LawSamples& s) {
+  return {s.along, s.across};
 }
-
-Columns zeros(const std::vector<Column>& factors) {
-  Columns c;
-  for (const Column& factor : factors)
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      c.emplace_back(Vectors::Zero(3, factor.size()));
-      c.back().row(axis) = factor.transpose();
-    }
+Columns gains_of_axes(const LawSamples& s) {
+  Columns c(3, Vectors::Zero(3, s.f.cols()));
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    c[static_cast<std::size_t>(axis)].row(axis) = s.f.row(axis);
+  return c;
+}
+Columns zeros(const LawSamples& s) {
+  Columns c(3, Vectors::Zero(3, s.f.cols()));
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    c[static_cast<std::size_t>(axis)].row(axis).setOnes();
+  c.push_back(s.normal);
   return c;
 }
 
-Columns by(const Column& x, const std::vector<double>& knots, const LawSamples& s) {
+Columns join(Columns a, const Columns& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Columns times(const std::vector<Column>& factors, const Columns& what) {
   Columns c;
-  add_times(hats(x, knots), s.along, c);
-  add_times(hats(x, knots), s.across, c);
+  for (const Column& factor : factors)
+    for (const Vectors& v : what) c.emplace_back(v * factor.asDiagonal());
   return c;
 }
 
 Columns by_rate(const LawSamples& s) {
   Columns c{s.velocity, Vectors(s.velocity * s.speed.asDiagonal())};
   const std::vector<Column> speeds = hats(s.speed, quantiles(s.speed, 6));
-  add_times(speeds, s.f, c);
-  add_times(speeds, s.rate, c);
-  add_times(hats(s.fastest, quantiles(s.fastest, 4)), s.f, c);
-  return c;
+  return join(join(c, times(speeds, {s.f, s.rate})),
+              times(hats(s.fastest, quantiles(s.fastest, 4)), {s.f}));
 }
 
-// Gains along the normal, across it and of each axis.
-Columns by_session(const LawSamples& s) {
-  const std::vector<Column> times = hats(s.session, even(s.session, 9));
-  Columns c;
-  add_times(times, s.along, c);
-  add_times(times, s.across, c);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    Vectors own = Vectors::Zero(3, s.f.cols());
-    own.row(axis) = s.f.row(axis);
-    add_times(times, own, c);
-  }
-  return c;
-}
-
-Columns by_phase(const LawSamples& s) {
+// Depths while it loads, holds and unloads.
+std::vector<Column> phases(const LawSamples& s) {
   constexpr double kHold = 0.05;  // of the fastest motion
-  Columns c;
+  std::vector<Column> found;
   const double hold = kHold * s.growth.cwiseAbs().maxCoeff();
   for (const int sign : {-1, 0, 1}) {
     const Column in = s.growth.unaryExpr([&](double v) {
       return (v > hold ? 1 : v < -hold ? -1 : 0) == sign ? 1.0 : 0.0;
     });
-    std::vector<Column> depths = hats(s.depth, quantiles(s.depth, 4));
-    for (Column& d : depths) d = d.cwiseProduct(in);
-    add_times(depths, s.f, c);
+    for (const Column& d : hats(s.depth, quantiles(s.depth, 4)))
+      found.push_back(d.cwiseProduct(in));
   }
-  return c;
+  return found;
 }
 
-Columns by_number(const LawSamples& s) {
+std::vector<Column> numbers(const LawSamples& s) {
   const double most = std::min(5.0, s.number.maxCoeff());
-  Columns c;
+  std::vector<Column> found;
   for (double number = 0; number <= most; ++number)
-    add_times(
-        {s.number.unaryExpr([&](double x) { return std::min(x, most) == number ? 1.0 : 0.0; })},
-        s.f, c);
+    found.push_back(
+        s.number.unaryExpr([&](double x) { return std::min(x, most) == number ? 1.0 : 0.0; }));
+  return found;
+}
+
+// How far the force leans from the normal: its sine.
+Column slants(const LawSamples& s) {
+  return s.across.colwise().norm().array() /
+         (s.f.colwise().norm().array() + std::numeric_limits<double>::min());
+}
+
+// A zero of each axis by how far each axis has moved.
+Columns by_travel(const LawSamples& s) {
+  constexpr int kSteps = 16;
+  Columns c;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const Column moved = s.u.row(axis);
+    if (moved.maxCoeff() > moved.minCoeff())
+      c = join(c, times(hats(moved, even(moved, kSteps)), zeros(s)));
+  }
   return c;
 }
 
@@ -207,10 +219,13 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
   for (Column* c :
        {&s.depth, &s.speed, &s.fastest, &s.growth, &s.age, &s.session, &s.number, &s.temperature})
     *c = Column::Zero(count);
-  for (Vectors* v : {&s.f, &s.along, &s.across, &s.velocity, &s.rate}) *v = Vectors::Zero(3, count);
+  for (Vectors* v : {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.rate})
+    *v = Vectors::Zero(3, count);
   std::map<int, int> pressed;
   Eigen::Index at = 0;
+  int press = -1;
   for (const Episode& e : dataset.episodes) {
+    ++press;
     const auto n = static_cast<Eigen::Index>(e.rows.size());
     const Vectors f = forces.segment(3 * at, 3 * n).reshaped(3, n);
     Vectors u(3, n);
@@ -228,6 +243,7 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
       const auto k = static_cast<Eigen::Index>(s.kept.size());
       s.kept.push_back(at + i);
       s.since.push_back(i);
+      s.press.push_back(press);
       s.depth[k] = u.col(i).norm();
       s.speed[k] = v.col(i).norm();
       s.fastest[k] = fastest;
@@ -241,6 +257,8 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
       s.f.col(k) = f.col(i);
       s.along.col(k) = f.col(i).dot(e.view.normal) * e.view.normal;
       s.across.col(k) = s.f.col(k) - s.along.col(k);
+      s.normal.col(k) = e.view.normal;
+      s.u.col(k) = u.col(i);
       s.velocity.col(k) = v.col(i);
       s.rate.col(k) = df.col(i);
     }
@@ -255,20 +273,28 @@ std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& force
   const auto law = [&](const char* kind, std::function<Columns()> columns) {
     laws.push_back({kind, [&s, columns] { return stacked(columns(), s); }});
   };
-  law("offset", [&] { return zeros({Column::Ones(s.depth.size())}); });
-  law("cycle", [&] { return by_number(s); });
+  // Gains and zeros by a variable.
+  const auto laws_by = [&](const char* kind, const char* of_zero, std::vector<Column> variable) {
+    law(kind, [&s, variable] { return times(variable, gains(s)); });
+    law(of_zero, [&s, variable] { return times(variable, zeros(s)); });
+  };
+  law("offset", [&] { return zeros(s); });
+  laws_by("cycle", "cycle", numbers(s));
   law(kSetUp, [&] { return by_matrix(s); });
   for (const int knots : {7, 20})
-    law("depth", [&s, knots] { return by(s.depth, quantiles(s.depth, knots), s); });
-  law("phase", [&] { return by_phase(s); });
+    laws_by("depth", "depth", hats(s.depth, quantiles(s.depth, knots)));
+  law("depth", [&] { return by_travel(s); });
+  laws_by("phase", "phase", phases(s));
   if (s.warmed)
-    law(kByTemperature, [&] { return by(s.temperature, quantiles(s.temperature, 4), s); });
+    laws_by(kByTemperature, kByTemperature, hats(s.temperature, quantiles(s.temperature, 4)));
   if (s.timed) {
-    law("session-time", [&] { return by_session(s); });
-    law("contact-time", [&] { return by(s.age, quantiles(s.age, 6), s); });
+    const std::vector<Column> session = hats(s.session, even(s.session, 9));
+    laws_by("session-time", "drift", session);
+    law("session-time", [&s, session] { return times(session, gains_of_axes(s)); });
+    laws_by("contact-time", "contact-time", hats(s.age, quantiles(s.age, 6)));
     law("rate", [&] { return by_rate(s); });
-    law("drift", [&] { return zeros(hats(s.session, even(s.session, 9))); });
   }
+  law(kDirection, [&] { return times(hats(slants(s), quantiles(slants(s), 4)), gains(s)); });
   laws.push_back({kDirection, [&] {
                     return Eigen::MatrixXd(
                         law_columns(forces, dataset)(stacked_components(s), Eigen::all));

@@ -16,10 +16,12 @@ struct LawSamples {
   using Vectors = Eigen::Matrix3Xd;    // one vector a sample
   std::vector<Eigen::Index> kept;      // of all, in the order of all_episodes()
   std::vector<Eigen::Index> since;     // how many samples of its press came before
+  std::vector<int> press;              // its press, from 0
   bool timed = false, warmed = false;  // time, temperature were recorded
   // Of the depth the growth; the fastest so far in the press.
   Column depth, speed, fastest, growth, age, session, number, temperature;
-  Vectors f, along, across, velocity, rate;  // along and across the normal; rate of the force
+  Vectors f, along, across, normal, u, velocity,
+      rate;  // along and across the normal; of f the rate
 };
 
 // Of a model's `forces` (stacked [N]). Of more than 10,000 samples every n-th is kept.

@@ -15,9 +15,7 @@
 namespace hapsim {
 namespace {
 
-constexpr double kTold = 0.1;            // of what is left, to be worth a word
-constexpr double kRidge = 1e-4;          // of laws that all presses share
-constexpr double kRidgeOfPlaces = 1e-2;  // of gains of a place, which few presses tell
+constexpr double kTold = 0.1;  // of what is left, to be worth a word
 constexpr double kHalf = 0.5, kNearlyAll = 0.9;
 constexpr double kSameShare = 0.02;  // shares that are alike
 
@@ -27,41 +25,68 @@ Eigen::MatrixXd gains_of_all(const LawSamples& s) {
   return X;
 }
 
-double unforetold_by_places(const LawSamples& s, const Eigen::VectorXd& residual,
-                            const Eigen::VectorXd& forces, const std::vector<int>& parts,
-                            const Dataset& dataset) {
+// Of each sample, as of unforetold_squares().
+Eigen::VectorXd unforetold_by_places(const LawSamples& s, const Eigen::VectorXd& residual,
+                                     const Eigen::VectorXd& forces, const std::vector<int>& parts,
+                                     const Dataset& dataset) {
   std::map<Eigen::Index, std::size_t> kept;  // of a sample of all: which of those kept
   for (std::size_t k = 0; k < s.kept.size(); ++k) kept[s.kept[k]] = k;
-  double left = 0;
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(s.f.cols());
   for (const GainBlock& place : gain_directions(dataset, all_episodes(dataset), forces)) {
-    std::vector<Eigen::Index> of_block, rows;
+    std::vector<Eigen::Index> of_block, rows, samples;
     std::vector<int> own;
     for (std::size_t i = 0; i < place.rows.size(); ++i) {
       const auto found = kept.find(place.rows[i] / 3);
       if (found == kept.end()) continue;
       of_block.push_back(static_cast<Eigen::Index>(i));
       rows.push_back(3 * static_cast<Eigen::Index>(found->second) + place.rows[i] % 3);
-      if (place.rows[i] % 3 == 0) own.push_back(parts[found->second]);
+      if (place.rows[i] % 3 != 0) continue;
+      own.push_back(parts[found->second]);
+      samples.push_back(static_cast<Eigen::Index>(found->second));
     }
-    left += unforetold_squares(place.Z(of_block, Eigen::all), residual(rows), own, kRidgeOfPlaces);
+    left(samples) = unforetold_squares(place.Z(of_block, Eigen::all), residual(rows), own);
   }
   return left;
 }
 
-// A gain of each press, told by stretches of it that are left out in turn.
-double unforetold_by_presses(const LawSamples& s, const Eigen::VectorXd& residual) {
+// Gains of each press, told by stretches of it that are left out in turn.
+double unforetold_by_presses(const LawSamples& s, const Eigen::MatrixXd& gains,
+                             const Eigen::VectorXd& residual) {
   constexpr Eigen::Index kStretch = 8;
   double left = 0;
   for (std::size_t from = 0, to = 0; from < s.kept.size(); from = to) {
     std::vector<int> parts;
-    for (to = from; to < s.kept.size() && (to == from || s.since[to] > s.since[to - 1]); ++to)
+    for (to = from; to < s.kept.size() && s.press[to] == s.press[from]; ++to)
       parts.push_back(static_cast<int>(s.since[to] / kStretch % 3));
-    const auto first = static_cast<Eigen::Index>(from),
-               count = static_cast<Eigen::Index>(to - from);
-    left += unforetold_squares(s.f.middleCols(first, count).reshaped(),
-                               residual.segment(3 * first, 3 * count), parts, kRidge);
+    const auto first = 3 * static_cast<Eigen::Index>(from),
+               count = 3 * static_cast<Eigen::Index>(to - from);
+    left +=
+        unforetold_squares(gains.middleRows(first, count), residual.segment(first, count), parts)
+            .sum();
   }
   return left;
+}
+
+struct TriedKind {
+  std::string kind;
+  Eigen::VectorXd by_press;  // squares left of each press [N^2]
+  double left = 0;           // of all, the noise at least
+};
+
+Eigen::VectorXd by_press(const Eigen::VectorXd& samples, const LawSamples& s) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(s.press.back() + 1);
+  for (std::size_t k = 0; k < s.press.size(); ++k)
+    sum[s.press[k]] += samples[static_cast<Eigen::Index>(k)];
+  return sum;
+}
+
+// Whether what presses say of two laws may be chance: their mean difference, over its own error.
+bool no_worse(const TriedKind& law, const TriedKind& best) {
+  constexpr double kPlainly = 2;
+  const Eigen::VectorXd more = law.by_press - best.by_press;
+  const auto n = static_cast<double>(more.size());
+  const double spread = std::sqrt((more.array() - more.mean()).square().sum() / (n - 1) / n);
+  return more.mean() <= kPlainly * spread;
 }
 
 const char* goes_with(const std::string& kind) {
@@ -80,7 +105,7 @@ const char* goes_with(const std::string& kind) {
       {kSetUp, "axes that are mixed (sensor, robot)"},
       {kDirection, "the direction and the size of the force"},
       {kBody, "the place"},
-      {kPress, "a gain of each press (tried on its other samples)"}};
+      {kPress, "gains of each press (tried on its other samples)"}};
   return words.at(kind);
 }
 
@@ -100,46 +125,52 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
   const double beyond = r.squaredNorm() - noise;
   if (!(beyond > 0)) return {};
 
-  std::vector<LeftKind> found;
   const double all = r.squaredNorm();
-  const auto judge = [&](const std::string& kind, double before, double left) {
-    left = std::max(left, noise);
-    if (before - left < kTold * beyond) return;
-    const double share = (all - left) / beyond;
-    const auto known =
-        std::find_if(found.begin(), found.end(), [&](const LeftKind& k) { return k.kind == kind; });
+  std::vector<TriedKind> found;
+  const auto judge = [&](const std::string& kind, double before, const Eigen::VectorXd& samples) {
+    TriedKind now{kind, by_press(samples, s), std::max(samples.sum(), noise)};
+    if (before - now.left < kTold * beyond) return;
+    const auto known = std::find_if(found.begin(), found.end(),
+                                    [&](const TriedKind& other) { return other.kind == kind; });
     if (known == found.end())
-      found.push_back({kind, share});
-    else
-      known->share = std::max(known->share, share);
+      found.push_back(std::move(now));
+    else if (now.left < known->left)
+      *known = std::move(now);
   };
   const Eigen::MatrixXd gains = gains_of_all(s);
-  const double by_gains = std::min(all, unforetold_squares(gains, r, parts, kRidge));
+  const double by_gains = std::min(all, unforetold_squares(gains, r, parts).sum());
   for (const KindLaw& law : kind_laws(s, forces, dataset)) {
     Eigen::MatrixXd columns = law.columns();
     columns.conservativeResize(Eigen::NoChange, columns.cols() + 2);
     columns.rightCols(2) = gains;
-    judge(law.kind, law.kind == kSetUp ? all : by_gains,
-          unforetold_squares(columns, r, parts, kRidge));
+    judge(law.kind, law.kind == kSetUp ? all : by_gains, unforetold_squares(columns, r, parts));
   }
   judge(kBody, by_gains, unforetold_by_places(s, r, forces, parts, dataset));
-  std::stable_sort(found.begin(), found.end(), [](const LeftKind& a, const LeftKind& b) {
-    return std::round(a.share / kSameShare) > std::round(b.share / kSameShare);
+  const auto share = [&](double left) { return (all - left) / beyond; };
+  std::stable_sort(found.begin(), found.end(), [&](const TriedKind& a, const TriedKind& b) {
+    return std::round(share(a.left) / kSameShare) > std::round(share(b.left) / kSameShare);
   });
-  const double by_presses = (all - std::max(noise, unforetold_by_presses(s, r))) / beyond;
-  if (by_presses > kNearlyAll && (found.empty() || found.front().share < kHalf))
-    found.insert(found.begin(), {kPress, by_presses});
-  return found;
+  std::vector<LeftKind> kinds;
+  for (const TriedKind& each : found)
+    kinds.push_back({each.kind, share(each.left), no_worse(each, found.front())});
+  const double by_presses = share(std::max(noise, unforetold_by_presses(s, gains, r)));
+  if (by_presses > kNearlyAll && (found.empty() || kinds.front().share < kHalf)) {
+    for (LeftKind& kind : kinds) kind.alike = false;
+    kinds.insert(kinds.begin(), {kPress, by_presses, true});
+  }
+  return kinds;
 }
 
 std::string words_of(const std::vector<LeftKind>& kinds) {
   constexpr std::size_t kMost = 3;
   std::string words;
   for (std::size_t k = 0; k < std::min(kMost, kinds.size()); ++k) {
-    if (kinds[k].share < kHalf * kinds.front().share) break;
-    words += k == 0 ? fmt::format("{} foretells {:.0f} % of that", goes_with(kinds[k].kind),
-                                  100 * kinds[k].share)
-                    : fmt::format(", {} {:.0f} %", goes_with(kinds[k].kind), 100 * kinds[k].share);
+    const LeftKind& kind = kinds[k];
+    if (kind.share < kHalf * kinds.front().share) break;
+    words += k == 0 ? fmt::format("{} foretells {:.0f} % of that", goes_with(kind.kind),
+                                  100 * kind.share)
+                    : fmt::format(", {} {:.0f} %{}", goes_with(kind.kind), 100 * kind.share,
+                                  kind.alike ? " (as well, but for chance)" : "");
   }
   return words.empty() ? "" : "Tried on presses that were left out, " + words + ".";
 }

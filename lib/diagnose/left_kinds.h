@@ -11,26 +11,30 @@ namespace hapsim {
 
 // How much of what is left beyond noise a kind of law foretells.
 struct LeftKind {
-  std::string kind;  // of LeftOver::kind
-  double share = 0;  // of the squares beyond noise, on presses that it was not fitted to
+  std::string kind;   // of LeftOver::kind
+  double share = 0;   // of the squares beyond noise, on presses that it was not fitted to
+  bool alike = true;  // the first, or what is no worse than it but for chance
 };
 
 // Of what `residual` [N] holds beyond noise: the kinds of law that foretell it, the largest share
 // first; of shares that are alike the simplest. Each is linear in its numbers
 // (diagnose/kind_laws.h), has a gain of all forces along the normal and one across it beside it,
 // and counts where it foretells a tenth more than these alone (the set-up's: than nothing):
-//   offset, drift   a zero; one by the session's time (hat functions)
-//   depth, contact-time, rate, phase, session-time, cycle, temperature
-//                   gains that differ by depth, time since the press began, speed (also the
-//                   largest so far; with what the rate of the force and the velocity do), loading,
-//                   hold and unloading by depth, time of the session (of each axis too), number
-//                   of the press at its place, temperature
+//   offset, drift   a zero of each axis and along the normal; one by the session's time (hat
+//                   functions)
+//   depth, contact-time, phase, cycle, temperature
+//                   gains, or zeros, that differ by depth (also by how far each axis moved), time
+//                   since the press began, loading, hold and unloading by depth, number of the
+//                   press at its place, temperature
+//   session-time    gains, along the normal and across it or of each axis, by the session's time
+//   rate            by speed (also the largest so far) the force and its rate; the velocity
 //   history         what the increments of force did so and so long before (a kernel of finite
 //                   length, lags in steps of a third)
 //   reading         an error of each axis by its own force, in forty steps: a converter's
-//   set-up          any 3 x 3 matrix; direction: the law of shared_law.h
+//   set-up          any 3 x 3 matrix
+//   direction       gains that differ by how far the force leans; the law of shared_law.h
 //   body            six gains of each position (experiment/weights.h)
-//   press           a gain of each press, foretold by other samples of the same press, where that
+//   press           gains of each press, foretold by other samples of the same press, where that
 //                   is nine tenths and no law of unseen presses foretells half
 // `forces`: of the model. Empty for fewer presses than kLeastPresses.
 std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,

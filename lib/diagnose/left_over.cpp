@@ -230,6 +230,12 @@ std::string words_of(const LeftOver& left) {
   return kinds.empty() ? words : words + " " + kinds;
 }
 
+// Whether a stiffness of each place, and gains of all, had presses left out to be judged by.
+bool could_be_tried(const Dataset& dataset) {
+  return dataset.episodes.size() >=
+         std::max<std::size_t>(kLeastPresses, 2 * dataset.positions.size());
+}
+
 }  // namespace
 
 LeftOver left_over(const Fit& fitted, const TrialGround& g) {
@@ -295,7 +301,7 @@ void tell_kinds(const Fit& fitted, const TrialGround& g, LeftOver& left) {
   if (!is({kEvent, kFrequency, "place"})) {
     if (!left.kinds.empty())
       left.kind = left.kinds.front().kind;
-    else if (!is({kBody, kSetUp}))
+    else if (could_be_tried(g.dataset) || !is({kBody, kSetUp}))
       left.kind = "left";
   }
   const double swing = is({"left"}) ? swing_left(residual, g.dataset, g.allowance.noise) : 0;

@@ -12,12 +12,12 @@ namespace hapsim {
 // more; the part of each sample, in the order of all_episodes().
 std::vector<int> press_parts(const Dataset& dataset);
 
-// Squares [N^2] of what is left of `residual` (three components a sample) where each part of
-// `parts` is foretold by `columns`, fitted to the others by least squares: cross-validation (Stone,
-// J. Roy. Stat. Soc. B 36, 1974). `ridge`, of a column's squares in all parts, keeps small what the
-// others hardly tell (Hoerl & Kennard, Technometrics 12, 1970). May be more than the residual's
-// own.
-double unforetold_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
-                          const std::vector<int>& parts, double ridge);
+// Squares [N^2] of what is left of each sample of `residual` (three components a sample) where each
+// part of `parts` is foretold by `columns`, fitted to the others by least squares: cross-validation
+// (Stone, J. Roy. Stat. Soc. B 36, 1974). A ridge (Hoerl & Kennard, Technometrics 12, 1970) keeps
+// small what the others hardly tell; of several the one that foretells best. May be more than the
+// residual's own.
+Eigen::VectorXd unforetold_squares(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
+                                   const std::vector<int>& parts);
 
 }  // namespace hapsim

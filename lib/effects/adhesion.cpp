@@ -76,7 +76,8 @@ class Adhesion : public Effect {
         .signature = "too stiff while the tool leaves, down to a pull before it comes off",
         .confounders = {"viscoelastic", "softening", "backlash", "deadband", "slack"},
         .separated_by =
-            "a slow retreat until the tool is clear of the body, and a hold half-way out"};
+            "a slow retreat until the tool is clear of the body, and a hold half-way out",
+        .kinds = {"depth", "phase"}};
     return card;
   }
 

@@ -39,7 +39,8 @@ class Anisotropic : public Effect {
         .confounders = {"sensor-gain", "sensor-rotation", "layer", "friction"},
         .separated_by =
             "sideways presses along x, along y and diagonally; a calibration weight along each "
-            "axis of the sensor"};
+            "axis of the sensor",
+        .kinds = {"direction", "set-up", "body"}};
     return card;
   }
   void describe(const Values& values, MaterialSpec& material) const override {

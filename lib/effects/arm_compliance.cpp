@@ -56,7 +56,8 @@ class ArmCompliance : public Effect {
         .confounders = {"anisotropic", "layer", "motion-scale", "sensor-gain"},
         .separated_by =
             "press a rigid plate with the same robot: all that moves there is the arm; "
-            "or a second tool radius"};
+            "or a second tool radius",
+        .kinds = {"set-up", "direction"}};
     return card;
   }
 

@@ -62,6 +62,7 @@ class Backlash : public Effect {
         .separated_by =
             "a press in steps that reverse at several depths, slowly, with the tip's own motion "
             "measured",
+        .kinds = {"depth", "phase"},
         .looks_ahead = true,
         .live =
             "the direction of a press is known when it is over; sample by sample d is that of the "

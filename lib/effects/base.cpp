@@ -41,7 +41,8 @@ class Base : public Effect {
         .signature = "too stiff on one side, more so sideways and where the body is thin",
         .confounders = {"regions", "inclusion", "layer", "shift"},
         .separated_by =
-            "sideways presses near the edge of the bottom, and a tool of twice the radius"};
+            "sideways presses near the edge of the bottom, and a tool of twice the radius",
+        .kinds = {"body"}};
     return card;
   }
   void describe(const Values& values, MaterialSpec& material) const override {

@@ -54,7 +54,8 @@ class Breathing : public Effect {
         .confounders = {"sensor-hum", "sensor-drift", "temperature", "viscoelastic"},
         .separated_by =
             "the tool held still on the body over ten periods; the frequency of the "
-            "breath, the pump or the table measured"};
+            "breath, the pump or the table measured",
+        .kinds = {"frequency"}};
     return card;
   }
 

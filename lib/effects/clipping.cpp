@@ -31,7 +31,8 @@ class Clipping : public Effect {
             "forces that follow the model up to one size and stay there exactly, at every place, "
             "without noise",
         .confounders = {"sensor-curve", "softening", "friction"},
-        .separated_by = "a sensor of a larger range, or presses that stay below its end"};
+        .separated_by = "a sensor of a larger range, or presses that stay below its end",
+        .kinds = {"reading", "depth"}};
     return card;
   }
 

@@ -51,6 +51,7 @@ class Clock : public Effect {
         .separated_by =
             "fast presses with a hold, at the beginning and at the end of the session; "
             "a tap on the sensor that both records show",
+        .kinds = {"rate", "history"},
         .of_recording = true,
         .live = "a loop has one clock: it gives the force of the motion that has come"};
     return card;

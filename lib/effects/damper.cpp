@@ -48,7 +48,8 @@ class Damper : public Effect {
         .signature =
             "too soft while the tool moves in, too stiff while it moves out, right at rest",
         .confounders = {"viscoelastic", "sensor-lag"},
-        .separated_by = "presses at three rates, and a hold after the fastest"};
+        .separated_by = "presses at three rates, and a hold after the fastest",
+        .kinds = {"rate", "history"}};
     return card;
   }
 

@@ -39,7 +39,8 @@ class Deadband : public Effect {
                         0, 0.5, 0, 1, 0.3, false}},
         .signature = "readings of zero at small forces, and a constant loss above them",
         .confounders = {"sensor-bias", "slack", "adhesion", "sensor-curve"},
-        .separated_by = "a slow shallow press, and small calibration weights"};
+        .separated_by = "a slow shallow press, and small calibration weights",
+        .kinds = {"reading", "depth"}};
     return card;
   }
 

@@ -63,7 +63,8 @@ class Drag : public Effect {
             "an offset that goes against the motion: too large a force on the way in and "
             "too small on the way out, the same at any depth",
         .confounders = {"sensor-bias", "touch", "adhesion", "backlash"},
-        .separated_by = "the way out again, slowly; the tool moved in the air"};
+        .separated_by = "the way out again, slowly; the tool moved in the air",
+        .kinds = {"rate", "phase", "offset"}};
     return card;
   }
 

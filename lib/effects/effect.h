@@ -86,7 +86,8 @@ struct EffectCard {
   std::vector<std::string> confounders;
   std::string separated_by;           // the measurement that tells it from them
   std::vector<std::string> contains;  // effects that this one includes as a special case
-  std::vector<std::string> kinds;  // a curve's: of what is left (LeftOver::kind), those it follows
+  std::vector<std::string>
+      kinds;                  // of what is left (LeftOver::kind): what it is, the nearest first
   bool of_recording = false;  // in how a recording was put together: a live loop does without it
   bool looks_ahead = false;  // asks for what comes later in the press: its step takes what has come
   // Where its step (Effect::step) is not what a whole press would have: why, and what it does

@@ -97,7 +97,8 @@ class Filter : public Effect {
         .confounders = {"sensor-lag", "viscoelastic", "damper"},
         .separated_by =
             "a fast press with a hold, sampled ten times within the filter's period; the data "
-            "sheet"};
+            "sheet",
+        .kinds = {"history", "rate", "contact-time"}};
     return card;
   }
 

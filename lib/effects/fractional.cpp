@@ -56,7 +56,8 @@ class Fractional : public Effect {
             "each tenfold time takes a like share",
         .confounders = {"viscoelastic", "poroelastic", "learned-kernel", "sensor-drift"},
         .separated_by = "a hold a hundred times as long as the way in, sampled from its beginning",
-        .contains = {"viscoelastic"}};
+        .contains = {"viscoelastic"},
+        .kinds = {"history", "contact-time", "rate", "phase"}};
     return card;
   }
 

@@ -68,7 +68,8 @@ class Friction : public Effect {
         .needs_sideways = true,
         .signature = "too stiff sideways beyond some share of the normal force, with a set after",
         .confounders = {"sensor-gain", "anisotropic", "softening"},
-        .separated_by = "sideways presses to and fro, at two normal forces"};
+        .separated_by = "sideways presses to and fro, at two normal forces",
+        .kinds = {"direction", "phase"}};
     return card;
   }
 

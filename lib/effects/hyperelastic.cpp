@@ -183,7 +183,8 @@ class Hyperelastic : public Effect {
         .form_error = 0.08,
         .signature = "too soft deep down and too stiff at small depth, most of all sideways",
         .confounders = {"tip", "sensor-curve"},
-        .separated_by = "deeper presses with a flat tool, and a calibration weight on the sensor"};
+        .separated_by = "deeper presses with a flat tool, and a calibration weight on the sensor",
+        .kinds = {"depth"}};
     return card;
   }
 

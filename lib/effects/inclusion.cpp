@@ -34,7 +34,8 @@ class Inclusion : public Effect {
         .like_shape = true,
         .signature = "too soft (or too stiff) at neighbouring positions, and less so further away",
         .confounders = {"regions", "layer", "base", "shift"},
-        .separated_by = "presses 5 mm apart around the place, and a second tool radius"};
+        .separated_by = "presses 5 mm apart around the place, and a second tool radius",
+        .kinds = {"body", "place"}};
     return card;
   }
   void describe(const Values& values, MaterialSpec& material) const override {

@@ -26,7 +26,8 @@ class Layer : public Effect {
         .signature =
             "sideways forces and normal ones ask for different moduli, at every position alike",
         .confounders = {"anisotropic", "sensor-gain", "base", "inclusion"},
-        .separated_by = "a second tool radius (half or twice), and sideways presses"};
+        .separated_by = "a second tool radius (half or twice), and sideways presses",
+        .kinds = {"body"}};
     return card;
   }
   void describe(const Values& values, MaterialSpec& material) const override {

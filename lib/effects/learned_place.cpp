@@ -84,7 +84,8 @@ class LearnedPlace : public Effect {
         .signature = "too stiff at some places and too soft at others, alike at neighbours",
         .confounders = {"regions", "layer", "inclusion", "base", "shift"},
         .separated_by = "new places between the pressed ones, and a tool of another radius",
-        .contains = {"regions"}};
+        .contains = {"regions"},
+        .kinds = {"body", "place"}};
     return card;
   }
 

@@ -25,7 +25,8 @@ class MotionRotation : public Effect {
         .confounders = {"sensor-rotation", "shift", "anisotropic", "sensor-crosstalk"},
         .separated_by =
             "the tool's own motion against a gauge; presses where the surface is aslant to the "
-            "axes, and sideways ones"};
+            "axes, and sideways ones",
+        .kinds = {"set-up", "direction"}};
     return card;
   }
 

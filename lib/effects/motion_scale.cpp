@@ -26,7 +26,8 @@ class MotionScale : public Effect {
         .confounders = {"sensor-gain", "anisotropic", "arm-compliance"},
         .separated_by =
             "the tool's own motion against a gauge; presses where the surface is aslant to the "
-            "axes, for there a wrong gain of the force is another thing"};
+            "axes, for there a wrong gain of the force is another thing",
+        .kinds = {"set-up"}};
     return card;
   }
 

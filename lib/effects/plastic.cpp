@@ -75,6 +75,7 @@ class Plastic : public Effect {
         .separated_by =
             "the same place pressed three times to one depth, then deeper, each with a slow way "
             "out and a pause: what is soft comes back, what has set begins later",
+        .kinds = {"cycle", "offset", "depth"},
         .live = "it remembers the last 1,024 places: what was pressed before them is fresh again"};
     return card;
   }

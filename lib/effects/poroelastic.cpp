@@ -66,7 +66,8 @@ class Poroelastic : public Effect {
         .separated_by =
             "the same press with tools of two radii: the time grows with the square of the radius; "
             "a hold until the force stays",
-        .contains = {"viscoelastic"}};
+        .contains = {"viscoelastic"},
+        .kinds = {"history", "contact-time", "rate", "phase"}};
     return card;
   }
 

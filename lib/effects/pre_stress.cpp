@@ -33,7 +33,8 @@ class PreStress : public Effect {
         .confounders = {"anisotropic", "layer", "sensor-gain", "arm-compliance"},
         .separated_by =
             "a second tool radius (half or twice): what a tension adds does not grow with it as "
-            "the body's stiffness does"};
+            "the body's stiffness does",
+        .kinds = {"set-up", "direction", "body"}};
     return card;
   }
   void describe(const Values& values, MaterialSpec& material) const override {

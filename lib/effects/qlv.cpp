@@ -70,7 +70,8 @@ class Qlv : public Effect {
             "the share that relaxes differs between shallow and deep presses, or along one",
         .confounders = {"viscoelastic", "hyperelastic", "learned-kernel", "softening"},
         .separated_by = "holds at three depths, each until the force stays",
-        .contains = {"viscoelastic"}};
+        .contains = {"viscoelastic"},
+        .kinds = {"history", "contact-time", "rate", "phase"}};
     return card;
   }
 

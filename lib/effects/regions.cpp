@@ -42,7 +42,8 @@ class Regions : public Effect {
         .is_map = true,
         .signature = "too stiff at some positions and too soft at others, at all depths and rates",
         .confounders = {"layer", "inclusion", "base", "shift"},
-        .separated_by = "new positions between the pressed ones, and a tool of another radius"};
+        .separated_by = "new positions between the pressed ones, and a tool of another radius",
+        .kinds = {"body", "place"}};
     return card;
   }
   bool relaxation(const Values&, double, std::vector<MaxwellTerm>&) const override { return true; }

@@ -20,7 +20,8 @@ class SensorBias : public Effect {
                        {"bz", "N", "offset along z", 0, 0, -1e6, 1e6, 0.1, false}},
         .signature = "the same error at every depth and position, in the air as well",
         .confounders = {"sensor-drift", "tare", "deadband"},
-        .separated_by = "samples in the air before and after contact"};
+        .separated_by = "samples in the air before and after contact",
+        .kinds = {"offset"}};
     return card;
   }
 

@@ -46,7 +46,8 @@ class SensorCrosstalk : public Effect {
             "it",
         .confounders = {"sensor-rotation", "sensor-gain", "anisotropic", "shift"},
         .separated_by = "a calibration weight along each axis; sideways presses both ways",
-        .contains = {"sensor-rotation"}};
+        .contains = {"sensor-rotation"},
+        .kinds = {"set-up", "direction"}};
     return card;
   }
 

@@ -32,7 +32,8 @@ class SensorCurve : public Effect {
         .confounders = {"hyperelastic", "tip", "deadband"},
         .separated_by =
             "calibration weights up to the largest force; the same force at a stiff and at a soft "
-            "place"};
+            "place",
+        .kinds = {"reading", "depth"}};
     return card;
   }
 

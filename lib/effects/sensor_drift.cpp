@@ -25,7 +25,8 @@ class SensorDrift : public Effect {
         .signature = "an error that grows from press to press, in the air as well",
         .confounders = {"sensor-bias", "tare", "temperature", "softening"},
         .separated_by = "samples in the air, and the first position pressed again at the end",
-        .contains = {"sensor-bias"}};
+        .contains = {"sensor-bias"},
+        .kinds = {"drift", "offset"}};
     return card;
   }
 

@@ -22,7 +22,8 @@ class SensorGain : public Effect {
         .like_shape = true,
         .signature = "one component of the force is wrong by a factor, in all presses",
         .confounders = {"anisotropic", "sensor-rotation", "friction"},
-        .separated_by = "a calibration weight along each axis; sideways presses at turned corners"};
+        .separated_by = "a calibration weight along each axis; sideways presses at turned corners",
+        .kinds = {"set-up", "direction"}};
     return card;
   }
 

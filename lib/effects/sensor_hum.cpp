@@ -39,7 +39,8 @@ class SensorHum : public Effect {
         .confounders = {"breathing", "sensor-drift"},
         .separated_by =
             "samples in the air between the presses, over ten periods; the sensor's "
-            "leads and the robot's drives switched off in turn"};
+            "leads and the robot's drives switched off in turn",
+        .kinds = {"frequency"}};
     return card;
   }
 

@@ -66,7 +66,8 @@ class SensorHysteresis : public Effect {
         .confounders = {"drag", "backlash", "adhesion", "softening", "viscoelastic"},
         .separated_by =
             "weights put on the sensor and taken off one by one; presses that go back at several "
-            "depths, slow and fast"};
+            "depths, slow and fast",
+        .kinds = {"phase", "history", "reading"}};
     return card;
   }
 

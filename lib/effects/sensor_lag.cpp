@@ -97,6 +97,7 @@ class SensorLag : public Effect {
         .signature = "too soft an instant after each change of speed, right at rest",
         .confounders = {"damper", "viscoelastic"},
         .separated_by = "a fast press where the stiffness differs",
+        .kinds = {"history", "rate", "contact-time"},
         .live = "a delay of more than 16,384 samples is one of so many"};
     return card;
   }

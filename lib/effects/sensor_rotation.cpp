@@ -21,7 +21,8 @@ class SensorRotation : public Effect {
         .signature =
             "sideways forces in the proportion of the normal force, turned everywhere alike",
         .confounders = {"shift", "sensor-gain", "anisotropic"},
-        .separated_by = "a calibration weight hung on the tool, and sideways presses both ways"};
+        .separated_by = "a calibration weight hung on the tool, and sideways presses both ways",
+        .kinds = {"set-up", "direction"}};
     return card;
   }
 

@@ -39,7 +39,8 @@ class SensorSettling : public Effect {
         .separated_by =
             "samples in the air between all presses, and the first position pressed "
             "again in the middle and at the end",
-        .contains = {"sensor-bias", "sensor-drift"}};
+        .contains = {"sensor-bias", "sensor-drift"},
+        .kinds = {"drift", "offset"}};
     return card;
   }
 

@@ -35,7 +35,8 @@ class Shift : public Effect {
             "contact points off the scanned surface, stiffness and directions wrong by place",
         .confounders = {"sensor-rotation", "regions", "base"},
         .separated_by =
-            "a few points touched on the object again, on slopes of different directions"};
+            "a few points touched on the object again, on slopes of different directions",
+        .kinds = {"body"}};
     return card;
   }
   void describe(const Values& values, MaterialSpec& material) const override {

@@ -32,7 +32,8 @@ class Slack : public Effect {
                         false, std::numeric_limits<double>::quiet_NaN(), true}},
         .signature = "a simulated pull while the tool leaves or is above the surface",
         .confounders = {"adhesion", "deadband", "viscoelastic"},
-        .separated_by = "samples of the tool leaving, until it is well clear of the body"};
+        .separated_by = "samples of the tool leaving, until it is well clear of the body",
+        .kinds = {"depth", "phase"}};
     return card;
   }
 

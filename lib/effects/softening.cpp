@@ -107,6 +107,7 @@ class Softening : public Effect {
         .separated_by =
             "the same place pressed three times to one depth, then deeper, all at one speed; the "
             "first place pressed again at the end, and the temperature recorded",
+        .kinds = {"cycle", "session-time"},
         .live = "it remembers the last 1,024 places: what was pressed before them is fresh again"};
     return card;
   }

@@ -32,7 +32,8 @@ class Tare : public Effect {
             "press to press",
         .confounders = {"sensor-bias", "sensor-drift"},
         .separated_by = "samples in the air before and after every press",
-        .contains = {"sensor-bias"}};
+        .contains = {"sensor-bias"},
+        .kinds = {"offset", "drift", "press"}};
     return card;
   }
 

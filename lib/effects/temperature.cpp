@@ -27,7 +27,8 @@ class Temperature : public Effect {
         .needs_temperature = true,
         .signature = "too stiff in warm presses and too soft in cold ones, at all depths",
         .confounders = {"softening", "sensor-drift", "regions"},
-        .separated_by = "the same place pressed warm and cold, in changing order"};
+        .separated_by = "the same place pressed warm and cold, in changing order",
+        .kinds = {"temperature"}};
     return card;
   }
 

@@ -58,6 +58,7 @@ class Tip : public Effect {
             "presses deeper than the tip's cap is high, or with a flat tool, and a calibration "
             "weight on the sensor",
         .contains = {"slack"},
+        .kinds = {"depth"},
         .live = "of a way in of more than 4,096 samples it remembers every second, or fewer"};
     return card;
   }

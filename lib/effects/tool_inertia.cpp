@@ -35,6 +35,7 @@ class ToolInertia : public Effect {
         .signature = "spikes where the speed changes, in the air as well",
         .confounders = {"damper", "sensor-lag", "filter", "drag"},
         .separated_by = "the same motion in the air, or the tool's mass from a scale",
+        .kinds = {"rate", "event"},
         .of_recording = true,
         .live =
             "a second derivative asks for the sample that follows, and a hand that holds a tool "

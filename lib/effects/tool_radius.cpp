@@ -146,7 +146,8 @@ class ToolRadius : public Effect {
             "like another Young's modulus, but the more the stiffer the support makes a place, the "
             "less the more the body gives way as a whole",
         .confounders = {"base", "anisotropic", "layer", "arm-compliance"},
-        .separated_by = "the tool, measured; presses with a tool of another radius"};
+        .separated_by = "the tool, measured; presses with a tool of another radius",
+        .kinds = {"set-up", "body"}};
     return card;
   }
 

@@ -41,7 +41,8 @@ class Touch : public Effect {
                         -0.05, 0.05, 1e-4, false}},
         .signature = "too soft from the first contact on (or too stiff), by the same depth",
         .confounders = {"tip", "sensor-bias", "deadband", "hyperelastic"},
-        .separated_by = "an approach from clear of the body, recorded sample by sample"};
+        .separated_by = "an approach from clear of the body, recorded sample by sample",
+        .kinds = {"depth", "offset"}};
     return card;
   }
 

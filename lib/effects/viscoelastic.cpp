@@ -29,7 +29,8 @@ class Viscoelastic : public Effect {
         .maxwell = true,
         .signature = "too soft in fast loading, too stiff late in holds and in unloading",
         .confounders = {"damper", "sensor-lag", "sensor-drift", "softening"},
-        .separated_by = "a fast press and a long hold at the same place and depth"};
+        .separated_by = "a fast press and a long hold at the same place and depth",
+        .kinds = {"history", "contact-time", "rate", "phase"}};
     return card;
   }
 

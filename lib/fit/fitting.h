@@ -66,7 +66,21 @@ class Fitting {
   // FitOptions::ridges, once all else is told (fitting_ridge.cpp). False: a better fit was met on
   // the way, and result_ is there.
   bool tell_ridges(const Signal& signal, const FitOptions& errors, double variance);
+  bool tells_profiles() const;
   std::vector<Eigen::Index> ridges(const Eigen::MatrixXd& covariance) const;
+  // Of all free parameters, as if none had bounds.
+  struct Covariance {
+    Eigen::MatrixXd bread, whole;  // by noise alone, and with all that `errors` says
+  };
+  Covariance beyond_bounds(const Signal& signal, const FitOptions& errors, double variance) const;
+  // What the standard errors of the others are more where a parameter is at its bound, or its
+  // interval reaches there (fitting_bounds.cpp).
+  struct Moved {
+    Eigen::VectorXd by;  // all free parameters, the farthest each
+    double until = 0;    // the parameter itself
+  };
+  Moved move_to(Eigen::Index which, double bound, double most);
+  void tell_bounds(const Signal& signal, const FitOptions& errors, double variance);
   // The ridge of a parameter of that error in its logarithm, from where result_ is, to a rise of
   // the sum of squares by `threshold`.
   Ridge walk(Eigen::Index which, double error, double threshold);

@@ -43,6 +43,7 @@ Fit Fitting::end() {
     minimise_in_rounds();
     return end();
   }
+  tell_bounds(signal, errors, variance);
   if (result_.stopped) result_.converged = false, result_.message = "interrupted";
   Eigen::VectorXd whitened = residual / options_.noise;
   Eigen::MatrixXd J = signal.df / options_.noise;

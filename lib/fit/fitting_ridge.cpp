@@ -10,9 +10,8 @@
 namespace hapsim {
 namespace {
 
-constexpr double kRise95 = 3.841458821;  // of chi squared with one degree of freedom
-constexpr double kTold = 0.1;            // standard error of a logarithm that a parabola tells well
-constexpr double kFarthest = 0.7;        // a step's logarithm: what a linearised body follows
+constexpr double kTold = 0.1;      // standard error of a logarithm that a parabola tells well
+constexpr double kFarthest = 0.7;  // a step's logarithm: what a linearised body follows
 constexpr double kNearest = 0.05;
 
 // (J'J)^-1 with the columns of parameters at their bounds, in their units.
@@ -141,26 +140,36 @@ Ridge Fitting::walk(Eigen::Index which, double error, double threshold) {
   return ridge;
 }
 
-bool Fitting::tell_ridges(const Signal& signal, const FitOptions& errors, double variance) {
-  if (!options_.ridges || !is_linearised_ || options_.rounds < kFullRounds || !converged() ||
-      !constraints_.empty() || options_.robust != RobustLoss::kNone)
-    return true;
+Fitting::Covariance Fitting::beyond_bounds(const Signal& signal, const FitOptions& errors,
+                                           double variance) const {
   Eigen::VectorXd x(signal.df.cols()), r;
   const std::vector<Unknown> all = unknowns(result_.model);
   for (std::size_t c = 0; c < all.size(); ++c) x[static_cast<Eigen::Index>(c)] = all[c].value;
   Eigen::MatrixXd J;
   residuals_of(result_.model)(x, r, &J);
   const Eigen::MatrixXd bread = inverse_of(J);
-  const Eigen::MatrixXd covariance = error_covariance(
-      bread, signal, experiment_, selection_, errors, variance, by_gain_of_all(signal, bread));
+  return {bread, error_covariance(bread, signal, experiment_, selection_, errors, variance,
+                                  by_gain_of_all(signal, bread))};
+}
+
+bool Fitting::tells_profiles() const {
+  return options_.ridges && converged() && constraints_.empty() &&
+         options_.robust == RobustLoss::kNone;
+}
+
+bool Fitting::tell_ridges(const Signal& signal, const FitOptions& errors, double variance) {
+  if (!tells_profiles() || !is_linearised_ || options_.rounds < kFullRounds) return true;
+  const auto [bread, covariance] = beyond_bounds(signal, errors, variance);
   const TorqueRows torques = torques_;
   const MarkerRows marked = marked_;
+  const std::vector<Unknown> all = unknowns(result_.model);
   bool stays = true;
   for (const Eigen::Index which : ridges(covariance)) {
     const double own = covariance(which, which), alone = bread(which, which);
     if (!(own > 0) || !(alone > 0)) continue;
     lowest_ = -0.2;  // a rise below is a better fit elsewhere
-    const Ridge ridge = walk(which, std::sqrt(own) / x[which], kRise95 * own / alone);
+    const double value = all[static_cast<std::size_t>(which)].value;
+    const Ridge ridge = walk(which, std::sqrt(own) / value, kRise95 * own / alone);
     if (result_.stopped) break;
     if (lowest_ < -0.2 && !walked_on_) {
       result_ = lowest_at_;

@@ -9,6 +9,8 @@
 
 namespace hapsim {
 
+inline constexpr double kRise95 = 3.841458821;  // of chi squared with one degree of freedom
+
 // The profile of the likelihood of one free parameter, all others fitted beside it and the bodies
 // solved anew at every step: where the least sum of squares over all others has risen by a
 // threshold (Venzon and Moolgavkar, Appl. Statist. 37, 1988). That is 3.84 of the variance that

@@ -19,8 +19,9 @@ constexpr double kWhite = 0.01;
 struct Sample {
   int press = 0, number = 0;  // number: of the sample in its press
   Vec3 f, before;             // the model's force, and that of the sample before (0 before a press)
-  double depth = 0;           // over the deepest
-  double session = 0;         // share of the session
+  Vec3 u, normal;
+  double depth = 0;    // over the deepest
+  double session = 0;  // share of the session
 };
 
 // Of an elastic model that leaves change(sample) and noise.
@@ -40,10 +41,12 @@ std::vector<LeftKind> kinds_left(const Change& change) {
     const Episode& episode = w.dataset.episodes[static_cast<std::size_t>(e)];
     Sample s;
     s.press = e;
+    s.normal = episode.view.normal;
     for (const int row : episode.rows) {
       s.before = s.number == 0 ? Vec3(Vec3::Zero()) : s.f;
       s.f = f.segment<3>(at);
-      s.depth = w.dataset.recording.u[static_cast<std::size_t>(row)].norm() / deepest;
+      s.u = w.dataset.recording.u[static_cast<std::size_t>(row)];
+      s.depth = s.u.norm() / deepest;
       s.session = static_cast<double>(at) / static_cast<double>(f.size());
       const Vec3 noise(random.normal(), random.normal(), random.normal());
       residual.segment<3>(at) = change(s) + kWhite * noise;
@@ -85,6 +88,29 @@ TEST(LeftKinds, AZeroThatRunsOnGoesWithTheSession) {
 TEST(LeftKinds, AxesThatAreMixedAreTheSetUp) {
   EXPECT_EQ(first_of(kinds_left([](const Sample& s) { return Vec3(0.2 * s.f.z(), 0, 0); })),
             kSetUp);
+}
+
+TEST(LeftKinds, WhatASidewaysForcePushesUpGoesWithItsDirection) {
+  EXPECT_EQ(first_of(kinds_left([](const Sample& s) {
+              return Vec3(0.4 * (s.f - s.f.dot(s.normal) * s.normal).norm() * s.normal);
+            })),
+            kDirection);
+}
+
+TEST(LeftKinds, ABentScrewGoesWithTheTravelOfItsAxis) {
+  const auto kinds =
+      kinds_left([](const Sample& s) { return Vec3(0, 0, 0.08 * std::sin(5e3 * s.u.z())); });
+  ASSERT_EQ(first_of(kinds), "depth");
+  EXPECT_GT(kinds.front().share, 0.5);
+}
+
+TEST(LeftKinds, OfOthersThoseAreAlikeThatForetellAsMuch) {
+  const auto kinds =
+      kinds_left([](const Sample& s) { return Vec3(0.6 * s.depth * s.depth * s.f); });
+  ASSERT_GT(kinds.size(), 2);
+  EXPECT_TRUE(kinds.front().alike);
+  for (const LeftKind& kind : kinds)
+    EXPECT_TRUE(kind.share > 0.8 || !kind.alike) << kind.kind << " " << kind.share;
 }
 
 // A sensor that rings after each change of the force, with a period of some six samples.
@@ -135,8 +161,8 @@ TEST(UnseenShare, EachPositionsPressesAreInDifferentParts) {
 TEST(UnseenShare, WhatOnePartAloneTellsIsNotForetold) {
   Eigen::VectorXd residual = Eigen::VectorXd::Ones(9);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Identity(9, 9);
-  EXPECT_DOUBLE_EQ(unforetold_squares(columns, residual, {0, 1, 2}, 1e-9), 9);
-  EXPECT_NEAR(unforetold_squares(Eigen::MatrixXd::Ones(9, 1), residual, {0, 1, 2}, 1e-9), 0, 1e-6);
+  EXPECT_DOUBLE_EQ(unforetold_squares(columns, residual, {0, 1, 2}).sum(), 9);
+  EXPECT_NEAR(unforetold_squares(Eigen::MatrixXd::Ones(9, 1), residual, {0, 1, 2}).sum(), 0, 1e-6);
 }
 
 }  // namespace

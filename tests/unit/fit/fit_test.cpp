@@ -74,6 +74,35 @@ TEST_F(Fitted, WhatAllPositionsErrByAlikeIsInTheModulus) {
   EXPECT_GT(half_modulus, 0.01);
 }
 
+// One straight press tells E / (1 - nu^2) alone: nu may end at its bound, and E far off.
+TEST_F(Fitted, AModulusIsAsUnsureAsTheRatioThatIsAtItsBound) {
+  const Model truth = test::elastic(1.5e4, 0.42);
+  FitOptions with = options();
+  with.floor = 0.005;
+  int at_bound = 0, held = 0, held_by_curvature = 0, inside = 0, held_inside = 0;
+  for (int draw = 0; draw < 240; ++draw) {
+    const int press = 3 * (draw % 6);  // straight
+    if (press == 0) test::measure(w(), truth, 0.03, static_cast<std::uint64_t>(draw + 1));
+    with.ridges = true;
+    const Fit found = fit(test::elastic(1.4e4, 0.3), w(), {press}, with);
+    with.ridges = false;
+    const Fit by_curvature = fit(test::elastic(1.4e4, 0.3), w(), {press}, with);
+    ASSERT_TRUE(found.converged) << found.message;
+    const auto holds = [](const Fit& fitted) {
+      const Parameter& modulus = fitted.model.parameters[0];
+      return std::abs(modulus.value - 1.5e4) < 1.96 * modulus.std_error;
+    };
+    (found.at_bound.empty() ? inside : at_bound) += 1;
+    (found.at_bound.empty() ? held_inside : held) += holds(found);
+    if (!found.at_bound.empty()) held_by_curvature += holds(by_curvature);
+  }
+  std::printf(
+      "E held in %d of %d with nu at its bound (by the curvature alone %d), in %d of %d others\n",
+      held, at_bound, held_by_curvature, held_inside, inside);
+  ASSERT_GT(at_bound, 20);
+  EXPECT_GE(held, 0.9 * at_bound);
+}
+
 TEST_F(Fitted, AnEffectAndItsAbsenceShowInHeldOutPositions) {
   const Model truth = test::with(test::elastic(1.5e4, 0.4), "viscoelastic", {8e3, 0.5});
   test::measure(w(), truth, 0.01, 3);

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/fit_uncertainty.h"
+#include "fit/fitting.h"
+#include "fit/ridge.h"
+#include "model/interval.h"
+
+namespace hapsim {
+namespace {
+
+// The way from a value to a bound; in logarithms where it is stepped so.
+struct Way {
+  double from = 0, to = 0;
+  bool logarithmic = false;
+  Way(const Unknown& u, double bound) : logarithmic(u.logarithmic) {
+    from = logarithmic ? std::log(u.value) : u.value;
+    to = logarithmic ? std::log(bound) : bound;
+  }
+  double at(double share) const {
+    const double v = from + share * (to - from);
+    return logarithmic ? std::exp(v) : v;
+  }
+};
+
+bool reaches_a_bound(const Unknown& u, double std_error) {
+  const double half = kHalf95 * std_error;
+  return !u.logarithmic && (u.value - half < u.lower || u.value + half > u.upper);
+}
+
+}  // namespace
+
+// How far the others move, and to which share of its way to the bound a parameter does, where the
+// sum of squares has risen by `most`, or at the bound.
+Fitting::Moved Fitting::move_to(Eigen::Index which, double bound, double most) {
+  const std::vector<Unknown> all = unknowns(result_.model);
+  const Way way(all[static_cast<std::size_t>(which)], bound);
+  const double sum = solution_.sum_of_squares;
+  const auto count = static_cast<Eigen::Index>(all.size());
+  const Model model = result_.model;
+  const Linearisation about = result_.about;
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
+  Moved moved{before, way.at(0)};
+  double share = 0, risen = 0;
+  for (const double next : {0.02, 0.06, 0.2, 0.5, 1.0}) {
+    const double rise = fit_beside(which, way.at(next), 0.03 * most) - sum;
+    result_.stopped = result_.stopped || !go_on(sum);
+    if (result_.stopped) break;
+    const std::vector<Unknown> now = unknowns(result_.model);
+    Eigen::VectorXd x(count);
+    for (Eigen::Index c = 0; c < count; ++c)
+      x[c] = now[static_cast<std::size_t>(c)].value - all[static_cast<std::size_t>(c)].value;
+    const double part = rise > most ? (most - risen) / (rise - risen) : 1;
+    x = before + part * (x - before);
+    moved.by = (x.array().abs() > moved.by.array().abs()).select(x, moved.by);
+    moved.until = way.at(share + part * (next - share));
+    if (rise > most) break;
+    before = x;
+    share = next;
+    risen = rise;
+  }
+  result_.model = model;
+  result_.about = about;
+  return moved;
+}
+
+// A bound tells no more of the others than that the truth lies within it, and near it a parabola
+// tells too little: of the stiffness by Poisson's ratio the derivative is 0 at 0. The parameter is
+// moved each way, the others fitted beside it, to the end of its interval of 95 % (the profile of
+// its likelihood: Venzon and Moolgavkar, Appl. Statist. 37, 1988), or to a bound: what they moved
+// by on the way, with what they are uncertain by beside it, is half of an interval of theirs.
+void Fitting::tell_bounds(const Signal& signal, const FitOptions& errors, double variance) {
+  if (!tells_profiles()) return;
+  const std::vector<int> free = result_.model.free_parameters();
+  const std::vector<Unknown> all = unknowns(result_.model);
+  const auto parameter = [&](std::size_t c) -> Parameter& {
+    return result_.model.parameters[static_cast<std::size_t>(free[c])];
+  };
+  std::vector<std::size_t> close;
+  for (std::size_t c = 0; c < free.size(); ++c) {
+    const double error = parameter(c).std_error;
+    if (solution_.at_bound[c] ? std::isnan(error)  // a ridge has not told it
+                              : !is_linearised_ && reaches_a_bound(all[c], error))
+      close.push_back(c);
+  }
+  if (close.empty()) return;
+  const Covariance covariance = beyond_bounds(signal, errors, variance);
+  // The rise of the sum of squares there; gains of places are no noise (as of a ridge).
+  double most = variance;
+  for (Eigen::Index c = 0; c < covariance.bread.cols(); ++c)
+    if (covariance.bread(c, c) > 0)
+      most = std::max(most, covariance.whole(c, c) / covariance.bread(c, c));
+  most *= kRise95;
+  const TorqueRows torques = torques_;
+  const MarkerRows marked = marked_;
+  for (const std::size_t c : close) {
+    const auto which = static_cast<Eigen::Index>(c);
+    const Moved down = move_to(which, all[c].lower, most), up = move_to(which, all[c].upper, most);
+    if (result_.stopped) break;
+    for (std::size_t other = 0; other < free.size(); ++other) {
+      const auto k = static_cast<Eigen::Index>(other);
+      if (other == c) continue;
+      double beside = parameter(other).std_error * parameter(other).std_error;
+      if (!solution_.at_bound[c])
+        beside = covariance.whole(k, k) - covariance.whole(k, which) * covariance.whole(k, which) /
+                                              covariance.whole(which, which);
+      const double half = std::max(std::abs(down.by[k]), std::abs(up.by[k])) / kHalf95;
+      const double error = std::sqrt(std::max(0.0, beside) + half * half);
+      if (error > parameter(other).std_error) parameter(other).std_error = error;
+    }
+    if (!solution_.at_bound[c]) continue;
+    result_.blind.push_back(fmt::format(
+        "{}: from {:.3g} to {:.3g} all fit alike, and the errors of the others count that",
+        parameter_label(parameter(c)), down.until, up.until));
+  }
+  torques_ = torques;
+  marked_ = marked;
+}
+
+}  // namespace hapsim
