@@ -54,7 +54,7 @@ def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end
         if said and tells(said) or good & set(missing):
             return "kind"
         return "alike" if len(others) < MOST_ALIKE and any(tells(other) for other in others) else "open"
-    if missing and all(name in good | beside or tells((first or {}).get(name, "")) for name in missing):
+    if all(name in good | beside or tells((first or {}).get(name, "")) for name in missing + alike):
         return "kin"
     if said or hint:
         return "hedged"

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTold = 0.1;  // of what is left, to be worth a word
 constexpr double kHalf = 0.5, kNearlyAll = 0.9;
-constexpr double kSameShare = 0.02;  // shares that are alike
+constexpr Eigen::Index kGainsOfPlace = 6;
 
 Eigen::MatrixXd gains_of_all(const LawSamples& s) {
   Eigen::MatrixXd X(s.f.size(), 2);
@@ -71,6 +71,7 @@ struct TriedKind {
   std::string kind;
   Eigen::VectorXd by_press;  // squares left of each press [N^2]
   double left = 0;           // of all, the noise at least
+  Eigen::Index numbers = 0;
 };
 
 Eigen::VectorXd by_press(const Eigen::VectorXd& samples, const LawSamples& s) {
@@ -127,8 +128,9 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
 
   const double all = r.squaredNorm();
   std::vector<TriedKind> found;
-  const auto judge = [&](const std::string& kind, double before, const Eigen::VectorXd& samples) {
-    TriedKind now{kind, by_press(samples, s), std::max(samples.sum(), noise)};
+  const auto judge = [&](const std::string& kind, double before, const Eigen::VectorXd& samples,
+                         Eigen::Index numbers) {
+    TriedKind now{kind, by_press(samples, s), std::max(samples.sum(), noise), numbers};
     if (before - now.left < kTold * beyond) return;
     const auto known = std::find_if(found.begin(), found.end(),
                                     [&](const TriedKind& other) { return other.kind == kind; });
@@ -143,16 +145,26 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
     Eigen::MatrixXd columns = law.columns();
     columns.conservativeResize(Eigen::NoChange, columns.cols() + 2);
     columns.rightCols(2) = gains;
-    judge(law.kind, law.kind == kSetUp ? all : by_gains, unforetold_squares(columns, r, parts));
+    judge(law.kind, law.kind == kSetUp ? all : by_gains, unforetold_squares(columns, r, parts),
+          columns.cols());
   }
-  judge(kBody, by_gains, unforetold_by_places(s, r, forces, parts, dataset));
+  judge(kBody, by_gains, unforetold_by_places(s, r, forces, parts, dataset),
+        kGainsOfPlace * static_cast<Eigen::Index>(dataset.positions.size()));
   const auto share = [&](double left) { return (all - left) / beyond; };
-  std::stable_sort(found.begin(), found.end(), [&](const TriedKind& a, const TriedKind& b) {
-    return std::round(share(a.left) / kSameShare) > std::round(share(b.left) / kSameShare);
-  });
+  const auto by_error = [](const TriedKind& a, const TriedKind& b) { return a.left < b.left; };
+  const auto by_numbers = [](const TriedKind& a, const TriedKind& b) {
+    return a.numbers < b.numbers;
+  };
+  std::stable_sort(found.begin(), found.end(), by_error);
+  const auto alike = std::stable_partition(
+      found.begin(), found.end(),
+      [&, best = found.empty() ? TriedKind{} : found.front()](const TriedKind& each) {
+        return share(each.left) > kHalf * share(best.left) && no_worse(each, best);
+      });
+  std::stable_sort(found.begin(), alike, by_numbers);
   std::vector<LeftKind> kinds;
-  for (const TriedKind& each : found)
-    kinds.push_back({each.kind, share(each.left), no_worse(each, found.front())});
+  for (auto each = found.begin(); each != found.end(); ++each)
+    kinds.push_back({each->kind, share(each->left), each < alike});
   const double by_presses = share(std::max(noise, unforetold_by_presses(s, gains, r)));
   if (by_presses > kNearlyAll && (found.empty() || kinds.front().share < kHalf)) {
     for (LeftKind& kind : kinds) kind.alike = false;
@@ -170,7 +182,7 @@ std::string words_of(const std::vector<LeftKind>& kinds) {
     words += k == 0 ? fmt::format("{} foretells {:.0f} % of that", goes_with(kind.kind),
                                   100 * kind.share)
                     : fmt::format(", {} {:.0f} %{}", goes_with(kind.kind), 100 * kind.share,
-                                  kind.alike ? " (as well, but for chance)" : "");
+                                  kind.alike ? " (presses do not tell them apart)" : "");
   }
   return words.empty() ? "" : "Tried on presses that were left out, " + words + ".";
 }
