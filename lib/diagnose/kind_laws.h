@@ -20,8 +20,8 @@ struct LawSamples {
   bool timed = false, warmed = false;  // time, temperature were recorded
   // Of the depth the growth; the fastest so far in the press.
   Column depth, speed, fastest, growth, age, session, number, temperature;
-  Vectors f, along, across, normal, u, velocity,
-      rate;  // along and across the normal; of f the rate
+  Vectors f, along, across, rate;  // along and across the normal; how fast it changes
+  Vectors normal, u, velocity;
 };
 
 // Of a model's `forces` (stacked [N]). Of more than 10,000 samples every n-th is kept.

@@ -16,7 +16,7 @@ namespace hapsim {
 namespace {
 
 constexpr double kTold = 0.1;  // of what is left, to be worth a word
-constexpr double kHalf = 0.5, kNearlyAll = 0.9;
+constexpr double kHalf = 0.5, kAsMuch = 0.8, kNearlyAll = 0.9;
 constexpr Eigen::Index kGainsOfPlace = 6;
 
 Eigen::MatrixXd gains_of_all(const LawSamples& s) {
@@ -156,12 +156,15 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
     return a.numbers < b.numbers;
   };
   std::stable_sort(found.begin(), found.end(), by_error);
-  const auto alike = std::stable_partition(
-      found.begin(), found.end(),
-      [&, best = found.empty() ? TriedKind{} : found.front()](const TriedKind& each) {
-        return share(each.left) > kHalf * share(best.left) && no_worse(each, best);
-      });
-  std::stable_sort(found.begin(), alike, by_numbers);
+  const TriedKind best = found.empty() ? TriedKind{} : found.front();
+  const auto nearly = [&](double part) {
+    return [&, part](const TriedKind& each) {
+      return share(each.left) > part * share(best.left) && no_worse(each, best);
+    };
+  };
+  const auto alike = std::stable_partition(found.begin(), found.end(), nearly(kHalf));
+  std::stable_sort(found.begin(), std::stable_partition(found.begin(), alike, nearly(kAsMuch)),
+                   by_numbers);
   std::vector<LeftKind> kinds;
   for (auto each = found.begin(); each != found.end(); ++each)
     kinds.push_back({each->kind, share(each->left), each < alike});

@@ -17,9 +17,9 @@ struct LeftKind {
 };
 
 // Of what `residual` [N] holds beyond noise: the kinds of law that foretell it, the largest share
-// first; before them those that presses do not tell from the best of all, the one with the fewest
-// numbers first (they foretell half as much at least, and what they err by more, a press on
-// average, is less than twice its own error). Each is linear in its numbers
+// first; before them those that presses do not tell from the best of all (they foretell half as
+// much at least, and what they err by more, a press on average, is less than twice its own error),
+// of four fifths as much the one with the fewest numbers first. Each is linear in its numbers
 // (diagnose/kind_laws.h), has a gain of all forces along the normal and one across it beside it,
 // and counts where it foretells a tenth more than these alone (the set-up's: than nothing):
 //   offset, drift   a zero of each axis and along the normal; one by the session's time (hat

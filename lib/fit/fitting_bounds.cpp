@@ -25,6 +25,13 @@ struct Way {
   }
 };
 
+// Of a change, as intervals are told (model/interval.h).
+double size(const Parameter& p, double change) {
+  return is_logarithmic(p) && p.value + change > 0
+             ? p.value * std::abs(std::log1p(change / p.value))
+             : std::abs(change);
+}
+
 bool reaches_a_bound(const Unknown& u, double std_error) {
   const double half = kHalf95 * std_error;
   return !u.logarithmic && (u.value - half < u.lower || u.value + half > u.upper);
@@ -106,7 +113,8 @@ void Fitting::tell_bounds(const Signal& signal, const FitOptions& errors, double
       if (!solution_.at_bound[c])
         beside = covariance.whole(k, k) - covariance.whole(k, which) * covariance.whole(k, which) /
                                               covariance.whole(which, which);
-      const double half = std::max(std::abs(down.by[k]), std::abs(up.by[k])) / kHalf95;
+      const double half =
+          std::max(size(parameter(other), down.by[k]), size(parameter(other), up.by[k])) / kHalf95;
       const double error = std::sqrt(std::max(0.0, beside) + half * half);
       if (error > parameter(other).std_error) parameter(other).std_error = error;
     }
