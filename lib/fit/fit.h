@@ -50,8 +50,9 @@ struct FitOptions {
   // (fit/marker_rows.h). Null: none. Matched with the experiment that is fitted.
   const Markers* markers = nullptr;
   // Sizes that finite elements are solved for and that are hardly known have standard errors by the
-  // profile of their likelihood, solved anew along it: some fifteen solutions (fit/ridge.h); so
-  // have the others where one is at its bound. Not under constraints or a robust loss.
+  // profile of their likelihood, solved anew along it: some fifteen solutions (fit/ridge.h); where
+  // nothing is solved anew the others have so, where one is at its bound or may be there
+  // (fitting_bounds.cpp). Not under constraints or a robust loss.
   bool ridges = false;
   bool profile = false;  // fill in `intervals`: some twenty fits a parameter; without `robust` only
   // Asked again and again; false ends the fit with what there is. May be empty.

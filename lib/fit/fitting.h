@@ -79,7 +79,7 @@ class Fitting {
     Eigen::VectorXd by;  // all free parameters, the farthest each
     double until = 0;    // the parameter itself
   };
-  Moved move_to(Eigen::Index which, double bound, double most);
+  Moved move_to(Eigen::Index which, double value, double most);
   void tell_bounds(const Signal& signal, const FitOptions& errors, double variance);
   // The ridge of a parameter of that error in its logarithm, from where result_ is, to a rise of
   // the sum of squares by `threshold`.

@@ -11,13 +11,13 @@
 namespace hapsim {
 namespace {
 
-// The way from a value to a bound; in logarithms where it is stepped so.
+// The way from a value to another; in logarithms where it is stepped so.
 struct Way {
   double from = 0, to = 0;
   bool logarithmic = false;
-  Way(const Unknown& u, double bound) : logarithmic(u.logarithmic) {
+  Way(const Unknown& u, double value) : logarithmic(u.logarithmic) {
     from = logarithmic ? std::log(u.value) : u.value;
-    to = logarithmic ? std::log(bound) : bound;
+    to = logarithmic ? std::log(value) : value;
   }
   double at(double share) const {
     const double v = from + share * (to - from);
@@ -32,18 +32,31 @@ double size(const Parameter& p, double change) {
              : std::abs(change);
 }
 
-bool reaches_a_bound(const Unknown& u, double std_error) {
-  const double half = kHalf95 * std_error;
-  return !u.logarithmic && (u.value - half < u.lower || u.value + half > u.upper);
+constexpr double kFar = 8;  // standard errors: what is farther a parabola tells well
+
+// How far a walk goes at most.
+double end_of_walk(const Unknown& u, double error, int side) {
+  const double bound = side < 0 ? u.lower : u.upper;
+  if (!(error > 0)) return bound;
+  const double far = u.logarithmic ? u.value * std::exp(side * kFar * error / u.value)
+                                   : u.value + side * kFar * error;
+  return side < 0 ? std::max(bound, far) : std::min(bound, far);
+}
+
+// Of a parameter with a range that is hardly known within it.
+bool may_be_at_a_bound(const Unknown& u, double error) {
+  const double half = kHalf95 * error;
+  return !u.logarithmic && kFar * error > std::max(u.value - u.lower, u.upper - u.value) &&
+         (u.value - half < u.lower || u.value + half > u.upper);
 }
 
 }  // namespace
 
-// How far the others move, and to which share of its way to the bound a parameter does, where the
-// sum of squares has risen by `most`, or at the bound.
-Fitting::Moved Fitting::move_to(Eigen::Index which, double bound, double most) {
+// How far the others move, and where a parameter is, on its way to a value: where the sum of
+// squares has risen by `most`, or there.
+Fitting::Moved Fitting::move_to(Eigen::Index which, double value, double most) {
   const std::vector<Unknown> all = unknowns(result_.model);
-  const Way way(all[static_cast<std::size_t>(which)], bound);
+  const Way way(all[static_cast<std::size_t>(which)], value);
   const double sum = solution_.sum_of_squares;
   const auto count = static_cast<Eigen::Index>(all.size());
   const Model model = result_.model;
@@ -52,6 +65,7 @@ Fitting::Moved Fitting::move_to(Eigen::Index which, double bound, double most) {
   Moved moved{before, way.at(0)};
   double share = 0, risen = 0;
   for (const double next : {0.02, 0.06, 0.2, 0.5, 1.0}) {
+    if (way.to == way.from) break;
     const double rise = fit_beside(which, way.at(next), 0.03 * most) - sum;
     result_.stopped = result_.stopped || !go_on(sum);
     if (result_.stopped) break;
@@ -79,19 +93,16 @@ Fitting::Moved Fitting::move_to(Eigen::Index which, double bound, double most) {
 // its likelihood: Venzon and Moolgavkar, Appl. Statist. 37, 1988), or to a bound: what they moved
 // by on the way, with what they are uncertain by beside it, is half of an interval of theirs.
 void Fitting::tell_bounds(const Signal& signal, const FitOptions& errors, double variance) {
-  if (!tells_profiles()) return;
+  if (!tells_profiles() || is_linearised_) return;  // where it is, each step solves for all places
   const std::vector<int> free = result_.model.free_parameters();
   const std::vector<Unknown> all = unknowns(result_.model);
   const auto parameter = [&](std::size_t c) -> Parameter& {
     return result_.model.parameters[static_cast<std::size_t>(free[c])];
   };
   std::vector<std::size_t> close;
-  for (std::size_t c = 0; c < free.size(); ++c) {
-    const double error = parameter(c).std_error;
-    if (solution_.at_bound[c] ? std::isnan(error)  // a ridge has not told it
-                              : !is_linearised_ && reaches_a_bound(all[c], error))
+  for (std::size_t c = 0; c < free.size(); ++c)
+    if (solution_.at_bound[c] || may_be_at_a_bound(all[c], parameter(c).std_error))
       close.push_back(c);
-  }
   if (close.empty()) return;
   const Covariance covariance = beyond_bounds(signal, errors, variance);
   // The rise of the sum of squares there; gains of places are no noise (as of a ridge).
@@ -104,7 +115,9 @@ void Fitting::tell_bounds(const Signal& signal, const FitOptions& errors, double
   const MarkerRows marked = marked_;
   for (const std::size_t c : close) {
     const auto which = static_cast<Eigen::Index>(c);
-    const Moved down = move_to(which, all[c].lower, most), up = move_to(which, all[c].upper, most);
+    const double error = std::sqrt(std::max(0.0, covariance.whole(which, which)));
+    const Moved down = move_to(which, end_of_walk(all[c], error, -1), most),
+                up = move_to(which, end_of_walk(all[c], error, 1), most);
     if (result_.stopped) break;
     for (std::size_t other = 0; other < free.size(); ++other) {
       const auto k = static_cast<Eigen::Index>(other);
@@ -115,8 +128,8 @@ void Fitting::tell_bounds(const Signal& signal, const FitOptions& errors, double
                                               covariance.whole(which, which);
       const double half =
           std::max(size(parameter(other), down.by[k]), size(parameter(other), up.by[k])) / kHalf95;
-      const double error = std::sqrt(std::max(0.0, beside) + half * half);
-      if (error > parameter(other).std_error) parameter(other).std_error = error;
+      const double whole = std::sqrt(std::max(0.0, beside) + half * half);
+      if (whole > parameter(other).std_error) parameter(other).std_error = whole;
     }
     if (!solution_.at_bound[c]) continue;
     result_.blind.push_back(fmt::format(

@@ -306,8 +306,8 @@ inline ToolSpec identify_specification() {
          "times that of its logarithm: 95 % are the value over and times exp(1.96 std_error / "
          "value). Where finite elements are solved for a size that is hardly known (a layer's "
          "thickness, the radius of an inclusion), from the profile of its likelihood, the bodies "
-         "solved anew along it, and its longer side; so that of the others where one is at its "
-         "bound or may be there; not with --constrain or --robust"},
+         "solved anew along it, and its longer side; of models without such sizes so that of the "
+         "others where one is at its bound or may be there; not with --constrain or --robust"},
         {"lower, upper", "bounds"},
         {"state", "free, fixed or derived"}}},
       {"Model of --acfm (output)",
