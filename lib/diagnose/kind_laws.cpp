@@ -200,6 +200,7 @@ Columns by_history(const LawSamples& s, const Eigen::VectorXd& forces, const Dat
   return c;
 }
 
+// Of some recordings a law has no columns.
 Eigen::MatrixXd stacked(const Columns& columns, const LawSamples& s) {
   Eigen::MatrixXd X(s.f.size(), static_cast<Eigen::Index>(columns.size()));
   for (std::size_t k = 0; k < columns.size(); ++k)
@@ -208,6 +209,13 @@ Eigen::MatrixXd stacked(const Columns& columns, const LawSamples& s) {
 }
 
 }  // namespace
+
+Eigen::MatrixXd gain_columns(const LawSamples& s) {
+  return stacked(gains(s), s);
+}
+Eigen::MatrixXd zero_columns(const LawSamples& s) {
+  return stacked(zeros(s), s);
+}
 
 LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
   const std::size_t stride = 1 + static_cast<std::size_t>(forces.size()) / 3 / kMany;

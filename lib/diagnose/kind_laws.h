@@ -27,6 +27,11 @@ struct LawSamples {
 // Of a model's `forces` (stacked [N]). Of more than 10,000 samples every n-th is kept.
 LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset);
 
+// What gains along the normal and across it do to the forces of the samples kept (stacked [N]), and
+// zeros of each axis and along the normal.
+Eigen::MatrixXd gain_columns(const LawSamples& samples);
+Eigen::MatrixXd zero_columns(const LawSamples& samples);
+
 struct KindLaw {
   std::string kind;  // of LeftOver::kind
   // What the law may do to the forces of the samples kept (stacked [N]), a column each number.

@@ -19,12 +19,6 @@ constexpr double kTold = 0.1;  // of what is left, to be worth a word
 constexpr double kHalf = 0.5, kAsMuch = 0.8, kNearlyAll = 0.9;
 constexpr Eigen::Index kGainsOfPlace = 6;
 
-Eigen::MatrixXd gains_of_all(const LawSamples& s) {
-  Eigen::MatrixXd X(s.f.size(), 2);
-  X << s.along.reshaped(), s.across.reshaped();
-  return X;
-}
-
 // Of each sample, as of unforetold_squares().
 Eigen::VectorXd unforetold_by_places(const LawSamples& s, const Eigen::VectorXd& residual,
                                      const Eigen::VectorXd& forces, const std::vector<int>& parts,
@@ -49,8 +43,8 @@ Eigen::VectorXd unforetold_by_places(const LawSamples& s, const Eigen::VectorXd&
   return left;
 }
 
-// Gains of each press, told by stretches of it that are left out in turn.
-double unforetold_by_presses(const LawSamples& s, const Eigen::MatrixXd& gains,
+// Where each press has numbers of its own, told by stretches of it that are left out in turn.
+double unforetold_by_presses(const LawSamples& s, const Eigen::MatrixXd& columns,
                              const Eigen::VectorXd& residual) {
   constexpr Eigen::Index kStretch = 8;
   double left = 0;
@@ -61,7 +55,7 @@ double unforetold_by_presses(const LawSamples& s, const Eigen::MatrixXd& gains,
     const auto first = 3 * static_cast<Eigen::Index>(from),
                count = 3 * static_cast<Eigen::Index>(to - from);
     left +=
-        unforetold_squares(gains.middleRows(first, count), residual.segment(first, count), parts)
+        unforetold_squares(columns.middleRows(first, count), residual.segment(first, count), parts)
             .sum();
   }
   return left;
@@ -106,7 +100,8 @@ const char* goes_with(const std::string& kind) {
       {kSetUp, "axes that are mixed (sensor, robot)"},
       {kDirection, "the direction and the size of the force"},
       {kBody, "the place"},
-      {kPress, "gains of each press (tried on its other samples)"}};
+      {kPress, "gains of each press (tried on its other samples)"},
+      {kZeroOfPress, "a zero of each press (tried on its other samples)"}};
   return words.at(kind);
 }
 
@@ -139,7 +134,7 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
     else if (now.left < known->left)
       *known = std::move(now);
   };
-  const Eigen::MatrixXd gains = gains_of_all(s);
+  const Eigen::MatrixXd gains = gain_columns(s);
   const double by_gains = std::min(all, unforetold_squares(gains, r, parts).sum());
   for (const KindLaw& law : kind_laws(s, forces, dataset)) {
     Eigen::MatrixXd columns = law.columns();
@@ -168,10 +163,13 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
   std::vector<LeftKind> kinds;
   for (auto each = found.begin(); each != found.end(); ++each)
     kinds.push_back({each->kind, share(each->left), each < alike});
-  const double by_presses = share(std::max(noise, unforetold_by_presses(s, gains, r)));
-  if (by_presses > kNearlyAll && (found.empty() || kinds.front().share < kHalf)) {
+  const double gain_of_press = share(std::max(noise, unforetold_by_presses(s, gains, r))),
+               zero_of_press = share(std::max(noise, unforetold_by_presses(s, zero_columns(s), r)));
+  const double of_press = std::max(gain_of_press, zero_of_press);
+  if (of_press > kNearlyAll && (found.empty() || kinds.front().share < kHalf)) {
     for (LeftKind& kind : kinds) kind.alike = false;
-    kinds.insert(kinds.begin(), {kPress, by_presses, true});
+    kinds.insert(kinds.begin(),
+                 {gain_of_press > zero_of_press ? kPress : kZeroOfPress, of_press, true});
   }
   return kinds;
 }

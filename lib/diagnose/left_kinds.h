@@ -36,8 +36,9 @@ struct LeftKind {
 //   set-up          any 3 x 3 matrix
 //   direction       gains that differ by how far the force leans; the law of shared_law.h
 //   body            six gains of each position (experiment/weights.h)
-//   press           gains of each press, foretold by other samples of the same press, where that
-//                   is nine tenths and no law of unseen presses foretells half
+//   press, zero-of-press
+//                   gains, or a zero, of each press, foretold by other samples of the same press,
+//                   where that is nine tenths and no law of unseen presses foretells half
 // `forces`: of the model. Empty for fewer presses than kLeastPresses.
 std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                                const TrialGround& ground);

@@ -215,6 +215,11 @@ std::string kind_in_words(const LeftOver& left) {
         "{}, and it is a gain that changes from press to press, at one place too: look at what "
         "changes between presses, the grip, the temperature, the body itself",
         much);
+  if (left.kind == kZeroOfPress)
+    return fmt::format(
+        "{}, and it is a zero that changes from press to press: look at what the sensor does "
+        "between presses, its taring, its cable, its temperature",
+        much);
   if (left.kind == kBody)
     return fmt::format(
         "{}, and it is a stiffness that differs by place{}: look at the body, its shape and its "

@@ -12,7 +12,8 @@ namespace hapsim {
 
 // Kinds of LeftOver.
 inline constexpr const char *kSetUp = "set-up", *kBody = "body", *kFrequency = "frequency",
-                            *kEvent = "event", *kDirection = "direction", *kPress = "press";
+                            *kEvent = "event", *kDirection = "direction", *kPress = "press",
+                            *kZeroOfPress = "zero-of-press";
 
 // The allowance for mesh and shape error is a prior of the six gains c_p of each position
 // (experiment/weights.h), of standard deviation delta. What the forces say of them is tested: with

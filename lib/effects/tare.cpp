@@ -33,7 +33,7 @@ class Tare : public Effect {
         .confounders = {"sensor-bias", "sensor-drift"},
         .separated_by = "samples in the air before and after every press",
         .contains = {"sensor-bias"},
-        .kinds = {"offset", "drift", "press"}};
+        .kinds = {"offset", "zero-of-press", "drift"}};
     return card;
   }
 

@@ -144,6 +144,16 @@ TEST(LeftKinds, AGainOfEachPressIsToldByThePressAlone) {
   for (std::size_t k = 1; k < kinds.size(); ++k) EXPECT_LT(kinds[k].share, 0.5) << kinds[k].kind;
 }
 
+TEST(LeftKinds, AZeroOfEachPressIsToldByThePressAlone) {
+  Random random(9);
+  Vec3 zero = Vec3::Zero();
+  const auto kinds = kinds_left([&](const Sample& s) {
+    if (s.number == 0) zero = 0.06 * Vec3(random.normal(), random.normal(), random.normal());
+    return zero;
+  });
+  EXPECT_EQ(first_of(kinds), kZeroOfPress);
+}
+
 TEST(UnseenShare, EachPositionsPressesAreInDifferentParts) {
   const Experiment w = test::experiment();
   const std::vector<int> parts = press_parts(w.dataset);

@@ -207,6 +207,19 @@ TEST(Catalogue, NamesAreUniqueAndFound) {
   EXPECT_THROW(require_effect("magic"), Error);
 }
 
+// As what is left is told (LeftOver::kind).
+TEST(Catalogue, EveryEffectThatMayBeMissingHasItsKinds) {
+  const std::set<std::string> known{
+      "offset",  "drift",     "depth",         "contact-time", "rate",    "phase",  "cycle",
+      "history", "body",      "session-time",  "temperature",  "reading", "set-up", "press",
+      "event",   "frequency", "zero-of-press", "direction",    "place"};
+  for (const Effect* effect : catalogue()) {
+    const EffectCard& card = effect->card();
+    EXPECT_EQ(card.kinds.empty(), effect == &body_effect()) << card.name;
+    for (const std::string& kind : card.kinds) EXPECT_TRUE(known.count(kind) > 0) << kind;
+  }
+}
+
 TEST(Catalogue, EffectsActInTheOrderOfTheirStages) {
   for (std::size_t k = 1; k < catalogue().size(); ++k)
     EXPECT_LE(catalogue()[k - 1]->card().stage, catalogue()[k]->card().stage)
