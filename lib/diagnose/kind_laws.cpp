@@ -132,7 +132,7 @@ Column slants(const LawSamples& s) {
          (s.f.colwise().norm().array() + std::numeric_limits<double>::min());
 }
 
-// A zero of each axis by how far each axis has moved.
+// Zeros by how far each axis has moved.
 Columns by_travel(const LawSamples& s) {
   constexpr int kSteps = 16;
   Columns c;

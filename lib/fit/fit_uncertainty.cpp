@@ -35,6 +35,13 @@ std::vector<Unknown> unknowns(const Model& model) {
   return result;
 }
 
+Eigen::VectorXd values_of(const std::vector<Unknown>& unknowns) {
+  Eigen::VectorXd x(static_cast<Eigen::Index>(unknowns.size()));
+  for (std::size_t c = 0; c < unknowns.size(); ++c)
+    x[static_cast<Eigen::Index>(c)] = unknowns[c].value;
+  return x;
+}
+
 void set_unknowns(Model& model, const Eigen::VectorXd& x) {
   const std::vector<int> free = model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c)

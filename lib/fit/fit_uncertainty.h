@@ -13,6 +13,7 @@ std::string parameter_label(const Parameter& p);  // "elastic E of region 2"
 // The model's free parameters as a search takes them.
 std::vector<Unknown> unknowns(const Model& model);
 
+Eigen::VectorXd values_of(const std::vector<Unknown>& unknowns);
 void set_unknowns(Model& model, const Eigen::VectorXd& x);  // the inverse: values only
 
 // Covariance of the free parameters from (J'J)^-1 over the noise (`bread`): by the noise (or the

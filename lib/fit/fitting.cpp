@@ -254,9 +254,8 @@ double Fitting::solved_sum() {
     set_unknowns(result_.model, rest.x);
     return rest.sum_of_squares;
   }
-  Eigen::VectorXd x(static_cast<Eigen::Index>(open.size())), r;
-  for (std::size_t c = 0; c < open.size(); ++c) x[static_cast<Eigen::Index>(c)] = open[c].value;
-  residuals(x, r, nullptr);
+  Eigen::VectorXd r;
+  residuals(values_of(open), r, nullptr);
   return r.squaredNorm();
 }
 

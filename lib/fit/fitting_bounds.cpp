@@ -56,12 +56,12 @@ bool may_be_at_a_bound(const Unknown& u, double error) {
 // squares has risen by `most`, or there.
 Fitting::Moved Fitting::move_to(Eigen::Index which, double value, double most) {
   const std::vector<Unknown> all = unknowns(result_.model);
+  const Eigen::VectorXd start = values_of(all);
   const Way way(all[static_cast<std::size_t>(which)], value);
   const double sum = solution_.sum_of_squares;
-  const auto count = static_cast<Eigen::Index>(all.size());
   const Model model = result_.model;
   const Linearisation about = result_.about;
-  Eigen::VectorXd before = Eigen::VectorXd::Zero(count);
+  Eigen::VectorXd before = Eigen::VectorXd::Zero(start.size());
   Moved moved{before, way.at(0)};
   double share = 0, risen = 0;
   for (const double next : {0.02, 0.06, 0.2, 0.5, 1.0}) {
@@ -69,10 +69,7 @@ Fitting::Moved Fitting::move_to(Eigen::Index which, double value, double most) {
     const double rise = fit_beside(which, way.at(next), 0.03 * most) - sum;
     result_.stopped = result_.stopped || !go_on(sum);
     if (result_.stopped) break;
-    const std::vector<Unknown> now = unknowns(result_.model);
-    Eigen::VectorXd x(count);
-    for (Eigen::Index c = 0; c < count; ++c)
-      x[c] = now[static_cast<std::size_t>(c)].value - all[static_cast<std::size_t>(c)].value;
+    Eigen::VectorXd x = values_of(unknowns(result_.model)) - start;
     const double part = rise > most ? (most - risen) / (rise - risen) : 1;
     x = before + part * (x - before);
     moved.by = (x.array().abs() > moved.by.array().abs()).select(x, moved.by);

@@ -52,13 +52,13 @@ std::vector<Eigen::Index> Fitting::ridges(const Eigen::MatrixXd& covariance) con
 
 double Fitting::fit_beside(Eigen::Index which, double value, double settled) {
   constexpr int kRounds = 3;
-  Model best_model;
-  Linearisation best_about;
   double best = std::numeric_limits<double>::infinity();
   result_.model
       .parameters[static_cast<std::size_t>(
           result_.model.free_parameters()[static_cast<std::size_t>(which)])]
       .value = value;
+  Model best_model = result_.model;  // where no law has an equilibrium on the way
+  Linearisation best_about = result_.about;
   for (int round = 0; round < kRounds; ++round) {
     std::vector<Unknown> open = open_within(1);
     Unknown& held = open[static_cast<std::size_t>(which)];
@@ -86,12 +86,7 @@ Ridge Fitting::walk(Eigen::Index which, double error, double threshold) {
   const Linearisation about = result_.about;
   const double sum = solution_.sum_of_squares;
   const Unknown own = unknowns(model)[static_cast<std::size_t>(which)];
-  const auto values = [&] {
-    Eigen::VectorXd x(static_cast<Eigen::Index>(model.free_parameters().size()));
-    const std::vector<Unknown> all = unknowns(result_.model);
-    for (std::size_t c = 0; c < all.size(); ++c) x[static_cast<Eigen::Index>(c)] = all[c].value;
-    return x;
-  };
+  const auto values = [&] { return values_of(unknowns(result_.model)); };
   Ridge ridge;
   ridge.which = which;
   ridge.along.push_back(values());
@@ -142,11 +137,9 @@ Ridge Fitting::walk(Eigen::Index which, double error, double threshold) {
 
 Fitting::Covariance Fitting::beyond_bounds(const Signal& signal, const FitOptions& errors,
                                            double variance) const {
-  Eigen::VectorXd x(signal.df.cols()), r;
-  const std::vector<Unknown> all = unknowns(result_.model);
-  for (std::size_t c = 0; c < all.size(); ++c) x[static_cast<Eigen::Index>(c)] = all[c].value;
+  Eigen::VectorXd r;
   Eigen::MatrixXd J;
-  residuals_of(result_.model)(x, r, &J);
+  residuals_of(result_.model)(values_of(unknowns(result_.model)), r, &J);
   const Eigen::MatrixXd bread = inverse_of(J);
   return {bread, error_covariance(bread, signal, experiment_, selection_, errors, variance,
                                   by_gain_of_all(signal, bread))};
@@ -162,14 +155,13 @@ bool Fitting::tell_ridges(const Signal& signal, const FitOptions& errors, double
   const auto [bread, covariance] = beyond_bounds(signal, errors, variance);
   const TorqueRows torques = torques_;
   const MarkerRows marked = marked_;
-  const std::vector<Unknown> all = unknowns(result_.model);
+  const Eigen::VectorXd x = values_of(unknowns(result_.model));
   bool stays = true;
   for (const Eigen::Index which : ridges(covariance)) {
     const double own = covariance(which, which), alone = bread(which, which);
     if (!(own > 0) || !(alone > 0)) continue;
     lowest_ = -0.2;  // a rise below is a better fit elsewhere
-    const double value = all[static_cast<std::size_t>(which)].value;
-    const Ridge ridge = walk(which, std::sqrt(own) / value, kRise95 * own / alone);
+    const Ridge ridge = walk(which, std::sqrt(own) / x[which], kRise95 * own / alone);
     if (result_.stopped) break;
     if (lowest_ < -0.2 && !walked_on_) {
       result_ = lowest_at_;
