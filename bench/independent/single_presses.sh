@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# single_presses.sh BIN OUT: each of the presses of CalculiX's block and ball that hide nothing (E = 20 kPa, nu = 0.45; OUT
+# single_presses.sh BIN OUT: each of the presses of CalculiX's block and ball that hide nothing (E = 20 kPa; OUT
 # as bench/open-world/run.sh leaves it with THIN=1) identified alone. One press tells hardly more than E / (1 - nu^2):
 # whether the 95 % intervals of E hold all the same, with nu at its bound and not. Recorded in
 # bench/results/single-presses.txt (bench/record.sh).
