@@ -63,6 +63,12 @@ ToolSpec specification() {
       "a modulus, is at its bound; a modulus never better than what mesh and shape allow "
       "(--floor), "
       "which is said at once.",
+      "For the forces at places that nobody has pressed (unseen) those that were are left out, one "
+      "at a time or in twenty parts, and foretold by a model made without them, its regions or "
+      "curves too. The error is the root mean square over the part of the surface that can be "
+      "pressed, each place standing for what lies nearest to it, and errs to the safe side: a "
+      "place that was left out lay farther from the others than any place does now. The next "
+      "presses lie where the places around were foretold worst, as between two regions.",
       "For a lump the presses of all places are looked at as by hs-identify --lumps. Where one is "
       "seen, the next presses are those after which its centre is known best, as a small lump in a "
       "half-space would have it; otherwise they lie where the stiffness stands out and where least "
@@ -87,6 +93,9 @@ ToolSpec specification() {
            "What shall be known: verdict (nothing is missing, or what is missing explains all "
            "and has no rival); PARAMETER=SHARE, its relative standard error with all that is "
            "missing, as E=0.02 or viscoelastic.E1=10%, which asks for the verdict too; "
+           "unseen=NUMBER, that the forces at places that nobody has pressed are foretold to so "
+           "many "
+           "times the noise, or unseen=SHARE, as 5%, of the force, which asks for the verdict too; "
            "lump=LENGTH, that one is seen and its centre lies within so much to each side, with "
            "95 %.",
        .group = "Plan",

@@ -66,14 +66,16 @@ bool has_map(const Model& model) {
                      [](const std::string& name) { return require_effect(name).card().is_map; });
 }
 
-// Refits in a fold start from the fit on all data.
-HeldOut held_out_of(const Fit& fitted, const TrialGround& g, const Folds& folds, Map map) {
+namespace {
+
+// Refits in a fold start from the fit on all data. `g` stays.
+ModelBuilder builder_of(const Fit& fitted, const TrialGround& g, Map map) {
   std::vector<std::string> rebuilt;
   const Model plain = without_map(fitted.model, rebuilt);
   const Linearisation about_plain =
       rebuilt.empty() ? fitted.about : g.experiment.places.solve(material_of(plain));
   const MaterialSpec material = material_of(fitted.model);
-  const auto builder = [&](const Selection& training) -> Starts {
+  return [=, &g](const Selection& training) -> Starts {
     if (map == Map::kKnown && covers(material, training, g.dataset))
       return {{fitted.model}, fitted.about};
     Starts starts{{plain}, about_plain};
@@ -85,7 +87,18 @@ HeldOut held_out_of(const Fit& fitted, const TrialGround& g, const Folds& folds,
     }
     return starts;
   };
-  return held_out_error(builder, g.experiment, folds, trial_fit_options(g));
+}
+
+}  // namespace
+
+HeldOut held_out_of(const Fit& fitted, const TrialGround& g, const Folds& folds, Map map) {
+  return held_out_error(builder_of(fitted, g, map), g.experiment, folds, trial_fit_options(g));
+}
+
+Fit fitted_as_in_folds(const Fit& fitted, const TrialGround& g, Map map) {
+  const Selection all = all_episodes(g.dataset);
+  const Starts starts = builder_of(fitted, g, map)(all);
+  return fit_best(starts.models, g.experiment, all, trial_fit_options(g, 0), starts.known);
 }
 
 }  // namespace hapsim

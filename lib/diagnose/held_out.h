@@ -24,4 +24,8 @@ enum class Map { kAnew, kKnown };
 // By true refits.
 HeldOut held_out_of(const Fit& fitted, const TrialGround& ground, const Folds& folds, Map map);
 
+// The same made and fitted by all positions as it is by those of a fold: of first order where that
+// makes a map anew, which the fit itself has solved.
+Fit fitted_as_in_folds(const Fit& fitted, const TrialGround& ground, Map map);
+
 }  // namespace hapsim

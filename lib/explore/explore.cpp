@@ -10,6 +10,7 @@
 #include "explore/lump_places.h"
 #include "explore/place_finder.h"
 #include "explore/suspects.h"
+#include "explore/unseen.h"
 #include "model/model_edit.h"
 #include "plan/press_depths.h"
 
@@ -81,6 +82,10 @@ class Question {
     result_.goals = known_->goals;
     seen_ = known_->seen;
     result_.gap = finder().widest_gap();
+    if (options_.goals.unseen.value > 0)
+      result_.goals.push_back(unseen_state(options_.goals.unseen,
+                                           unseen_of(known_->left_out, finder().shares()),
+                                           known_->experiment.allowance().floor));
     if (known_->image) tell_inside(*known_->image);
   }
 
@@ -94,11 +99,20 @@ class Question {
     const bool settled = known_ && known_->settled;
     const bool open = result_.diagnosis && !settled;
     if (open && !known_->coverage.lacking.empty()) return make_up_motions();
-    if (open && known_->coverage.places >= kSettledPlaces && tell_apart()) return;
+    // Effects that are possible alone may be what a boundary that lies wrong leaves.
+    const bool places_first =
+        is_open("unseen") && result_.diagnosis->verdict != ModelVerdict::kAmbiguous;
+    if (open && !places_first && known_->coverage.places >= kSettledPlaces && tell_apart()) return;
     if (settled && sharpen()) return;
-    if (known_ && known_->image && !known_->image->lumps.empty() && !result_.goals.back().reached)
+    if (is_open("unseen")) return look_where_least_is_foretold();
+    if (known_ && known_->image && !known_->image->lumps.empty() && is_open("lump"))
       return surround_lump();
     spread();
+  }
+
+  bool is_open(const std::string& goal) const {
+    return std::any_of(result_.goals.begin(), result_.goals.end(),
+                       [&](const GoalState& g) { return g.name == goal && !g.reached; });
   }
 
   // Presses with the motions that no press so far had, at new places where there are any.
@@ -178,6 +192,13 @@ class Question {
     return true;
   }
 
+  void look_where_least_is_foretold() {
+    result_.aim = Aim::kUnseen;
+    result_.why =
+        "to foretell places that nobody has pressed: near those that the others foretold worst";
+    press(places_by_spread(count()));
+  }
+
   void surround_lump() {
     const Lump& lump = known_->image->lumps.front();
     result_.aim = Aim::kLump;
@@ -235,9 +256,15 @@ class Question {
   std::vector<PressablePlace> places_by_spread(std::size_t count) {
     return finder().fresh(
         [&](const std::vector<PressablePlace>& left, std::size_t n) {
-          return spread_places(left, seen_, 2 * radius(), n);
+          return spread_places(left, seen_, 2 * radius(), n, doubts(left));
         },
         count);
+  }
+
+  // By what places that were left out say, while a goal asks for that.
+  std::vector<double> doubts(const std::vector<PressablePlace>& places) const {
+    if (!is_open("unseen") || known_->left_out.error.empty()) return {};
+    return doubt_at(places, seen_, known_->left_out);
   }
 
   const PlaceFinder& finder() {

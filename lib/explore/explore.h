@@ -15,8 +15,8 @@ namespace hapsim {
 
 // What the next presses are for. Spread: over the body, where least is known. Test: effects that
 // the motions so far could not show. Tell apart: rivals of the diagnosis. Sharpen: a parameter.
-// Lump: where it lies.
-enum class Aim { kNone, kSpread, kTest, kTellApart, kSharpen, kLump };
+// Unseen: what places that were left out were foretold worst. Lump: where it lies.
+enum class Aim { kNone, kSpread, kTest, kTellApart, kSharpen, kUnseen, kLump };
 std::string aim_name(Aim aim);
 
 struct ExploreOptions {

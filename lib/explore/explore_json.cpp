@@ -22,6 +22,8 @@ std::string aim_name(Aim aim) {
       return "tell apart";
     case Aim::kSharpen:
       return "sharpen";
+    case Aim::kUnseen:
+      return "unseen";
     case Aim::kLump:
       return "lump";
     default:

@@ -11,11 +11,21 @@ namespace hapsim {
 namespace {
 
 std::string bare_words(const GoalState& g) {
-  if (!g.said.empty() && g.wanted == 0) return g.said + (g.reached ? "; settled" : "; not settled");
+  if (g.name == "verdict") return g.said + (g.reached ? "; settled" : "; not settled");
   if (g.name == "lump") {
     if (!std::isfinite(g.value)) return "none is seen so far";
     return fmt::format("seen, its centre within ± {:.1f} mm (wanted {:.1f})", 1e3 * g.value,
                        1e3 * g.wanted);
+  }
+  if (g.name == "unseen") {
+    if (!std::isfinite(g.value)) return "not told: no place could be left out";
+    if (g.said == "of force")
+      return fmt::format(
+          "places that were left out are foretold to {:.2g} % of the force (wanted {:.2g})",
+          100 * g.value, 100 * g.wanted);
+    return fmt::format(
+        "places that were left out are foretold to {:.1f} times the noise (wanted {:g})", g.value,
+        g.wanted);
   }
   if (!std::isfinite(g.value))
     return fmt::format("wanted to {:.2g} %, not told{}", 100 * g.wanted,

@@ -126,6 +126,19 @@ GoalState error_state(const WantedError& wanted, const Model& model, double floo
   return state;
 }
 
+GoalState unseen_state(const WantedUnseen& wanted, const Unseen& unseen, double floor) {
+  GoalState state{"unseen", wanted.of_force ? "of force" : "of noise",
+                  wanted.of_force ? unseen.share_of_force : unseen.times_noise, wanted.value};
+  state.reached = state.value <= wanted.value;
+  state.unreachable = !state.reached && unseen.share_of_force <= floor;
+  if (state.unreachable)
+    state.note = fmt::format(
+        "what is left is {:.2g} % of the force, no more than mesh and shape may "
+        "err by everywhere ({:.2g} %)",
+        100 * unseen.share_of_force, 100 * floor);
+  return state;
+}
+
 GoalState lump_state(double wanted, const StiffnessImage& image) {
   if (image.lumps.empty())
     return {"lump", "not seen", std::numeric_limits<double>::quiet_NaN(), wanted, false};

@@ -25,6 +25,10 @@ void judge_forces(const Model& start, const TrialGround& ground, const ExploreOp
       known.goals.push_back(never ? *never
                                   : GoalState{wanted.parameter, "", std::nan(""), wanted.share});
   }
+  if (options.goals.unseen.value > 0) {
+    options.diagnose.tell("leaving places out");
+    known.left_out = places_left_out(d.rivals.front(), known.experiment, ground.allowance);
+  }
 }
 
 bool has_one_modulus(const Model& model) {

@@ -6,6 +6,7 @@
 
 #include "explore/explore.h"
 #include "explore/seen_places.h"
+#include "explore/unseen.h"
 
 namespace hapsim {
 
@@ -16,6 +17,7 @@ struct Judgement {
   bool settled = false;                     // its verdict
   std::optional<Fit> fitted = {};           // the model as it was given
   std::vector<SeenPlace> seen = {};
+  LeftOut left_out = {};                     // by `seen`, where a goal asks for it
   std::optional<StiffnessImage> image = {};  // where a lump is looked for at enough places
   std::vector<GoalState> goals = {};
 };

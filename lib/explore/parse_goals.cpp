@@ -26,6 +26,19 @@ double share_of(const std::string& text, const std::string& word, const std::str
   return value;
 }
 
+// Times the noise, than which no model does better, or a share of the force.
+WantedUnseen unseen_wanted(const std::string& text, const std::string& word,
+                           const std::string& option) {
+  if (!text.empty() && text.back() == '%') return {share_of(text, word, option), true};
+  const char* const end = text.data() + text.size();
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end || !(value > 1 && value < 1e6))
+    fail_usage(fmt::format("{}: '{}' has no number above 1", option, word),
+               "write unseen=2 for twice the noise, or unseen=5% of the force");
+  return {value, false};
+}
+
 // "E", or "elastic.E" of "elastic.E" and "elastic E", as summaries write it; of some effect.
 std::string parameter_of(std::string name, const std::string& word, const std::string& option) {
   std::replace(name.begin(), name.end(), ' ', '.');
@@ -69,7 +82,12 @@ Goals parse_goals(const std::vector<std::string>& words, const std::string& opti
       goals.verdict = verdict = true;
     } else if (equals == std::string::npos || name.empty() || name == "verdict") {
       fail_usage(fmt::format("{}: '{}' is no goal", option, word),
-                 "write verdict, PARAMETER=SHARE as in E=0.02, or lump=LENGTH as in lump=2mm");
+                 "write verdict, PARAMETER=SHARE as in E=0.02, unseen=NUMBER as in unseen=2, or "
+                 "lump=LENGTH as in lump=2mm");
+    } else if (name == "unseen") {
+      if (goals.unseen.value > 0) fail_twice(word, option);
+      goals.unseen = unseen_wanted(word.substr(equals + 1), word, option);
+      goals.verdict = true;
     } else if (name == "lump") {
       if (goals.lump > 0) fail_twice(word, option);
       goals.lump = parse_length(word.substr(equals + 1), option + ": lump");

@@ -56,6 +56,18 @@ std::vector<PressablePlace> PlaceFinder::pressed_again(std::size_t count) const 
       preparing());
 }
 
+std::vector<double> PlaceFinder::shares() const {
+  std::vector<double> shares(seen_.size(), 0);
+  for (const PressablePlace& p : all_) {
+    const auto nearer = [&](const SeenPlace& a, const SeenPlace& b) {
+      return (a.point - p.point).squaredNorm() < (b.point - p.point).squaredNorm();
+    };
+    const auto nearest = std::min_element(seen_.begin(), seen_.end(), nearer);
+    if (nearest != seen_.end()) ++shares[static_cast<std::size_t>(nearest - seen_.begin())];
+  }
+  return shares;
+}
+
 double PlaceFinder::widest_gap() const {
   double widest = 0;
   for (const PressablePlace& p : all_)

@@ -27,6 +27,8 @@ class PlaceFinder {
   std::vector<PressablePlace> fresh(const PlaceChoice& choose, std::size_t count) const;
   // The places that were pressed, once more.
   std::vector<PressablePlace> pressed_again(std::size_t count) const;
+  // How many of the places that could be pressed lie nearest to each that was, in their order.
+  std::vector<double> shares() const;
   // How far the place that could be pressed and is farthest from all that were lies from the
   // nearest of them [m]; 0 where there is none.
   double widest_gap() const;

@@ -149,6 +149,9 @@ struct HeldOut {
   std::vector<double> squares;     // sum of squares by fold [N^2]
   std::vector<double> components;  // 3 x rows by fold
   std::vector<double> by_place;    // sum of squares by position [N^2]
+  // What was foretold, stacked as measured_forces() of all episodes [N]; NaN of those that no fold
+  // holds.
+  Eigen::VectorXd forces;
 };
 // Truly refitted for every fold, several at once; bodies with features stay linear about what is
 // known. The watch is asked on the calling thread alone.

@@ -45,6 +45,7 @@ struct HeldOutPart {
   double squares = 0;            // [N^2]
   double components = 0;         // 3 x rows
   std::vector<double> by_press;  // sum of squares [N^2], in the order of the fold
+  Eigen::VectorXd forces;        // foretold [N], in that order
 };
 
 // A watch that several fits ask at once: only the thread that made it asks what it stands for,
@@ -70,10 +71,10 @@ HeldOutPart held_out_part(const ModelBuilder& builder, const Experiment& experim
   // What a field has learned of the places left out is not to be known.
   for (Model& start : starts.models) forget_field(start);
   const Fit fitted = fit_best(starts.models, experiment, training, about, starts.known);
-  Eigen::VectorXd r =
-      measured_forces(dataset, held_out) - model_forces(fitted, experiment, held_out, false).f;
+  const Eigen::VectorXd forces = model_forces(fitted, experiment, held_out, false).f;
+  Eigen::VectorXd r = measured_forces(dataset, held_out) - forces;
   if (offset_effect(fitted.model) != nullptr) take_out_cross_means(dataset, held_out, r);
-  HeldOutPart part{r.squaredNorm(), static_cast<double>(r.size()), {}};
+  HeldOutPart part{r.squaredNorm(), static_cast<double>(r.size()), {}, forces};
   Eigen::Index at = 0;
   for (const int e : held_out) {
     const auto n =
@@ -82,6 +83,14 @@ HeldOutPart held_out_part(const ModelBuilder& builder, const Experiment& experim
     at += n;
   }
   return part;
+}
+
+// Where each episode's forces begin among those of all, stacked; and their end.
+std::vector<Eigen::Index> first_components(const Dataset& dataset) {
+  std::vector<Eigen::Index> first{0};
+  for (const Episode& e : dataset.episodes)
+    first.push_back(first.back() + static_cast<Eigen::Index>(3 * e.rows.size()));
+  return first;
 }
 
 }  // namespace
@@ -102,11 +111,17 @@ HeldOut held_out_error(const ModelBuilder& builder, const Experiment& experiment
     parts[k] = held_out_part(builder, experiment, folds.held_out[k], about);
   });
   double squares = 0, components = 0;
+  const std::vector<Eigen::Index> row = first_components(dataset);
+  result.forces.setConstant(row.back(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < parts.size(); ++k) {
+    Eigen::Index at = 0;
     for (std::size_t i = 0; i < parts[k].by_press.size(); ++i) {
       const auto e = static_cast<std::size_t>(folds.held_out[k][i]);
       result.by_place[static_cast<std::size_t>(dataset.episodes[e].position)] +=
           parts[k].by_press[i];
+      const Eigen::Index n = row[e + 1] - row[e];
+      result.forces.segment(row[e], n) = parts[k].forces.segment(at, n);
+      at += n;
     }
     result.squares.push_back(parts[k].squares);
     result.components.push_back(parts[k].components);

@@ -85,7 +85,7 @@ double length_for(const std::vector<PressablePlace>& places, std::size_t presses
 
 std::vector<PressablePlace> spread_places(const std::vector<PressablePlace>& places,
                                           const std::vector<SeenPlace>& seen, double least_length,
-                                          std::size_t count) {
+                                          std::size_t count, const std::vector<double>& asked) {
   std::vector<PressablePlace> chosen;
   if (places.empty()) return chosen;
   double middle = 0, squares = 0;
@@ -99,7 +99,9 @@ std::vector<PressablePlace> spread_places(const std::vector<PressablePlace>& pla
                                      known > 1 ? kCloseLength : kWideLength));
   process.see(seen, middle);
   Eigen::VectorXd weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(places.size()));
-  if (known > 1) {
+  if (!asked.empty()) {
+    weight = Eigen::Map<const Eigen::VectorXd>(asked.data(), weight.size());
+  } else if (known > 1) {
     const double spread =
         std::max(kLeastSpread, std::sqrt(squares / static_cast<double>(known - 1)));
     weight += (process.mean() / spread).cwiseAbs2();

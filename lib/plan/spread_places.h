@@ -18,9 +18,10 @@ struct SeenPlace {
 // 1.1 times the spacing that the presses will have, half of it where gains are known; never below
 // `least_length` [m], the width of what is looked for. With gains, a place's variance counts more
 // where the process's mean lies off: by 1 + (mean / standard deviation of the gains)^2, up to ten
-// times.
+// times; or as `weight` of each of `places` says.
 std::vector<PressablePlace> spread_places(const std::vector<PressablePlace>& places,
                                           const std::vector<SeenPlace>& seen, double least_length,
-                                          std::size_t count);
+                                          std::size_t count,
+                                          const std::vector<double>& weight = {});
 
 }  // namespace hapsim

@@ -57,6 +57,7 @@ expect 2 "--goal: 'E=3' has no share" data.csv --body body.ply --goal E=3
 expect 2 "no effect has" data.csv --body body.ply --goal Ee=3%
 expect 2 "asked for twice" data.csv --body body.ply --goal E=3%,elastic.E=2%
 expect 0 '' data.csv --body body.ply --rim-edge 0.3 --goal 'elastic E=3%' -o next.csv
+expect 2 'unseen=2 for twice the noise' data.csv --body body.ply --goal unseen=0.5
 expect 2 '--goal: lump' data.csv --body body.ply --goal lump=2kg
 expect 3 'tool_radius' /dev/null --body body.ply
 expect 3 'no place is left' /dev/null --body body.ply --tool-radius 40mm

@@ -1,6 +1,6 @@
 #!/bin/sh
 # explore.sh [FOLDER [HIDDEN]]: a closed loop of measuring on a simulated robot. HIDDEN is what the body has and the
-# loop does not know: relaxing (the default), friction, lump or nothing. Needs hapsim's tools on the PATH; writes into
+# loop does not know: relaxing (the default), friction, lump, regions or nothing. Needs hapsim's tools on the PATH; writes into
 # FOLDER (here). One line a round on standard output, and at the end the model and report.html.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -17,8 +17,9 @@ hs-tetmesh -q block.off -o truth/body.ply
     relaxing) printf 'viscoelastic,0,E1,6000\nviscoelastic,0,tau1,0.6\n' ;;
     friction) printf 'friction,0,mu,0.25\n' ;;
     lump) printf 'inclusion,0,x,0.048\ninclusion,0,y,0.034\ninclusion,0,z,0.021\ninclusion,0,radius,0.005\ninclusion,0,ratio,8\n' ;;
+    regions) printf 'elastic,1,E,35000\nregions,0,x1,0.030\nregions,0,y1,0.026\nregions,1,x1,0.050\nregions,1,y1,0.034\n' ;;
     nothing) ;;
-    *) echo "explore.sh: no hidden effect $hidden; relaxing, friction, lump or nothing" >&2; exit 2 ;;
+    *) echo "explore.sh: no hidden effect $hidden; relaxing, friction, lump, regions or nothing" >&2; exit 2 ;;
   esac
 } >truth/model.csv
 
@@ -31,7 +32,7 @@ awk 'BEGIN { srand(4); print "# unit: mm\nx,y,z"
     else printf "%.3f,%.3f,%.3f\n", (k % 2) * 80 + e, 60 * s, 30 * t } }' >scan.csv
 hs-scan2ply -q scan.csv --unit mm | hs-reconstruct -q | hs-tetmesh -q -o body.ply
 
-case $hidden in lump) goals=lump=3mm ;; *) goals=verdict,E=3% ;; esac
+case $hidden in lump) goals=lump=3mm ;; regions) goals=unseen=2 ;; *) goals=verdict,E=3% ;; esac
 of() { sed -n "s/^  \"$1\": \"\{0,1\}\(.*[^\",]\)\"\{0,1\},\{0,1\}\$/\1/p" plan.json; }
 value() { awk '/"goal":/ { gsub(/[",]/, ""); name = $2 (NF > 2 ? " " $3 : "") }
   /"said":/ { gsub(/.*: "|",$/, ""); said = $0 }
@@ -54,5 +55,7 @@ if [ "$hidden" = lump ]; then
   hs-identify data.csv --body body.ply --folds 0 --lumps lumps.csv -o model.csv
 else
   hs-identify data.csv --body body.ply --effects auto -o model.csv
+  # Where a boundary lies between the presses, moved together with the moduli.
+  [ "$hidden" != regions ] || hs-identify data.csv --body body.ply --model model.csv --refine-boundary 8 -o model.csv
 fi
 hs-simulate -q data.csv --body body.ply --model model.csv | hs-compare data.csv --simulated - --html report.html -o residuals.csv

@@ -12,21 +12,26 @@ namespace hapsim {
 namespace {
 
 TEST(Goals, AreWhatTheWordsSay) {
-  const Goals goals = parse_goals({"E=0.02", "viscoelastic.E1=10%", "lump=2mm"}, "--goal");
+  const Goals goals =
+      parse_goals({"E=0.02", "viscoelastic.E1=10%", "lump=2mm", "unseen=2"}, "--goal");
   ASSERT_EQ(goals.errors.size(), 2u);
   EXPECT_EQ(goals.errors[0].parameter, "E");
   EXPECT_DOUBLE_EQ(goals.errors[0].share, 0.02);
   EXPECT_EQ(goals.errors[1].parameter, "viscoelastic.E1");
   EXPECT_DOUBLE_EQ(goals.errors[1].share, 0.1);
   EXPECT_DOUBLE_EQ(goals.lump, 0.002);
+  EXPECT_DOUBLE_EQ(goals.unseen.value, 2);
+  EXPECT_TRUE(parse_goals({"unseen=5%"}, "--goal").unseen.of_force);
+  EXPECT_TRUE(parse_goals({"unseen=1.5"}, "--goal").of_forces());
   EXPECT_TRUE(goals.verdict);  // an error is none of a model that lacks something
   EXPECT_FALSE(parse_goals({"lump=2mm"}, "--goal").of_forces());
   EXPECT_TRUE(parse_goals({"verdict"}, "--goal").of_forces());
 }
 
 TEST(Goals, WordsThatAreNoneAreRefused) {
-  for (const char* word : {"nonsense", "E=", "E=2", "E=0", "E=nan", "E=2%%", "=0.1", "lump=2",
-                           "lump=-1mm", "lump=2kg", "verdict=1"})
+  for (const char* word :
+       {"nonsense", "E=", "E=2", "E=0", "E=nan", "E=2%%", "=0.1", "lump=2", "lump=-1mm", "lump=2kg",
+        "verdict=1", "unseen", "unseen=1", "unseen=2x", "unseen=inf"})
     EXPECT_EQ(
         error_of([&] { parse_goals({word}, "--goal"); }, ExitCode::kUsage).rfind("--goal: ", 0), 0u)
         << word;
@@ -40,11 +45,9 @@ TEST(Goals, NamesAreThoseOfEffectsAndAskedForOnce) {
   };
   for (const char* word : {"Ee=2%", "elastic.mu=2%", "nonsense.E=2%"})
     EXPECT_NE(said({word}).find("no effect has"), std::string::npos) << word;
-  const std::vector<std::vector<std::string>> twice{{"E=2%", "E=3%"},
-                                                    {"E=2%", "elastic.E=3%"},
-                                                    {"elastic E=2%", "E=2%"},
-                                                    {"lump=2mm", "lump=3mm"},
-                                                    {"verdict", "verdict"}};
+  const std::vector<std::vector<std::string>> twice{
+      {"E=2%", "E=3%"},         {"E=2%", "elastic.E=3%"}, {"elastic E=2%", "E=2%"},
+      {"lump=2mm", "lump=3mm"}, {"unseen=2", "unseen=3"}, {"verdict", "verdict"}};
   for (const auto& words : twice)
     EXPECT_NE(said(words).find("asked for twice"), std::string::npos) << words[0];
 }
