@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "diagnose/of_one_kind.h"
 #include "effects/catalogue.h"
 
 namespace hapsim::bench {
@@ -43,6 +44,8 @@ const char* judged(const Trial& t) {
                        [&](const std::string& curve) { return is_of_kind(t.effects, curve); })
                ? "kind"
                : "open";
+  // Many names of one kind stand for that kind.
+  if (const std::string kind = kind_of_many(missing); is_kind_of(t.effects, kind)) return "kind";
   if (!missing.empty()) {
     if (!t.left.empty()) return "hedged";
     if (t.after <= kAtFloor) return "same";

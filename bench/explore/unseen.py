@@ -2,9 +2,9 @@
 """unseen.py BIN OUT [BODY...]: how well places that nobody has pressed are foretold after a closed loop (hs-plan with
 the simulated robot) whose goal was just that, on bodies of two and three moduli.
 
-The loop runs with --goal unseen=2 (RATIO); then hs-identify --effects auto fits what it has recorded, and foretells
-straight presses at 36 places of a regular grid (6 x 6), those left out that lie within a tool's radius of one that was
-pressed. A line a body: presses, what hs-plan says, and the root mean square error of the foretold forces over the noise
+The loop runs with --goal unseen=2 (RATIO); then hs-identify --effects auto --refine-boundary 8 fits what it has recorded,
+and foretells straight presses at 36 places of a regular grid (6 x 6), those left out that lie within a tool's radius of one
+that was pressed. A line a body: presses, what hs-plan says, and the root mean square error of the foretold forces over the noise
 (0.01 N, in the measurement too: 1 is perfect), of all places and of the worst one; how many lie within the band that
 the model states (unseen_band); the same after a regular grid of as many presses (one a place in turn), which is what
 the loop must beat. Forces, scans and shapes as in run.py; of regions-cuboid, -ball and -organ (those of
@@ -95,7 +95,7 @@ def foretold(work, name, data, body):
     folder = work / name
     folder.mkdir(exist_ok=True)
     if not (folder / "foretold.csv").exists():
-        run.shell(f"cd {folder}; hs-identify -q {data} --body {body} --effects auto --threads 1 -o model.csv;"
+        run.shell(f"cd {folder}; hs-identify -q {data} --body {body} --effects auto --refine-boundary 8 --threads 1 -o model.csv;"
                   f" hs-simulate -q ../unseen.csv --body {body} --model model.csv -o foretold.csv")
     said = metadata(folder / "model.csv")
     band = float(said.get("unseen_band", "nan"))

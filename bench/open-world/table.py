@@ -28,9 +28,12 @@ CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
 MOST_ALIKE = 3
 
 
-def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=()):
-    """first: of each effect the first of its kinds; others: kinds that what is left may have as well."""
+def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None):
+    """first: of each effect the first of its kinds; others: kinds that what is left may have as well;
+    one_kind: of three names and more."""
     kinds = set(kind.split())
+    if one_kind in kinds:  # many names of one kind stand for it
+        return "kind"
     if "noise" in kinds:
         return "right" if not missing and not alike else "hedged" if said or hint else "wrong"
     if verdict == "complete":
@@ -74,7 +77,7 @@ def row(out, name, truth):
                   found["rmse"] / found["force_noise"], truth["known"].split(),
                   found["rmse_with_missing_effects"] / found["force_noise"],
                   {e["effect"]: e["kinds"][0] for e in found["effects"] if e.get("kinds")},
-                  [k["kind"] for k in found.get("left", {}).get("kinds", [])[1:] if k.get("alike")]))
+                  [k["kind"] for k in found.get("left", {}).get("kinds", [])[1:] if k.get("alike")], found.get("one_kind")))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
 #include "diagnose/odd_presses.h"
+#include "diagnose/of_one_kind.h"
 #include "diagnose/one_size.h"
 #include "diagnose/probability.h"
 #include "diagnose/search.h"
@@ -216,11 +217,24 @@ Diagnosis in_doubt_of_shape(const Model& model, const Experiment& e, const Allow
   return d;
 }
 
+void doubt_many_of_one_kind(Diagnosis& d) {
+  std::vector<std::string> missing;
+  for (const Finding& f : d.findings)
+    if (f.verdict == Verdict::kMissing) missing.push_back(f.effect);
+  d.one_kind = kind_of_many(missing);
+  if (!d.one_kind.empty())
+    d.explanation += fmt::format(
+        " So many of one kind ({}) are rather one cause of that kind which has no name here: "
+        "together they foretell, but none of the names is sure.",
+        d.one_kind);
+}
+
 }  // namespace
 
 Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& allowance,
                    const DiagnoseOptions& options) {
   Diagnosis d = in_doubt_of_shape(model, e, allowance, options);
+  doubt_many_of_one_kind(d);
   // The trials by which they are told have many presses.
   if (e.dataset.episodes.size() >= kLeastPresses) set_probabilities(d);
   return d;

@@ -89,7 +89,8 @@ struct Diagnosis {
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
-  LeftOver left;  // with all missing effects, of an ambiguous verdict with the best rival
+  LeftOver left;         // with all missing effects, of an ambiguous verdict with the best rival
+  std::string one_kind;  // of three missing effects or more (diagnose/of_one_kind.h)
   std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
   TorqueLeft torque;             // of the same model, where torques were measured
   MarkerLeft marker;             // of the same model, where points were seen

@@ -96,9 +96,16 @@ Columns times(const std::vector<Column>& factors, const Columns& what) {
 }
 
 Columns by_rate(const LawSamples& s) {
-  Columns c{s.velocity, Vectors(s.velocity * s.speed.asDiagonal())};
+  const Column over = s.speed.unaryExpr([](double v) { return v > 0 ? 1 / v : 0.0; });
+  const Vectors way = s.velocity * over.asDiagonal();
+  // What the motion meets, of any law of the speed; dry along each axis; and the tool's own mass.
+  Columns c{s.velocity, Vectors(s.velocity * s.speed.asDiagonal()), s.acceleration};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    c.emplace_back(Vectors::Zero(3, way.cols()));
+    c.back().row(axis) = way.row(axis);
+  }
   const std::vector<Column> speeds = hats(s.speed, quantiles(s.speed, 6));
-  return join(join(c, times(speeds, {s.f, s.rate})),
+  return join(join(c, times(speeds, {s.f, s.rate, way})),
               times(hats(s.fastest, quantiles(s.fastest, 4)), {s.f}));
 }
 
@@ -227,7 +234,8 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
   for (Column* c :
        {&s.depth, &s.speed, &s.fastest, &s.growth, &s.age, &s.session, &s.number, &s.temperature})
     *c = Column::Zero(count);
-  for (Vectors* v : {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.rate})
+  for (Vectors* v :
+       {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.acceleration, &s.rate})
     *v = Vectors::Zero(3, count);
   std::map<int, int> pressed;
   Eigen::Index at = 0;
@@ -242,6 +250,7 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
     s.timed = s.timed && !e.view.session.empty();
     s.warmed = s.warmed && !e.view.temperature.empty();
     const Vectors v = s.timed ? slope(u, e.view.t) : Vectors::Zero(3, n);
+    const Vectors a = s.timed ? slope(v, e.view.t) : Vectors::Zero(3, n);
     const Vectors df = s.timed ? slope(f, e.view.t) : Vectors::Zero(3, n);
     const int number = pressed[e.position]++;
     double fastest = 0;
@@ -268,6 +277,7 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
       s.normal.col(k) = e.view.normal;
       s.u.col(k) = u.col(i);
       s.velocity.col(k) = v.col(i);
+      s.acceleration.col(k) = a.col(i);
       s.rate.col(k) = df.col(i);
     }
     at += n;

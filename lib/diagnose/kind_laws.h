@@ -21,7 +21,7 @@ struct LawSamples {
   // Of the depth the growth; the fastest so far in the press.
   Column depth, speed, fastest, growth, age, session, number, temperature;
   Vectors f, along, across, rate;  // along and across the normal; how fast it changes
-  Vectors normal, u, velocity;
+  Vectors normal, u, velocity, acceleration;
 };
 
 // Of a model's `forces` (stacked [N]). Of more than 10,000 samples every n-th is kept.

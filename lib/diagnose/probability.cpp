@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "effects/catalogue.h"
+
 namespace hapsim {
 namespace {
 
@@ -13,6 +15,7 @@ namespace {
 // often what was said was true.
 constexpr double kTemper = 15;
 constexpr double kMissingAlone = 0.96, kMissingAndMore = 0.85;  // by whether noise alone is left
+constexpr double kOneOfMany = 0.1;                              // of one kind: none of eleven was
 constexpr double kSetHolds = 0.95;
 constexpr double kPossible = 0.08, kAbsent = 0.002;
 
@@ -20,6 +23,11 @@ constexpr double kPossible = 0.08, kAbsent = 0.002;
 bool is_doubted(const Finding& f) {
   return std::find(f.confused_with.begin(), f.confused_with.end(), "shape") !=
          f.confused_with.end();
+}
+
+bool has_kind(const Finding& f, const std::string& kind) {
+  const std::vector<std::string>& kinds = require_effect(f.effect).card().kinds;
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
 }  // namespace
@@ -45,7 +53,7 @@ void set_probabilities(Diagnosis& d) {
   for (Finding& f : d.findings) {
     switch (f.verdict) {
       case Verdict::kMissing:
-        f.probability = f.share_among * missing;
+        f.probability = f.share_among * (has_kind(f, d.one_kind) ? kOneOfMany : missing);
         break;
       case Verdict::kIndistinguishable:
         f.probability = is_doubted(f) ? kSetHolds / 2 : among_rivals(f);
@@ -70,13 +78,14 @@ std::string probability_in_words() {
       "that it acts (of a curve of no law: that the cause is of its kind), as verdicts like it "
       "were "
       "borne out in simulated trials: what is missing and leaves noise alone {:g} %, {:g} where it "
-      "leaves more, less where others passed beside it; a set that cannot be told apart holds it "
+      "leaves more, {:g} where three or more are of one kind, less where others passed beside it; "
+      "a set that cannot be told apart holds it "
       "in "
       "{:g} % of these, shared by the likelihoods; possible {:g} %, absent {:g} %. Empty of fewer "
       "than "
       "{} presses",
-      100 * kMissingAlone, 100 * kMissingAndMore, 100 * kSetHolds, 100 * kPossible, 100 * kAbsent,
-      kLeastPresses);
+      100 * kMissingAlone, 100 * kMissingAndMore, 100 * kOneOfMany, 100 * kSetHolds,
+      100 * kPossible, 100 * kAbsent, kLeastPresses);
 }
 
 }  // namespace hapsim

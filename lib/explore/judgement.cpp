@@ -5,14 +5,44 @@
 #include "base/error.h"
 #include "diagnose/draft_experiment.h"
 #include "diagnose/held_out.h"
+#include "diagnose/wording.h"
+#include "fit/boundary_fit.h"
 #include "fit/extend.h"
 
 namespace hapsim {
 namespace {
 
-void judge_forces(const Model& start, const TrialGround& ground, const ExploreOptions& options,
-                  Judgement& known) {
+// Boundaries are found to first order. Where one leaves more than noise it is moved together with
+// the moduli, as hs-identify --refine-boundary does.
+void refine_what_is_found(const TetMesh& body, const TrialGround& ground,
+                          const ExploreOptions& options, Diagnosis& d) {
+  constexpr int kKeyPoints = 8;
+  if (d.verdict != ModelVerdict::kIncomplete || d.left.noise_alone() ||
+      !has_boundaries(d.rivals.front()))
+    return;
+  options.diagnose.tell("moving boundaries");
+  BoundaryOptions moving;
+  moving.key_points = kKeyPoints;
+  moving.threads = options.experiment.threads;
+  moving.fit = trial_fit_options(ground);
+  try {
+    const Fit found = fit(d.rivals.front(), ground.experiment, all_episodes(ground.dataset),
+                          trial_fit_options(ground));
+    BoundaryFit moved = refine_boundaries(found, ground.experiment, body, moving);
+    if (!moved.better) return;
+    d.rmse_end = moved.fitted.error;
+    d.left = left_over(moved.fitted, ground);
+    d.rivals.front() = std::move(moved.fitted.model);
+    d.explanation = describe_verdict(d);
+  } catch (const Error& error) {  // none lies on the body
+    if (error.code() != ExitCode::kBadInput) throw;
+  }
+}
+
+void judge_forces(const Model& start, const TetMesh& body, const TrialGround& ground,
+                  const ExploreOptions& options, Judgement& known) {
   known.diagnosis = diagnose(start, known.experiment, ground.allowance, options.diagnose);
+  refine_what_is_found(body, ground, options, *known.diagnosis);
   const Diagnosis& d = *known.diagnosis;
   known.goals.push_back(verdict_state(d, known.coverage));
   known.settled = known.goals.back().reached;
@@ -55,7 +85,7 @@ Judgement judge(const TetMesh& body, const std::vector<Vec3>& window, const Mode
   known.coverage = coverage_of(e.dataset);
   known.coverage.presses = recording.presses().size();
   if (start.parameters.empty()) start = elastic_model(e, all);
-  if (options.goals.of_forces()) judge_forces(start, ground, options, known);
+  if (options.goals.of_forces()) judge_forces(start, body, ground, options, known);
   known.fitted = fit(start, e, all, trial_fit_options(ground));
   if (!known.fitted->converged)
     fail_numerics(recording.name, "the model does not fit: " + known.fitted->message,

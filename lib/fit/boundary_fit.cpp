@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "base/error.h"
 #include "experiment/nearest_region.h"
@@ -33,6 +34,12 @@ double spacing_of(const std::vector<Vec3>& positions) {
 }
 
 }  // namespace
+
+bool has_boundaries(const Model& model) {
+  const MaterialSpec material = material_of(model);
+  return !material.local &&
+         std::set<int>(material.key_region.begin(), material.key_region.end()).size() > 1;
+}
 
 BoundaryFit refine_boundaries(const Fit& start, const Experiment& experiment, const TetMesh& mesh,
                               const BoundaryOptions& options) {

@@ -30,6 +30,9 @@ struct BoundaryFit {
       false;  // than `start`; else `fitted` is that but for the errors, and nothing has moved
 };
 
+// Regions that act on each other through the body, so that where they end is asked.
+bool has_boundaries(const Model& model);
+
 // `start`: a fitted model with regions. The boundaries' key points move along their normals, the
 // moduli of the regions with them, by Gauss-Newton with exact derivatives: the body's modulus is a
 // field that goes from one region's to the other's over two tool radii about the boundary, solved

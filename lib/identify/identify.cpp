@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "diagnose/wording.h"
 #include "experiment/plausible.h"
+#include "fit/boundary_fit.h"
 #include "fit/constraint_regions.h"
 #include "fit/constraints.h"
 #include "fit/fit_record.h"
@@ -88,6 +89,11 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
 
   const Selection all = all_episodes(w.dataset);
   Identification result;
+  const auto refine = [&] {
+    result.fitted = request.refine(result.fitted);
+    result.fitted.torque = torque_error(result.fitted, w, all, final_options);
+    result.fitted.marker = marker_error(result.fitted, w, all, final_options);
+  };
   result.force_rms = force_error(w.dataset, measured_forces(w.dataset, all)).told();
   ForceError unseen;
   if (request.fit.automatic) {
@@ -106,6 +112,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
       Fit both = fit(result.fitted.model, w, all, final_options, result.fitted.about);
       if (both.converged) result.fitted = std::move(both);
     }
+    if (!improvement.stopped && request.refine && has_boundaries(result.fitted.model)) refine();
     if (improvement.stopped)
       result.cut_short = "the model was improved";
     else
@@ -121,11 +128,7 @@ Identification identify(const IdentifyRequest& request, const TetMesh& body, con
     require_constraints(starts.models.front(), fit_options.constraints);
     if (request.starts) request.starts(starts.models);
     result.fitted = fit_best(starts.models, w, all, final_options, starts.known);
-    if (request.refine && result.fitted.converged) {
-      result.fitted = request.refine(result.fitted);
-      result.fitted.torque = torque_error(result.fitted, w, all, final_options);
-      result.fitted.marker = marker_error(result.fitted, w, all, final_options);
-    }
+    if (request.refine && result.fitted.converged) refine();
   }
   if (result.fitted.stopped) return result;
   if (!result.fitted.converged)

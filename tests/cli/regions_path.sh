@@ -56,6 +56,10 @@ awk -F, '/^elastic,.,E/ { d = $4 / ($2 ? 10000 : 25000) - 1; if (d > 0.04 || d <
 awk 'BEGIN { FS = OFS = "," } /^elastic,1,E/ { $4 = 23000; $NF = "fixed" } { print }' start.csv >held.csv
 expect 0 '' data.csv --body regions.ply --rim-edge 0.3 --noise 0.002 --model held.csv --refine-boundary 5 --folds 0 -o m3.csv
 grep -q '^elastic,1,E,23000,.*fixed' m3.csv || complain "a modulus that is held: $(grep '^elastic,1,E' m3.csv)"
+# Nobody says that there are regions: they are found, and their boundary moved.
+expect 0 'boundaries ' data.csv "${common[@]}" --fix nu=0.4 --effects auto --refine-boundary 5 -o m4.csv
+awk -v plain="$(error m0.csv)" -v found="$(error m4.csv)" 'BEGIN { exit !(found < 0.2 * plain) }' ||
+  complain "the error of what is found: $(error m0.csv), $(error m4.csv)"
 # Labelled or not, the body is the same: the model has the boundary.
 for body in body regions; do
   hs-simulate -q data.csv --body $body.ply --model m1.csv --rim-edge 0.3 -o $body-forces.csv ||

@@ -10,17 +10,19 @@
 namespace hapsim {
 
 inline Option boundary_flag() {
-  return {.flag = flag::boundary,
-          .value = "N",
-          .help =
-              "Refines the boundaries between the regions in turn with their moduli: N key "
-              "points along each move across it, as the forces along and across the surface "
-              "ask. Between two regions (or more that explain the positions no better than "
-              "two) it is any smooth curve, drawn by 24 points or more; how much it may "
-              "bend is chosen by what the positions tell.",
-          .group = "Fit",
-          .minimum = 2,
-          .maximum = 100};
+  return {
+      .flag = flag::boundary,
+      .value = "N",
+      .help =
+          "Refines the boundaries between the regions in turn with their moduli: N key "
+          "points along each move across it, as the forces along and across the surface "
+          "ask. Between two regions (or more that explain the positions no better than "
+          "two) it is any smooth curve, drawn by 24 points or more; how much it may "
+          "bend is chosen by what the positions tell. With --effects auto of the regions that are "
+          "found, if any.",
+      .group = "Fit",
+      .minimum = 2,
+      .maximum = 100};
 }
 
 // `fitted` with its boundaries refined, where that is better; in words on standard error.

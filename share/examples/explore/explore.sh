@@ -54,8 +54,7 @@ printf '%2d presses; %s; reached\n' "$(of presses)" "$(value)"
 if [ "$hidden" = lump ]; then
   hs-identify data.csv --body body.ply --folds 0 --lumps lumps.csv -o model.csv
 else
-  hs-identify data.csv --body body.ply --effects auto -o model.csv
-  # Where a boundary lies between the presses, moved together with the moduli.
-  [ "$hidden" != regions ] || hs-identify data.csv --body body.ply --model model.csv --refine-boundary 8 -o model.csv
+  # A boundary between regions, if there is one, is moved together with the moduli beside it.
+  hs-identify data.csv --body body.ply --effects auto --refine-boundary 8 -o model.csv
 fi
 hs-simulate -q data.csv --body body.ply --model model.csv | hs-compare data.csv --simulated - --html report.html -o residuals.csv

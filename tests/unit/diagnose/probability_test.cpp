@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "diagnose/of_one_kind.h"
+
 namespace hapsim {
 namespace {
 
@@ -44,6 +46,20 @@ TEST(Probability, FallsWhereAnotherPassedBesideItAndWhereMoreIsLeft) {
   d.left.structured = true;
   set_probabilities(d);
   EXPECT_LT(d.findings[0].probability, beside);
+}
+
+TEST(Probability, ManyOfOneKindAreNoneOfThemSure) {
+  EXPECT_EQ(kind_of_many({"motion-scale", "arm-compliance", "tool-radius"}), "set-up");
+  EXPECT_EQ(kind_of_many({"motion-scale", "arm-compliance", "arm-compliance"}), "");
+  EXPECT_EQ(kind_of_many({"viscoelastic", "softening", "sensor-rotation"}), "");
+  EXPECT_EQ(kind_of_many({"learned-kernel", "viscoelastic", "sensor-hysteresis"}), "");
+  Diagnosis d;
+  d.findings = {finding("motion-scale", Verdict::kMissing, 500),
+                finding("temperature", Verdict::kMissing, 500)};
+  d.one_kind = "set-up";
+  set_probabilities(d);
+  EXPECT_LT(d.findings[0].probability, 0.2);
+  EXPECT_GT(d.findings[1].probability, 0.9);
 }
 
 }  // namespace
