@@ -13,6 +13,7 @@ namespace hapsim {
 namespace {
 
 constexpr std::size_t kMany = 10000;  // samples
+constexpr double kTurn = 0.01;
 
 using Column = LawSamples::Column;
 using Vectors = LawSamples::Vectors;
@@ -97,15 +98,11 @@ Columns times(const std::vector<Column>& factors, const Columns& what) {
 
 Columns by_rate(const LawSamples& s) {
   const Column over = s.speed.unaryExpr([](double v) { return v > 0 ? 1 / v : 0.0; });
-  const Vectors way = s.velocity * over.asDiagonal();
-  // What the motion meets, of any law of the speed; dry along each axis; and the tool's own mass.
-  Columns c{s.velocity, Vectors(s.velocity * s.speed.asDiagonal()), s.acceleration};
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    c.emplace_back(Vectors::Zero(3, way.cols()));
-    c.back().row(axis) = way.row(axis);
-  }
+  // What the motion meets, of any law of the speed, and the tool's own mass.
+  const Vectors against = s.velocity * over.asDiagonal();
+  const Columns c{s.velocity, Vectors(s.velocity * s.speed.asDiagonal()), s.acceleration};
   const std::vector<Column> speeds = hats(s.speed, quantiles(s.speed, 6));
-  return join(join(c, times(speeds, {s.f, s.rate, way})),
+  return join(join(c, times(speeds, {s.f, s.rate, against})),
               times(hats(s.fastest, quantiles(s.fastest, 4)), {s.f}));
 }
 
@@ -122,6 +119,14 @@ std::vector<Column> phases(const LawSamples& s) {
       found.push_back(d.cwiseProduct(in));
   }
   return found;
+}
+
+// Dry friction of each axis, which holds while nothing moves.
+Columns by_way(const LawSamples& s) {
+  Columns c(3, Vectors::Zero(3, s.way.cols()));
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
+    c[static_cast<std::size_t>(axis)].row(axis) = s.way.row(axis);
+  return c;
 }
 
 std::vector<Column> numbers(const LawSamples& s) {
@@ -235,8 +240,10 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
        {&s.depth, &s.speed, &s.fastest, &s.growth, &s.age, &s.session, &s.number, &s.temperature})
     *c = Column::Zero(count);
   for (Vectors* v :
-       {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.acceleration, &s.rate})
+       {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.acceleration, &s.way, &s.rate})
     *v = Vectors::Zero(3, count);
+  double longest = 0;
+  for (const Vec3& u : dataset.recording.u) longest = std::max(longest, u.norm());
   std::map<int, int> pressed;
   Eigen::Index at = 0;
   int press = -1;
@@ -254,8 +261,11 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
     const Vectors df = s.timed ? slope(f, e.view.t) : Vectors::Zero(3, n);
     const int number = pressed[e.position]++;
     double fastest = 0;
+    Vec3 way = Vec3::Zero();
     for (Eigen::Index i = 0; i < n; ++i) {
       fastest = std::max(fastest, v.col(i).norm());
+      if (i > 0)
+        way = (way + (u.col(i) - u.col(i - 1)) / (kTurn * longest)).cwiseMax(-1).cwiseMin(1);
       if ((at + i) % static_cast<Eigen::Index>(stride) != 0) continue;
       const auto k = static_cast<Eigen::Index>(s.kept.size());
       s.kept.push_back(at + i);
@@ -278,6 +288,7 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
       s.u.col(k) = u.col(i);
       s.velocity.col(k) = v.col(i);
       s.acceleration.col(k) = a.col(i);
+      s.way.col(k) = way;
       s.rate.col(k) = df.col(i);
     }
     at += n;
@@ -303,6 +314,7 @@ std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& force
     laws_by("depth", "depth", hats(s.depth, quantiles(s.depth, knots)));
   law("depth", [&] { return by_travel(s); });
   laws_by("phase", "phase", phases(s));
+  law("phase", [&] { return by_way(s); });
   if (s.warmed)
     laws_by(kByTemperature, kByTemperature, hats(s.temperature, quantiles(s.temperature, 4)));
   if (s.timed) {

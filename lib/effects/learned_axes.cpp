@@ -82,7 +82,8 @@ class LearnedAxes : public Effect {
         .separated_by =
             "a calibration weight along each axis, both ways; the same sideways press on a body "
             "that is glued to the table",
-        .kinds = {"direction", "set-up"}};
+        // Of the reading: along z it is a curve of what that axis reads, as of a sensor that bends.
+        .kinds = {"direction", "set-up", "reading"}};
     return card;
   }
 
