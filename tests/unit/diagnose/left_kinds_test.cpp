@@ -104,6 +104,19 @@ TEST(LeftKinds, ABentScrewGoesWithTheTravelOfItsAxis) {
   EXPECT_GT(kinds.front().share, 0.5);
 }
 
+// Coulomb's friction of a guide: against the way it last went, and kept while it stands.
+TEST(LeftKinds, AGuideThatDragsGoesWithThePhase) {
+  double before = 0, against = 0;
+  const auto kinds = kinds_left([&](const Sample& s) {
+    if (s.number == 0) before = against = 0;
+    if (s.u.z() != before) against = s.u.z() > before ? -1 : 1;
+    before = s.u.z();
+    return Vec3(0, 0, 0.08 * against);
+  });
+  ASSERT_EQ(first_of(kinds), "phase");
+  EXPECT_GT(kinds.front().share, 0.9);
+}
+
 TEST(LeftKinds, OfOthersThoseAreAlikeThatForetellAsMuch) {
   const auto kinds =
       kinds_left([](const Sample& s) { return Vec3(0.6 * s.depth * s.depth * s.f); });
