@@ -104,7 +104,7 @@ class Question {
         is_open("unseen") && result_.diagnosis->verdict != ModelVerdict::kAmbiguous;
     if (open && !places_first && known_->coverage.places >= kSettledPlaces && tell_apart()) return;
     if (settled && sharpen()) return;
-    if (is_open("unseen")) return look_where_least_is_foretold();
+    if (is_open("unseen") && !known_->left_out.error.empty()) return look_where_least_is_foretold();
     if (known_ && known_->image && !known_->image->lumps.empty() && is_open("lump"))
       return surround_lump();
     spread();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/counted.h"
 #include "base/error.h"
 #include "effects/catalogue.h"
 #include "experiment/experiment.h"
@@ -63,8 +64,8 @@ std::string unsettled(const Diagnosis& d, const Coverage& coverage) {
   const auto also = [&](const std::string& reason) { why += (why.empty() ? "" : "; ") + reason; };
   if (coverage.presses < kLeastPresses) also(fmt::format("{} presses are needed", kLeastPresses));
   if (coverage.places < kSettledPlaces)
-    also(fmt::format("presses lie at {} places a tool's radius apart, {} are needed",
-                     coverage.places, kSettledPlaces));
+    also(fmt::format("presses lie at {} a tool's radius apart, {} are needed",
+                     counted(coverage.places, "place", "places"), kSettledPlaces));
   for (const LackingMotion& m : coverage.lacking) also(m.what);
   const bool left = !d.left.noise_alone() || !d.torque.explained() || !d.marker.explained();
   if (d.verdict == ModelVerdict::kIncomplete && left) also("what is found does not explain all");
