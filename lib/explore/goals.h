@@ -64,9 +64,8 @@ GoalState verdict_state(const Diagnosis& diagnosis, const Coverage& coverage);
 GoalState error_state(const WantedError& wanted, const Model& model, double floor);
 // The same before anything is known: of the body's modulus wanted better than `floor`, else none.
 std::optional<GoalState> hopeless(const WantedError& wanted, double floor);
-// Of the wanted number or share. Where what is left is no more than mesh and shape may err
-// everywhere
-// (`floor`), no more presses make it less.
+// Of the wanted number or share. Where what is left is no more than the `floor` by which mesh and
+// shape may err everywhere, no more presses make it less.
 GoalState unseen_state(const WantedUnseen& wanted, const Unseen& unseen, double floor);
 // The strongest lump.
 GoalState lump_state(double wanted, const StiffnessImage& image);
