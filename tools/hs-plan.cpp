@@ -66,12 +66,12 @@ ToolSpec specification() {
       "For the forces at places that nobody has pressed (unseen) those that were are left out, one "
       "at a time or in twenty parts, and foretold by a model made without them, its regions or "
       "curves too. The error is the root mean square over the part of the surface that can be "
-      "pressed, each place standing for what lies nearest to it, and errs to the safe side: a "
-      "place that was left out lay farther from the others than any place does now. The next "
-      "presses lie where the places around were foretold worst, as between two regions. A boundary "
-      "that leaves more than noise is moved "
-      "with the moduli beside it, as hs-identify --refine-boundary does, which is to be given with "
-      "--effects auto in the end.",
+      "pressed, each place standing for what lies nearest to it. It is rather too large than too "
+      "small, for a place that was left out lay farther from the others than any place does now, "
+      "but it knows of mesh and shape no more than the pressed places show. The next presses lie "
+      "where the places around were foretold worst, as between two regions. A boundary that leaves "
+      "more than noise is moved with the moduli beside it, as hs-identify --refine-boundary does, "
+      "which is to be given with --effects auto in the end.",
       "For a lump the presses of all places are looked at as by hs-identify --lumps. Where one is "
       "seen, the next presses are those after which its centre is known best, as a small lump in a "
       "half-space would have it; otherwise they lie where the stiffness stands out and where least "

@@ -75,14 +75,6 @@ void blame_odd_presses(const Fit& fitted, const TrialGround& g, Diagnosis& d) {
   d.left.words = fmt::format("{:.2g} x the noise is left. {}", d.left.error, odd.words());
 }
 
-std::string step_words(const Noise& noise) {
-  if (noise.step == 0) return "";
-  return fmt::format(
-      " Forces are rounded to steps of {:.3g} N (quantisation), most of the {:.2g} N that counts "
-      "as noise: what is smaller these data cannot tell.",
-      noise.step, noise.value);
-}
-
 Diagnosis with_allowance(const Model& model, const TrialGround& g, const DiagnoseOptions& options) {
   const bool few_presses = g.dataset.episodes.size() < kLeastPresses;
   const Folds folds = few_presses ? Folds{} : make_folds(g.dataset, options.folds);
@@ -136,20 +128,11 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
               : !d.left.noise_alone() || !d.torque.explained() || !d.marker.explained()
                   ? ModelVerdict::kUnexplained
                   : ModelVerdict::kComplete;
-  // What else than forces is not explained, if it is that alone.
-  const bool forces_told = d.verdict == ModelVerdict::kUnexplained && d.left.noise_alone();
-  const bool torques_alone = forces_told && !d.torque.explained();
-  const bool points_alone = forces_told && !torques_alone;
-  d.explanation = torques_alone  ? d.torque.words
-                  : points_alone ? d.marker.words
-                                 : describe_verdict(d);
-  if (!torques_alone && !d.torque.words.empty()) d.explanation += " " + d.torque.words;
-  if (!points_alone && !d.marker.words.empty()) d.explanation += " " + d.marker.words;
-  d.explanation += step_words(g.experiment.noise);
+  d.explanation = explain_verdict(d, g.experiment.noise);
   if (!few_presses) return d;
   const std::size_t presses = g.dataset.episodes.size();
   const std::string count = presses == 1 ? "one press" : fmt::format("{} presses", presses);
-  if (d.verdict == ModelVerdict::kUnexplained && !forces_told)
+  if (d.verdict == ModelVerdict::kUnexplained && !d.left.noise_alone())
     d.explanation = fmt::format(
         "the model fails by {:.2g} x noise, but {} cannot name the cause with a false-alarm rate; "
         "the possible effects stand below, the best first. Record {} presses or more.",
@@ -222,11 +205,7 @@ void doubt_many_of_one_kind(Diagnosis& d) {
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kMissing) missing.push_back(f.effect);
   d.one_kind = kind_of_many(missing);
-  if (!d.one_kind.empty())
-    d.explanation += fmt::format(
-        " So many of one kind ({}) are rather one cause of that kind which has no name here: "
-        "together they foretell, but none of the names is sure.",
-        d.one_kind);
+  d.explanation += one_kind_words(d);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace hapsim {
 namespace {
 
 constexpr std::size_t kMany = 10000;  // samples
-constexpr double kTurn = 0.01;
+constexpr double kTurn = 0.01;        // of the longest way, within which an axis turns
 
 using Column = LawSamples::Column;
 using Vectors = LawSamples::Vectors;

@@ -22,7 +22,7 @@ struct LawSamples {
   Column depth, speed, fastest, growth, age, session, number, temperature;
   Vectors f, along, across, rate;  // along and across the normal; how fast it changes
   Vectors normal, u, velocity, acceleration;
-  Vectors way;  // which way each axis last went, -1 to 1, turned within kTurn of the longest way
+  Vectors way;  // which way each axis last went, -1 to 1, turned within 1 % of the longest way
 };
 
 // Of a model's `forces` (stacked [N]). Of more than 10,000 samples every n-th is kept.

@@ -228,6 +228,8 @@ std::string doubted_words(const Diagnosis& d) {
 
 }  // namespace
 
+namespace {
+
 std::string describe_verdict(const Diagnosis& d) {
   std::string missing, rivals;
   for (const Finding& f : d.findings) {
@@ -257,6 +259,8 @@ std::string describe_verdict(const Diagnosis& d) {
   }
 }
 
+}  // namespace
+
 std::string step_words(const ImprovementStep& step, double noise) {
   const double rmse = step.fitted.error.told(), held_out = step.held_out.told();
   return fmt::format("{}: error {:.4g} N{}, {:.3g} x noise", effects_label(step.fitted.model), rmse,
@@ -274,6 +278,40 @@ std::string end_words(const Improvement& improvement) {
   const std::string by =
       improvement.unseen.empty() ? "" : " (judged on unseen data: " + improvement.unseen + ")";
   return verdict_name(improvement.last.verdict) + by + ": " + improvement.last.explanation;
+}
+
+namespace {
+
+std::string converter_words(const Noise& noise) {
+  if (noise.step == 0) return "";
+  return fmt::format(
+      " Forces are rounded to steps of {:.3g} N (quantisation), most of the {:.2g} N that counts "
+      "as noise: what is smaller these data cannot tell.",
+      noise.step, noise.value);
+}
+
+}  // namespace
+
+std::string one_kind_words(const Diagnosis& d) {
+  if (d.one_kind.empty()) return "";
+  return fmt::format(
+      " So many of one kind ({}) are rather one cause of that kind which has no name here: "
+      "together "
+      "they foretell, but none of the names is sure.",
+      d.one_kind);
+}
+
+std::string explain_verdict(const Diagnosis& d, const Noise& noise) {
+  // What else than forces is not explained, if it is that alone.
+  const bool forces_told = d.verdict == ModelVerdict::kUnexplained && d.left.noise_alone();
+  const bool torques_alone = forces_told && !d.torque.explained();
+  const bool points_alone = forces_told && !torques_alone;
+  std::string words = torques_alone  ? d.torque.words
+                      : points_alone ? d.marker.words
+                                     : describe_verdict(d);
+  if (!torques_alone && !d.torque.words.empty()) words += " " + d.torque.words;
+  if (!points_alone && !d.marker.words.empty()) words += " " + d.marker.words;
+  return words + converter_words(noise) + one_kind_words(d);
 }
 
 }  // namespace hapsim

@@ -22,7 +22,11 @@ std::string shape_words(const Diagnosis& diagnosis);
 // With which the words of a complete model's verdict begin.
 inline const std::string kNothingMissing =
     "nothing is missing that these data could show above the sizes named with each effect.";
-std::string describe_verdict(const Diagnosis& diagnosis);
+// What is missing and what is left, of forces, torques and points; the steps of a converter, and
+// one_kind_words().
+std::string explain_verdict(const Diagnosis& diagnosis, const Noise& noise);
+// Begins with a space; "" where no three of what is missing are of one kind.
+std::string one_kind_words(const Diagnosis& diagnosis);
 
 // A version of an improved model with its errors; `noise` of the force [N].
 std::string step_words(const ImprovementStep& step, double noise);

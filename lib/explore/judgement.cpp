@@ -33,7 +33,7 @@ void refine_what_is_found(const TetMesh& body, const TrialGround& ground,
     d.rmse_end = moved.fitted.error;
     d.left = left_over(moved.fitted, ground);
     d.rivals.front() = std::move(moved.fitted.model);
-    d.explanation = describe_verdict(d);
+    d.explanation = explain_verdict(d, ground.experiment.noise);
   } catch (const Error& error) {  // none lies on the body
     if (error.code() != ExitCode::kBadInput) throw;
   }

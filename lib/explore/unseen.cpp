@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/median.h"
 #include "diagnose/held_out.h"
 #include "fit/press_offsets.h"
+#include "plan/spacing.h"
 
 namespace hapsim {
 namespace {
 
 constexpr int kMostFolds = 20;
 constexpr double kEverywhere = 0.05;  // of the largest doubt: none is left where nothing was wrong
-
-// Median distance to the nearest neighbour [m].
-double spacing_of(const std::vector<SeenPlace>& seen) {
-  std::vector<double> nearest;
-  for (const SeenPlace& a : seen) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const SeenPlace& b : seen)
-      if (&a != &b) least = std::min(least, (a.point - b.point).norm());
-    nearest.push_back(least);
-  }
-  return upper_median(std::move(nearest));
-}
 
 }  // namespace
 
@@ -75,7 +62,9 @@ Unseen unseen_of(const LeftOut& l, const std::vector<double>& shares) {
 
 std::vector<double> doubt_at(const std::vector<PressablePlace>& places,
                              const std::vector<SeenPlace>& seen, const LeftOut& left_out) {
-  const double spacing = spacing_of(seen);
+  std::vector<Vec3> points;
+  for (const SeenPlace& place : seen) points.push_back(place.point);
+  const double spacing = spacing_of(points);
   std::vector<double> doubt;
   double most = 0;
   for (const PressablePlace& place : places) {

@@ -24,8 +24,9 @@ LeftOut places_left_out(const Model& model, const Experiment& experiment,
                         const Allowance& allowance);
 
 // Of a press anywhere, over the surface, where each position that was left out stands for its share
-// (PlaceFinder::shares()). It errs to the safe side: a position that was left out lay farther from
-// what was pressed than any place does now. NaN of no positions.
+// (PlaceFinder::shares()). Rather too large than too small: a position that was left out lay
+// farther from what was pressed than any place does now (bench/explore/unseen.py: seven of eight).
+// NaN of no positions.
 struct Unseen {
   double times_noise = 0;     // root mean square error over the noise
   double share_of_force = 0;  // the same without the noise, of the force's root mean square

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/median.h"
+#include "plan/spacing.h"
 
 namespace hapsim {
 namespace {
@@ -19,17 +19,12 @@ struct Place {
   double distance;  // from what is pressed or chosen
 };
 
-// Median distance to the nearest neighbour.
-double spacing_of(const std::vector<PreparedContact>& pressed, double tool_radius) {
-  std::vector<double> nearest;
-  for (const PreparedContact& a : pressed) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const PreparedContact& b : pressed)
-      if (&a != &b) least = std::min(least, (a.point - b.point).norm());
-    nearest.push_back(least);
-  }
-  const double middle = upper_median(std::move(nearest));
-  return std::isfinite(middle) ? middle : kAlone * tool_radius;
+// Of the pressed places, in tool radii where one is all.
+double spacing_of_pressed(const std::vector<PreparedContact>& pressed, double tool_radius) {
+  std::vector<Vec3> points;
+  for (const PreparedContact& p : pressed) points.push_back(p.point);
+  const double spacing = spacing_of(points);
+  return std::isfinite(spacing) ? spacing : kAlone * tool_radius;
 }
 
 std::vector<Place> places_near(const Surface& surface, const std::vector<PreparedContact>& pressed,
@@ -58,8 +53,8 @@ std::vector<Vec3> unpressed_places(const Surface& surface,
                                    std::size_t count) {
   std::vector<Vec3> chosen;
   if (pressed.empty()) return chosen;
-  std::vector<Place> places =
-      places_near(surface, pressed, tool_radius, kAround * spacing_of(pressed, tool_radius));
+  std::vector<Place> places = places_near(surface, pressed, tool_radius,
+                                          kAround * spacing_of_pressed(pressed, tool_radius));
   while (chosen.size() < count && !places.empty()) {
     const auto farthest =
         std::max_element(places.begin(), places.end(),

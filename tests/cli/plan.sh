@@ -72,6 +72,15 @@ awk -F, -v OFS=, '/^[0-9]/ { $5 += 0.1 } { print }' data.csv >off.csv
 expect 3 "off the body's surface" off.csv --body body.ply --rim-edge 0.3
 expect 5 'none-there.csv' none-there.csv --body body.ply
 
+# --- Places that nobody has pressed: those that were are left out, and the next press lies where they are foretold worst.
+{ printf 'effect,region,parameter,value\nelastic,0,E,15000\nelastic,0,nu,0.42\nelastic,1,E,40000\n'
+  printf 'regions,0,x1,0.020\nregions,0,y1,0.025\nregions,1,x1,0.040\nregions,1,y1,0.025\n'; } >halves.csv
+expect 0 '' /dev/null --body body.ply --tool-radius 4mm --rim-edge 0.3 --presses 7 -o seven.csv
+hs-simulate -q seven.csv --body body.ply --model halves.csv --rim-edge 0.25 --add-noise 0.01 -o halves-data.csv || complain 'presses on two halves'
+expect 0 'places that were left out are foretold to' halves-data.csv --body body.ply --rim-edge 0.3 --goal unseen=1.01 -o next.csv --json unseen.json
+[[ $(of unseen.json aim) == unseen ]] || complain "the aim: $(of unseen.json aim)"
+expect 0 '% of the force' halves-data.csv --body body.ply --rim-edge 0.3 --goal unseen=90% -o next.csv
+
 # --- The example: what is hidden is named, to the size that it has.
 mkdir relaxing
 if "$example/explore.sh" relaxing >.out 2>.err; then
