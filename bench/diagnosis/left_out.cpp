@@ -44,8 +44,8 @@ const char* judged(const Trial& t) {
                        [&](const std::string& curve) { return is_of_kind(t.effects, curve); })
                ? "kind"
                : "open";
-  // Many names of one kind stand for that kind.
-  if (const std::string kind = kind_of_many(missing); is_kind_of(t.effects, kind)) return "kind";
+  // Several names of one kind stand for that kind.
+  if (is_kind_of(t.effects, kind_of_several(missing).kind)) return "kind";
   if (!missing.empty()) {
     if (!t.left.empty()) return "hedged";
     if (t.after <= kAtFloor) return "same";

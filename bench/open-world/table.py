@@ -30,10 +30,8 @@ MOST_ALIKE = 3
 
 def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None):
     """first: of each effect the first of its kinds; others: kinds that what is left may have as well;
-    one_kind: of three names and more."""
+    one_kind: of two names and more."""
     kinds = set(kind.split())
-    if one_kind in kinds:  # many names of one kind stand for it
-        return "kind"
     if "noise" in kinds:
         return "right" if not missing and not alike else "hedged" if said or hint else "wrong"
     if verdict == "complete":
@@ -57,6 +55,8 @@ def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end
         if said and tells(said) or good & set(missing):
             return "kind"
         return "alike" if len(others) < MOST_ALIKE and any(tells(other) for other in others) else "open"
+    if one_kind and tells(one_kind):  # several names of one kind stand for it
+        return "kind"
     if all(name in good | beside or tells((first or {}).get(name, "")) for name in missing + alike):
         return "kin"
     if said or hint:

@@ -10,7 +10,6 @@
 #include "diagnose/foretold.h"
 #include "diagnose/held_out.h"
 #include "diagnose/odd_presses.h"
-#include "diagnose/of_one_kind.h"
 #include "diagnose/one_size.h"
 #include "diagnose/probability.h"
 #include "diagnose/search.h"
@@ -200,11 +199,11 @@ Diagnosis in_doubt_of_shape(const Model& model, const Experiment& e, const Allow
   return d;
 }
 
-void doubt_many_of_one_kind(Diagnosis& d) {
+void doubt_several_of_one_kind(Diagnosis& d) {
   std::vector<std::string> missing;
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kMissing) missing.push_back(f.effect);
-  d.one_kind = kind_of_many(missing);
+  d.one_kind = kind_of_several(missing);
   d.explanation += one_kind_words(d);
 }
 
@@ -213,7 +212,7 @@ void doubt_many_of_one_kind(Diagnosis& d) {
 Diagnosis diagnose(const Model& model, const Experiment& e, const Allowance& allowance,
                    const DiagnoseOptions& options) {
   Diagnosis d = in_doubt_of_shape(model, e, allowance, options);
-  doubt_many_of_one_kind(d);
+  doubt_several_of_one_kind(d);
   // The trials by which they are told have many presses.
   if (e.dataset.episodes.size() >= kLeastPresses) set_probabilities(d);
   return d;

@@ -10,6 +10,7 @@
 #include "diagnose/gates.h"
 #include "diagnose/left_over.h"
 #include "diagnose/marker_left.h"
+#include "diagnose/of_one_kind.h"
 #include "diagnose/torque_left.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
@@ -90,7 +91,7 @@ struct Diagnosis {
   ForceError rmse_end, held_out_end;  // with all missing effects added
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
   LeftOver left;         // with all missing effects, of an ambiguous verdict with the best rival
-  std::string one_kind;  // of three missing effects or more (diagnose/of_one_kind.h)
+  OneKind one_kind;      // of the missing effects
   std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
   TorqueLeft torque;             // of the same model, where torques were measured
   MarkerLeft marker;             // of the same model, where points were seen

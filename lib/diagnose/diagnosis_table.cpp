@@ -195,7 +195,7 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
                {"kinds", nlohmann::json::array()}};
   for (const LeftKind& k : d.left.kinds)
     j["left"]["kinds"].push_back({{"kind", k.kind}, {"share", k.share}, {"alike", k.alike}});
-  j["one_kind"] = d.one_kind;
+  j["one_kind"] = d.one_kind.kind;
   j["odd_presses"] = d.odd_presses;
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));

@@ -6,15 +6,17 @@
 
 namespace hapsim {
 
-// So many effects of one kind are rather one cause of that kind: each of several is as unlikely
-// beforehand as any, their product more than that of one cause which the catalogue lacks. In trials
-// with one effect of the set-up taken out of the catalogue (bench/diagnosis, --leave-out) three or
-// four others stood in for it in three of five; where three effects were hidden no three of those
-// named were of one kind.
-constexpr std::size_t kManyOfOneKind = 3;
-
-// The kind that kManyOfOneKind or more of these different effects share, of several the one that
-// most do; "": none. Curves of no law are not counted.
-std::string kind_of_many(const std::vector<std::string>& effects);
+// The kind that two or more of these different effects share among what they mostly are, the first
+// two of EffectCard::kinds; of several kinds the one that most share; empty: none. Curves of no
+// law are not counted. Each of several effects is as unlikely beforehand as any, their product more
+// than that of one cause which the catalogue lacks. In trials with one effect of the set-up taken
+// out of the catalogue (bench/diagnosis, --leave-out) three or four others stood in for it in three
+// of five; where three effects were hidden no three of those named were of one kind. Of two of one
+// kind each acted in two of ten by causes that no effect covers (bench/open-world).
+struct OneKind {
+  std::string kind;
+  std::vector<std::string> effects;
+};
+OneKind kind_of_several(const std::vector<std::string>& effects);
 
 }  // namespace hapsim

@@ -5,19 +5,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "effects/catalogue.h"
+#include <set>
 
 namespace hapsim {
 namespace {
 
-// Of the trials (bench/diagnosis/run.sh, probabilities.py): the temper of the likelihoods, and how
-// often what was said was true.
+// Of trials with effects and with causes that no effect covers (bench/diagnosis/run.sh,
+// bench/open-world/statements.py, probabilities.py): the temper of the likelihoods, and how often
+// what was said was true.
 constexpr double kTemper = 15;
-constexpr double kMissingAlone = 0.96, kMissingAndMore = 0.85;  // by whether noise alone is left
-constexpr double kOneOfMany = 0.1;                              // of one kind: none of eleven was
-constexpr double kSetHolds = 0.95;
-constexpr double kPossible = 0.08, kAbsent = 0.002;
+// Where noise alone is left, of one name and of each of several; where more is, of what takes half
+// of the misfit at least, and less.
+constexpr double kMissingAlone = 0.97, kMissingOfSeveral = 0.8;
+constexpr double kMissingAndMore = 0.75, kMissingOfLittle = 0.25;
+constexpr double kOneOfTwo = 0.5, kOneOfMany = 0.1;  // of one kind
+constexpr double kSetHolds = 0.95, kSetAndMoreHolds = 0.75;
+// Where nothing is missing, where noise alone is left beside what is, and where more is.
+constexpr double kAbsentOfComplete = 0.0002, kAbsentAlone = 0.002, kAbsentAndMore = 0.008;
+constexpr double kPossibleAlone = 0.03, kPossibleAndMore = 0.15;
 
 // By the shape of the body, which is no effect.
 bool is_doubted(const Finding& f) {
@@ -25,9 +30,18 @@ bool is_doubted(const Finding& f) {
          f.confused_with.end();
 }
 
-bool has_kind(const Finding& f, const std::string& kind) {
-  const std::vector<std::string>& kinds = require_effect(f.effect).card().kinds;
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+// Of what is named missing each, by what else is.
+double of_missing(const Diagnosis& d, const Finding& finding) {
+  constexpr double kHalf = 0.5;
+  const std::vector<std::string>& alike = d.one_kind.effects;
+  std::set<std::string> named;
+  for (const Finding& f : d.findings)
+    if (f.verdict == Verdict::kMissing) named.insert(f.effect);
+  const double alone = named.size() > 1 ? kMissingOfSeveral : kMissingAlone,
+               and_more = finding.share < kHalf ? kMissingOfLittle : kMissingAndMore;
+  const double p = d.left.noise_alone() ? alone : and_more;
+  if (std::find(alike.begin(), alike.end(), finding.effect) == alike.end()) return p;
+  return alike.size() == 2 ? std::min(p, kOneOfTwo) : kOneOfMany;
 }
 
 }  // namespace
@@ -41,31 +55,36 @@ double share_among(const Finding& first, const std::vector<const Finding*>& othe
 }
 
 void set_probabilities(Diagnosis& d) {
-  const double missing = d.left.noise_alone() ? kMissingAlone : kMissingAndMore;
+  const bool alone = d.left.noise_alone();
+  const double absent = d.verdict == ModelVerdict::kComplete ? kAbsentOfComplete
+                        : alone                              ? kAbsentAlone
+                                                             : kAbsentAndMore,
+               possible = alone ? kPossibleAlone : kPossibleAndMore,
+               set_holds = alone ? kSetHolds : kSetAndMoreHolds;
   std::vector<const Finding*> rivals;
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kIndistinguishable && !is_doubted(f)) rivals.push_back(&f);
   const auto among_rivals = [&](const Finding& f) {
     std::vector<const Finding*> others = rivals;
     std::erase(others, &f);
-    return kSetHolds * share_among(f, others);
+    return set_holds * share_among(f, others);
   };
   for (Finding& f : d.findings) {
     switch (f.verdict) {
       case Verdict::kMissing:
-        f.probability = f.share_among * (has_kind(f, d.one_kind) ? kOneOfMany : missing);
+        f.probability = f.share_among * of_missing(d, f);
         break;
       case Verdict::kIndistinguishable:
-        f.probability = is_doubted(f) ? kSetHolds / 2 : among_rivals(f);
+        f.probability = is_doubted(f) ? set_holds / 2 : among_rivals(f);
         break;
       case Verdict::kPossible: {
         const auto rival = std::find_if(rivals.begin(), rivals.end(),
                                         [&](const Finding* r) { return r->effect == f.beside; });
-        f.probability = rival == rivals.end() ? kPossible : missing * among_rivals(**rival);
+        f.probability = rival == rivals.end() ? possible : of_missing(d, f) * among_rivals(**rival);
         break;
       }
       case Verdict::kAbsent:
-        f.probability = kAbsent;
+        f.probability = absent;
         break;
       default:
         f.probability = std::numeric_limits<double>::quiet_NaN();
@@ -76,16 +95,18 @@ void set_probabilities(Diagnosis& d) {
 std::string probability_in_words() {
   return fmt::format(
       "that it acts (of a curve of no law: that the cause is of its kind), as verdicts like it "
-      "were "
-      "borne out in simulated trials: what is missing and leaves noise alone {:g} %, {:g} where it "
-      "leaves more, {:g} where three or more are of one kind, less where others passed beside it; "
-      "a set that cannot be told apart holds it "
-      "in "
-      "{:g} % of these, shared by the likelihoods; possible {:g} %, absent {:g} %. Empty of fewer "
-      "than "
-      "{} presses",
-      100 * kMissingAlone, 100 * kMissingAndMore, 100 * kOneOfMany, 100 * kSetHolds,
-      100 * kPossible, 100 * kAbsent, kLeastPresses);
+      "were borne out in simulated trials, a part of them with causes that no effect covers: what "
+      "is missing and leaves noise alone {:g} %, {:g} where several are; where more is left {:g}, "
+      "{:g} of what takes less than half of the misfit; {:g} where two are of one kind, {:g} of "
+      "more, less where others passed beside it; a set that cannot be told apart holds it in {:g} "
+      "% of these, {:g} where more is left, shared by the likelihoods; possible {:g} %, {:g} where "
+      "more is left; absent "
+      "{:g} % of a complete model, {:g} where noise alone is left, {:g} where more is. Empty of "
+      "fewer than {} presses",
+      100 * kMissingAlone, 100 * kMissingOfSeveral, 100 * kMissingAndMore, 100 * kMissingOfLittle,
+      100 * kOneOfTwo, 100 * kOneOfMany, 100 * kSetHolds, 100 * kSetAndMoreHolds,
+      100 * kPossibleAlone, 100 * kPossibleAndMore, 100 * kAbsentOfComplete, 100 * kAbsentAlone,
+      100 * kAbsentAndMore, kLeastPresses);
 }
 
 }  // namespace hapsim

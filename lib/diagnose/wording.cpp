@@ -293,12 +293,16 @@ std::string converter_words(const Noise& noise) {
 }  // namespace
 
 std::string one_kind_words(const Diagnosis& d) {
-  if (d.one_kind.empty()) return "";
+  if (d.one_kind.effects.empty()) return "";
+  if (d.one_kind.effects.size() == 2)
+    return fmt::format(
+        " Two of these are of one kind ({}): both may act, or one cause of that kind which has no "
+        "name here.",
+        d.one_kind.kind);
   return fmt::format(
       " So many of one kind ({}) are rather one cause of that kind which has no name here: "
-      "together "
-      "they foretell, but none of the names is sure.",
-      d.one_kind);
+      "together they foretell, but none of the names is sure.",
+      d.one_kind.kind);
 }
 
 std::string explain_verdict(const Diagnosis& d, const Noise& noise) {
