@@ -6,95 +6,14 @@
 #include <map>
 
 #include "compare/breakdown.h"
+#include "diagnose/law_columns.h"
 #include "diagnose/left_over.h"
+#include "diagnose/order_laws.h"
 #include "diagnose/shared_law.h"
 
 namespace hapsim {
+namespace law {
 namespace {
-
-constexpr std::size_t kMany = 10000;  // samples
-constexpr double kTurn = 0.01;        // of the longest way, within which an axis turns
-
-using Column = LawSamples::Column;
-using Vectors = LawSamples::Vectors;
-using Columns = std::vector<Vectors>;
-
-Vectors slope(const Vectors& v, const std::vector<double>& t) {
-  Vectors d = Vectors::Zero(3, v.cols());
-  const auto last = v.cols() - 1;
-  for (Eigen::Index i = 0; i <= last; ++i) {
-    const Eigen::Index a = std::max<Eigen::Index>(0, i - 1), b = std::min(last, i + 1);
-    const double dt = t[static_cast<std::size_t>(b)] - t[static_cast<std::size_t>(a)];
-    if (dt > 0) d.col(i) = (v.col(b) - v.col(a)) / dt;
-  }
-  return d;
-}
-
-std::vector<double> quantiles(const Column& x, int count) {
-  std::vector<double> sorted(x.begin(), x.end()), knots;
-  std::sort(sorted.begin(), sorted.end());
-  for (int k = 0; k < count; ++k) {
-    const double at = sorted[(sorted.size() - 1) * static_cast<std::size_t>(k) /
-                             static_cast<std::size_t>(count - 1)];
-    if (knots.empty() || at > knots.back()) knots.push_back(at);
-  }
-  return knots;
-}
-
-std::vector<double> even(const Column& x, int count) {
-  std::vector<double> knots;
-  for (int k = 0; k < count; ++k)
-    knots.push_back(x.minCoeff() + (x.maxCoeff() - x.minCoeff()) * k / (count - 1));
-  return knots;
-}
-
-// Piecewise linear, one at its knot and zero at the others.
-std::vector<Column> hats(const Column& x, const std::vector<double>& knots) {
-  std::vector<Column> hat(knots.size(), Column::Zero(x.size()));
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const auto above = static_cast<std::size_t>(std::upper_bound(knots.begin(), knots.end(), x[i]) -
-                                                knots.begin());
-    if (above == 0 || above == knots.size()) {
-      hat[above == 0 ? 0 : above - 1][i] = 1;
-      continue;
-    }
-    const double share = (x[i] - knots[above - 1]) / (knots[above] - knots[above - 1]);
-    hat[above - 1][i] = 1 - share;
-    hat[above][i] = share;
-  }
-  return hat;
-}
-
-// What a law may do that acts alike on all samples: gains along the normal and across it, those of
-// each axis, a zero of each axis and along the normal.
-Columns gains(const LawSamples& s) {
-  return {s.along, s.across};
-}
-Columns gains_of_axes(const LawSamples& s) {
-  Columns c(3, Vectors::Zero(3, s.f.cols()));
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-    c[static_cast<std::size_t>(axis)].row(axis) = s.f.row(axis);
-  return c;
-}
-Columns zeros(const LawSamples& s) {
-  Columns c(3, Vectors::Zero(3, s.f.cols()));
-  for (Eigen::Index axis = 0; axis < 3; ++axis)
-    c[static_cast<std::size_t>(axis)].row(axis).setOnes();
-  c.push_back(s.normal);
-  return c;
-}
-
-Columns join(Columns a, const Columns& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-Columns times(const std::vector<Column>& factors, const Columns& what) {
-  Columns c;
-  for (const Column& factor : factors)
-    for (const Vectors& v : what) c.emplace_back(v * factor.asDiagonal());
-  return c;
-}
 
 Columns by_rate(const LawSamples& s) {
   const Column over = s.speed.unaryExpr([](double v) { return v > 0 ? 1 / v : 0.0; });
@@ -129,19 +48,22 @@ Columns by_way(const LawSamples& s) {
   return c;
 }
 
-std::vector<Column> numbers(const LawSamples& s) {
-  const double most = std::min(5.0, s.number.maxCoeff());
-  std::vector<Column> found;
-  for (double number = 0; number <= most; ++number)
-    found.push_back(
-        s.number.unaryExpr([&](double x) { return std::min(x, most) == number ? 1.0 : 0.0; }));
+// Which way the force leans, about the normal, in eighths of a turn: hat functions.
+std::vector<Column> azimuths(const LawSamples& s) {
+  constexpr int kEighths = 8;
+  std::vector<Column> found(kEighths, Column::Zero(s.f.cols()));
+  for (Eigen::Index i = 0; i < s.f.cols(); ++i) {
+    const Vec3 n = s.normal.col(i), v = s.across.col(i);
+    // A way across all normals that are not along x; of these any does.
+    Vec3 e = Vec3::UnitX() - n.x() * n;
+    e = e.norm() > 0 ? e.normalized() : n.unitOrthogonal();
+    if (!(v.norm() > 0)) continue;
+    const double turn = (std::atan2(v.dot(n.cross(e)), v.dot(e)) / (2 * M_PI) + 1) * kEighths;
+    const int at = static_cast<int>(turn);
+    found[static_cast<std::size_t>(at % kEighths)][i] = 1 - (turn - at);
+    found[static_cast<std::size_t>((at + 1) % kEighths)][i] = turn - at;
+  }
   return found;
-}
-
-// How far the force leans from the normal: its sine.
-Column slants(const LawSamples& s) {
-  return s.across.colwise().norm().array() /
-         (s.f.colwise().norm().array() + std::numeric_limits<double>::min());
 }
 
 // Zeros by how far each axis has moved.
@@ -212,133 +134,62 @@ Columns by_history(const LawSamples& s, const Eigen::VectorXd& forces, const Dat
   return c;
 }
 
-// Of some recordings a law has no columns.
-Eigen::MatrixXd stacked(const Columns& columns, const LawSamples& s) {
-  Eigen::MatrixXd X(s.f.size(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    X.col(static_cast<Eigen::Index>(k)) = columns[k].reshaped();
-  return X;
-}
-
 }  // namespace
+}  // namespace law
 
 Eigen::MatrixXd gain_columns(const LawSamples& s) {
-  return stacked(gains(s), s);
+  return law::stacked(law::gains(s), s);
 }
 Eigen::MatrixXd zero_columns(const LawSamples& s) {
-  return stacked(zeros(s), s);
-}
-
-LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
-  const std::size_t stride = 1 + static_cast<std::size_t>(forces.size()) / 3 / kMany;
-  const Eigen::Index all = forces.size() / 3;
-  const Eigen::Index count =
-      (all + static_cast<Eigen::Index>(stride) - 1) / static_cast<Eigen::Index>(stride);
-  LawSamples s;
-  s.timed = s.warmed = true;
-  for (Column* c :
-       {&s.depth, &s.speed, &s.fastest, &s.growth, &s.age, &s.session, &s.number, &s.temperature})
-    *c = Column::Zero(count);
-  for (Vectors* v :
-       {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.acceleration, &s.way, &s.rate})
-    *v = Vectors::Zero(3, count);
-  double longest = 0;
-  for (const Vec3& u : dataset.recording.u) longest = std::max(longest, u.norm());
-  std::map<int, int> pressed;
-  Eigen::Index at = 0;
-  int press = -1;
-  for (const Episode& e : dataset.episodes) {
-    ++press;
-    const auto n = static_cast<Eigen::Index>(e.rows.size());
-    const Vectors f = forces.segment(3 * at, 3 * n).reshaped(3, n);
-    Vectors u(3, n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      u.col(i) = dataset.recording.u[static_cast<std::size_t>(e.rows[static_cast<std::size_t>(i)])];
-    s.timed = s.timed && !e.view.session.empty();
-    s.warmed = s.warmed && !e.view.temperature.empty();
-    const Vectors v = s.timed ? slope(u, e.view.t) : Vectors::Zero(3, n);
-    const Vectors a = s.timed ? slope(v, e.view.t) : Vectors::Zero(3, n);
-    const Vectors df = s.timed ? slope(f, e.view.t) : Vectors::Zero(3, n);
-    const int number = pressed[e.position]++;
-    double fastest = 0;
-    Vec3 way = Vec3::Zero();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      fastest = std::max(fastest, v.col(i).norm());
-      if (i > 0)
-        way = (way + (u.col(i) - u.col(i - 1)) / (kTurn * longest)).cwiseMax(-1).cwiseMin(1);
-      if ((at + i) % static_cast<Eigen::Index>(stride) != 0) continue;
-      const auto k = static_cast<Eigen::Index>(s.kept.size());
-      s.kept.push_back(at + i);
-      s.since.push_back(i);
-      s.press.push_back(press);
-      s.depth[k] = u.col(i).norm();
-      s.speed[k] = v.col(i).norm();
-      s.fastest[k] = fastest;
-      s.growth[k] = s.depth[k] > 0 ? v.col(i).dot(u.col(i)) / s.depth[k] : s.speed[k];
-      s.number[k] = number;
-      if (s.warmed) s.temperature[k] = e.view.temperature[static_cast<std::size_t>(i)];
-      if (s.timed) {
-        s.age[k] = e.view.t[static_cast<std::size_t>(i)];
-        s.session[k] = e.view.session[static_cast<std::size_t>(i)];
-      }
-      s.f.col(k) = f.col(i);
-      s.along.col(k) = f.col(i).dot(e.view.normal) * e.view.normal;
-      s.across.col(k) = s.f.col(k) - s.along.col(k);
-      s.normal.col(k) = e.view.normal;
-      s.u.col(k) = u.col(i);
-      s.velocity.col(k) = v.col(i);
-      s.acceleration.col(k) = a.col(i);
-      s.way.col(k) = way;
-      s.rate.col(k) = df.col(i);
-    }
-    at += n;
-  }
-  return s;
+  return law::stacked(law::zeros(s), s);
 }
 
 std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& forces,
                                const Dataset& dataset) {
+  using namespace law;
   std::vector<KindLaw> laws;
-  const auto law = [&](const char* kind, std::function<Columns()> columns) {
+  const auto add = [&](const char* kind, const std::function<Columns()>& columns,
+                       const std::function<Columns()>& without = {}) {
     laws.push_back({kind, [&s, columns] { return stacked(columns(), s); }});
+    if (without) laws.back().without = [&s, without] { return stacked(without(), s); };
   };
   // Gains and zeros by a variable.
   const auto laws_by = [&](const char* kind, const char* of_zero, std::vector<Column> variable) {
-    law(kind, [&s, variable] { return times(variable, gains(s)); });
-    law(of_zero, [&s, variable] { return times(variable, zeros(s)); });
+    add(kind, [&s, variable] { return times(variable, gains(s)); });
+    add(of_zero, [&s, variable] { return times(variable, zeros(s)); });
   };
-  law("offset", [&] { return zeros(s); });
-  laws_by("cycle", "cycle", numbers(s));
-  law(kSetUp, [&] { return by_matrix(s); });
+  add("offset", [&] { return zeros(s); });
+  add(kSetUp, [&] { return by_matrix(s); });
   for (const int knots : {7, 20})
     laws_by("depth", "depth", hats(s.depth, quantiles(s.depth, knots)));
-  law("depth", [&] { return by_travel(s); });
-  laws_by("phase", "phase", phases(s));
-  law("phase", [&] { return by_way(s); });
+  add("depth", [&] { return by_travel(s); });
+  const std::vector<std::pair<std::vector<Column>, int>> of_phase{
+      {phases(s), 4}, {hats(s.deepest, quantiles(s.deepest, 8)), 8}};
+  for (const auto& [variable, knots] : of_phase)
+    for (const Columns& what : {gains(s), zeros(s)})
+      add(
+          "phase", [=] { return times(variable, what); },
+          [=, &s] { return times(hats(s.depth, quantiles(s.depth, knots)), what); });
+  add("phase", [&] { return by_way(s); });
   if (s.warmed)
     laws_by(kByTemperature, kByTemperature, hats(s.temperature, quantiles(s.temperature, 4)));
   if (s.timed) {
     const std::vector<Column> session = hats(s.session, even(s.session, 9));
     laws_by("session-time", "drift", session);
-    law("session-time", [&s, session] { return times(session, gains_of_axes(s)); });
+    add("session-time", [&s, session] { return times(session, gains_of_axes(s)); });
     laws_by("contact-time", "contact-time", hats(s.age, quantiles(s.age, 6)));
-    law("rate", [&] { return by_rate(s); });
+    add("rate", [&] { return by_rate(s); });
   }
-  law(kDirection, [&] { return times(hats(slants(s), quantiles(slants(s), 4)), gains(s)); });
+  add(kDirection, [&] { return times(hats(slants(s), quantiles(slants(s), 4)), gains(s)); });
   laws.push_back({kDirection, [&] {
                     return Eigen::MatrixXd(
                         law_columns(forces, dataset)(stacked_components(s), Eigen::all));
                   }});
-  law("history", [&] { return by_history(s, forces, dataset); });
-  law("reading", [&] { return by_reading(s); });
+  add(kDirection, [&] { return times(azimuths(s), {s.across}); });
+  add("history", [&] { return by_history(s, forces, dataset); });
+  add("reading", [&] { return by_reading(s); });
+  add_order_laws(s, laws);
   return laws;
-}
-
-std::vector<Eigen::Index> stacked_components(const LawSamples& s) {
-  std::vector<Eigen::Index> rows;
-  for (const Eigen::Index sample : s.kept)
-    for (Eigen::Index c = 0; c < 3; ++c) rows.push_back(3 * sample + c);
-  return rows;
 }
 
 }  // namespace hapsim

@@ -94,7 +94,7 @@ const char* goes_with(const std::string& kind) {
       {"phase", "loading, hold and unloading"},
       {"session-time", "the time of the session"},
       {kByTemperature, "the temperature"},
-      {"cycle", "how often the place was pressed"},
+      {"cycle", "what was pressed before, how often or how long ago"},
       {"history", "how the force rose and fell before"},
       {"reading", "what each axis of the sensor reads (its converter)"},
       {kSetUp, "axes that are mixed (sensor, robot)"},
@@ -126,22 +126,23 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
   const auto judge = [&](const std::string& kind, double before, const Eigen::VectorXd& samples,
                          Eigen::Index numbers) {
     TriedKind now{kind, by_press(samples, s), std::max(samples.sum(), noise), numbers};
-    if (before - now.left < kTold * beyond) return;
-    const auto known = std::find_if(found.begin(), found.end(),
-                                    [&](const TriedKind& other) { return other.kind == kind; });
-    if (known == found.end())
-      found.push_back(std::move(now));
-    else if (now.left < known->left)
-      *known = std::move(now);
+    if (before - now.left >= kTold * beyond) found.push_back(std::move(now));
   };
   const Eigen::MatrixXd gains = gain_columns(s);
   const double by_gains = std::min(all, unforetold_squares(gains, r, parts).sum());
+  const auto beside_gains = [&](const Eigen::MatrixXd& columns) {
+    Eigen::MatrixXd both(r.size(), columns.cols() + gains.cols());
+    both << columns, gains;
+    return unforetold_squares(both, r, parts);
+  };
   for (const KindLaw& law : kind_laws(s, forces, dataset)) {
-    Eigen::MatrixXd columns = law.columns();
-    columns.conservativeResize(Eigen::NoChange, columns.cols() + 2);
-    columns.rightCols(2) = gains;
-    judge(law.kind, law.kind == kSetUp ? all : by_gains, unforetold_squares(columns, r, parts),
-          columns.cols());
+    const Eigen::MatrixXd columns = law.columns();
+    const Eigen::VectorXd left = beside_gains(columns);
+    // What is of another kind foretells no more than half of what it does.
+    if (law.without &&
+        all - beside_gains(law.without()).sum() > kHalf * (all - std::max(noise, left.sum())))
+      continue;
+    judge(law.kind, law.kind == kSetUp ? all : by_gains, left, columns.cols() + gains.cols());
   }
   judge(kBody, by_gains, unforetold_by_places(s, r, forces, parts, dataset),
         kGainsOfPlace * static_cast<Eigen::Index>(dataset.positions.size()));
@@ -161,8 +162,11 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
   std::stable_sort(found.begin(), std::stable_partition(found.begin(), alike, nearly(kAsMuch)),
                    by_numbers);
   std::vector<LeftKind> kinds;
-  for (auto each = found.begin(); each != found.end(); ++each)
-    kinds.push_back({each->kind, share(each->left), each < alike});
+  for (auto each = found.begin(); each != found.end(); ++each) {
+    const auto said = [&](const LeftKind& kind) { return kind.kind == each->kind; };
+    if (std::none_of(kinds.begin(), kinds.end(), said))
+      kinds.push_back({each->kind, share(each->left), each < alike});
+  }
   const double gain_of_press = share(std::max(noise, unforetold_by_presses(s, gains, r))),
                zero_of_press = share(std::max(noise, unforetold_by_presses(s, zero_columns(s), r)));
   const double of_press = std::max(gain_of_press, zero_of_press);

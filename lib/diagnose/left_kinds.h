@@ -21,20 +21,25 @@ struct LeftKind {
 // much at least, and what they err by more, a press on average, is less than twice its own error),
 // of four fifths as much the one with the fewest numbers first. Each is linear in its numbers
 // (diagnose/kind_laws.h), has a gain of all forces along the normal and one across it beside it,
-// and counts where it foretells a tenth more than these alone (the set-up's: than nothing):
+// and counts where it foretells a tenth more than these alone (the set-up's: than nothing); of two
+// variables where at most half of it is foretold without its kind's (KindLaw::without):
 //   offset, drift   a zero of each axis and along the normal; one by the session's time (hat
 //                   functions)
-//   depth, contact-time, phase, cycle, temperature
+//   depth, contact-time, phase, temperature
 //                   gains, or zeros, that differ by depth (also by how far each axis moved), time
-//                   since the press began, loading, hold and unloading by depth, number of the
-//                   press at its place, temperature
-//   session-time    gains, along the normal and across it or of each axis, by the session's time
+//                   since the press began, loading, hold and unloading by depth or the deepest so
+//                   far, temperature
+//   cycle           by what was pressed before (diagnose/order_laws.h), alone, by depth, by the
+//                   time since the press began and by how far the force leans
+//   session-time    gains, along the normal and across it or of each axis, by the session's time,
+//                   the same way
 //   rate            by speed (also the largest so far) the force and its rate; the velocity
 //   history         what the increments of force did so and so long before (a kernel of finite
 //                   length, lags in steps of a third)
 //   reading         an error of each axis by its own force, in forty steps: a converter's
 //   set-up          any 3 x 3 matrix
-//   direction       gains that differ by how far the force leans; the law of shared_law.h
+//   direction       gains that differ by how far the force leans, across the normal by which way;
+//                   the law of shared_law.h
 //   body            six gains of each position (experiment/weights.h)
 //   press, zero-of-press
 //                   gains, or a zero, of each press, foretold by other samples of the same press,

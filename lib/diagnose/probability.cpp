@@ -32,13 +32,13 @@ bool is_doubted(const Finding& f) {
 
 // Of what is named missing each, by what else is.
 double of_missing(const Diagnosis& d, const Finding& finding) {
-  constexpr double kHalf = 0.5;
+  constexpr double kLittle = 0.5;
   const std::vector<std::string>& alike = d.one_kind.effects;
   std::set<std::string> named;
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kMissing) named.insert(f.effect);
   const double alone = named.size() > 1 ? kMissingOfSeveral : kMissingAlone,
-               and_more = finding.share < kHalf ? kMissingOfLittle : kMissingAndMore;
+               and_more = finding.share < kLittle ? kMissingOfLittle : kMissingAndMore;
   const double p = d.left.noise_alone() ? alone : and_more;
   if (std::find(alike.begin(), alike.end(), finding.effect) == alike.end()) return p;
   return alike.size() == 2 ? std::min(p, kOneOfTwo) : kOneOfMany;
