@@ -12,15 +12,19 @@ import zlib
 import numpy as np
 
 import bodies
+import callers
 import causes
+import guests
 import newcomers
 import outsiders
 import stiffnesses
 import strangers
+import strays
 import visitors
 
 EVERY = (causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() +
-         outsiders.every_outsider() + visitors.every_visitor())
+         outsiders.every_outsider() + visitors.every_visitor() + guests.every_guest() +
+         callers.every_caller() + strays.every_stray())
 
 
 class Null:

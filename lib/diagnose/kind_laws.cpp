@@ -66,6 +66,24 @@ std::vector<Column> azimuths(const LawSamples& s) {
   return found;
 }
 
+// What a tool that is pushed sideways meets, by how far: along its way and across it, of the load
+// and of the force.
+Columns by_side(const LawSamples& s) {
+  constexpr int kSteps = 10;
+  const Eigen::Index count = s.f.cols();
+  Column far(count);
+  Vectors way(3, count), turned_way(3, count), turned(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Vec3 n = s.normal.col(i), u = s.u.col(i), across = s.across.col(i);
+    const Vec3 side = u - n.dot(u) * n;
+    far[i] = side.norm();
+    way.col(i) = far[i] > 0 ? Vec3(s.along.col(i).norm() / far[i] * side) : Vec3(Vec3::Zero());
+    turned_way.col(i) = n.cross(Vec3(way.col(i)));
+    turned.col(i) = n.cross(across);
+  }
+  return times(hats(far, even(far, kSteps)), {way, turned_way, s.across, turned});
+}
+
 // Zeros by how far each axis has moved.
 Columns by_travel(const LawSamples& s) {
   constexpr int kSteps = 16;
@@ -186,6 +204,7 @@ std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& force
                         law_columns(forces, dataset)(stacked_components(s), Eigen::all));
                   }});
   add(kDirection, [&] { return times(azimuths(s), {s.across}); });
+  add(kDirection, [&] { return by_side(s); });
   add("history", [&] { return by_history(s, forces, dataset); });
   add("reading", [&] { return by_reading(s); });
   add_order_laws(s, laws);

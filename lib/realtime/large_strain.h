@@ -59,6 +59,7 @@ class LargeStrain {
     Vec3 normal = Vec3::UnitZ();
     double stiffness = 0;  // n.K n [N/m]
     double into = 0;       // depth to which the forces hold [m]
+    double aside = 1;      // strain_side()
     double doubt = 0;      // standard, of what is beyond the linear force, over that
     double fit = 0;        // standard, of the force, over that
     double memory = 0;     // standard, of what is remembered at first order, over that

@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "realtime/strain_sample.h"
@@ -21,6 +22,10 @@ constexpr double kMemoryPin = 10;      // of the undeformed state, whose respons
 // Of states that are farthest aside: the surface folds beside the tool there, which polynomials do
 // not follow, and at full weight they spoil the states between.
 constexpr double kMemoryAside = 0.3;
+// Where the surface is about to fold, the tangent is nearly singular, and the derivatives by v of
+// one state may be hundreds of times what the others' are: how large they may be over the force
+// over its way before they count for less.
+constexpr double kMemorySteep = 8;
 
 const MemorySet& whole_memory() {
   static const MemorySet set = memory_set(1, 6);
@@ -39,8 +44,8 @@ MatrixXd ridge_inverse(const MatrixXd& A, double ridge = kMemoryRidge) {
 }
 
 // 1 to half of strain_side(), kMemoryAside at all of it.
-double aside_weight(const Vec3& v) {
-  const double share = std::hypot(v[1], v[2]) / strain_side(v[0]);
+double aside_weight(const Vec3& v, double aside) {
+  const double share = std::hypot(v[1], v[2]) / strain_side(v[0], aside);
   return 1 - (1 - kMemoryAside) * std::clamp(2 * share - 1, 0.0, 1.0);
 }
 
@@ -67,8 +72,8 @@ void add_turned(const StrainMemory& of, const Eigen::Matrix3d& R, double weight,
 }
 
 StressStates::StressStates(const Eigen::Matrix3d& frame, double radius, double unit,
-                           std::vector<Vec3> v)
-    : frame_(frame), radius_(radius), unit_(unit), v_(std::move(v)) {
+                           std::vector<Vec3> v, double aside)
+    : frame_(frame), radius_(radius), unit_(unit), aside_(aside), v_(std::move(v)) {
   const auto n = static_cast<Index>(v_.size());
   forces_ = MatrixXd::Zero(3 * n, 4 * n);
   works_ = MatrixXd::Zero(n, n);
@@ -126,8 +131,12 @@ StrainMemory StressStates::fit(double& error) const {
     now.middleRows<3>(3 * i) = at.gradient;
     before.row(4 * i) = at.m.transpose();
     before.middleRows<3>(4 * i + 1) = at.gradient;
-    const double pin = v.isZero(0) ? kMemoryPin : 1;
-    columns[4 * i] = values[i] = aside_weight(v) / std::max(size[i], floor);
+    const double steep = F.block<3, 3>(3 * i, 4 * i + 1).norm() * v.norm() /
+                         std::max(size[i], std::numeric_limits<double>::min());
+    const double pin = v.isZero(0)            ? kMemoryPin
+                       : steep > kMemorySteep ? std::pow(kMemorySteep / steep, 2)
+                                              : 1;
+    columns[4 * i] = values[i] = aside_weight(v, aside_) / std::max(size[i], floor);
     rows.segment<3>(3 * i).setConstant(pin * values[i]);
     columns.segment<3>(4 * i + 1).setConstant(pin * kMemorySlope * columns[4 * i]);
   }

@@ -35,9 +35,11 @@ void add_turned(const StrainMemory& of, const Eigen::Matrix3d& R, double weight,
 // need be there.
 class StressStates {
  public:
-  // Of states v. The body's directions are taken to those of v by `frame` (rows); `radius`, the
-  // tool's, is the unit of v [m]; `unit` the work that W is over [J].
-  StressStates(const Eigen::Matrix3d& frame, double radius, double unit, std::vector<Vec3> v);
+  // Of states v, as far aside as strain_side() has it. The body's directions are taken to those of
+  // v by `frame` (rows); `radius`, the tool's, is the unit of v [m]; `unit` the work that W is over
+  // [J].
+  StressStates(const Eigen::Matrix3d& frame, double radius, double unit, std::vector<Vec3> v,
+               double aside);
   // Adds what `of` says of each state, the same numbers of all: in the end all parts. With the
   // fields of InsideMemory, in its order, or none. Memory: 4 bytes times 8 numbers, with the fields
   // 26, a state and number of the part.
@@ -55,7 +57,7 @@ class StressStates {
   void fit_inside(const Eigen::VectorXd& weights, InsideMemory& inside) const;
 
   Eigen::Matrix3d frame_;
-  double radius_, unit_;
+  double radius_, unit_, aside_;
   std::vector<Vec3> v_;
   Eigen::MatrixXd forces_, works_;
   // On the fields at a state (rows, fields each) by the stresses of each, and by the fields'

@@ -23,8 +23,10 @@ constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
 constexpr double kStrainFloor = 0.05;  // of the largest force: below, errors are over that
 constexpr std::size_t kMemoryBytes = std::size_t{1} << 28;  // of numbers of all states at a time
 constexpr double kStrainRidge = 1e-7;                       // of the columns' squares
+constexpr double kAsides[] = {1, 0.5, 0.3};                 // StrainSample::aside
+constexpr double kPlain = 0.05;          // error of the memory that asks for no narrower way
 constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
-constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '3'};
+constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '4'};
 
 struct Powers {
   int i, j, k;
@@ -110,7 +112,7 @@ void remember(FullPress& press, double radius, const std::vector<Vec3>& visited,
     if (!(sample.into > 0) && why.empty()) why = gives_way(d);
   }
   if (!(sample.into > 0)) return;
-  StressStates all(sample.frame, radius, inside(0, 0) * radius * radius, stable);
+  StressStates all(sample.frame, radius, inside(0, 0) * radius * radius, stable, sample.aside);
   constexpr std::size_t kKept = 8 + 2 * kInsideFields;  // of a state and number (add())
   const std::size_t parts = 1 + sizeof(float) * kKept * numbers * stable.size() / kMemoryBytes;
   for (std::size_t part = 0; part < parts; ++part)
@@ -166,8 +168,7 @@ std::string StrainSample::bytes() const {
   std::vector<double> numbers(point.begin(), point.end());
   numbers.insert(numbers.end(), frame.data(), frame.data() + 9);
   numbers.insert(numbers.end(), K.data(), K.data() + 9);
-  numbers.push_back(into);
-  numbers.push_back(fit);
+  numbers.insert(numbers.end(), {into, aside, fit});
   numbers.insert(numbers.end(), c.data(), c.data() + kStrainTerms);
   if (memory) {
     numbers.push_back(memory_fit);
@@ -188,7 +189,7 @@ std::string StrainSample::bytes() const {
 }
 
 std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
-  constexpr std::size_t kStatic = 3 + 9 + 9 + 2 + kStrainTerms, kSum = 32;
+  constexpr std::size_t kStatic = 3 + 9 + 9 + 3 + kStrainTerms, kSum = 32;
   constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms +
                                  2 * kInsideFields * kInsideNow * kInsideBefore +
                                  kInsideFields * kInsideFields * (kInsideNow + kInsideBefore);
@@ -208,8 +209,9 @@ std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   s.frame = Eigen::Map<const Eigen::Matrix3d>(numbers.data() + 3);
   s.K = Eigen::Map<const Eigen::Matrix3d>(numbers.data() + 12);
   s.into = numbers[21];
-  s.fit = numbers[22];
-  s.c = Eigen::Map<const StrainCoefficients>(numbers.data() + 23);
+  s.aside = numbers[22];
+  s.fit = numbers[23];
+  s.c = Eigen::Map<const StrainCoefficients>(numbers.data() + 24);
   if (remembers) {
     s.memory_fit = numbers[kStatic];
     s.memory.emplace();
@@ -227,10 +229,11 @@ std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   return s;
 }
 
-std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
-                                                const Model& model, const Vec3& point,
-                                                double tool_radius, double into, bool memory,
-                                                std::string& why) {
+namespace {
+
+std::optional<StrainSample> solve_aside(const TetMesh& body, const ContactBase& base,
+                                        const Model& model, const Vec3& point, double tool_radius,
+                                        double into, double aside, bool memory, std::string& why) {
   FullOptions options;
   options.rim_edge = kStrainRim;
   options.growth = kStrainGrowth;
@@ -251,6 +254,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
     }
     sample.K = *K;
     sample.into = into;
+    sample.aside = aside;
     std::vector<Vec3> visited;
     std::vector<ToolBody::State> states;
     const auto keep = [&](const Vec3& v) {
@@ -264,7 +268,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
       double reached = 0;
       try {
         for (int i = 1; i <= steps; ++i) {
-          const double d = into * i / steps, side = share * strain_side(d);
+          const double d = into * i / steps, side = share * strain_side(d, aside);
           const Vec3 v(d, side * std::cos(angle), side * std::sin(angle));
           const Vec3 f = press.step(tool_radius * sample.frame.transpose() * v, 0);
           solved.v.push_back(v);
@@ -292,6 +296,22 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
   if (!(sample.into > 0)) return std::nullopt;
   fit(solved, tool_radius, sample);
   return sample;
+}
+
+}  // namespace
+
+std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const ContactBase& base,
+                                                const Model& model, const Vec3& point,
+                                                double tool_radius, double into, bool memory,
+                                                std::string& why) {
+  std::optional<StrainSample> best;
+  for (const double aside : kAsides) {
+    std::optional<StrainSample> sample =
+        solve_aside(body, base, model, point, tool_radius, into, aside, memory, why);
+    if (!best || (sample && sample->memory_fit < best->memory_fit)) best = std::move(sample);
+    if (!best || best->memory_fit < kPlain) break;
+  }
+  return best;
 }
 
 }  // namespace hapsim

@@ -133,10 +133,10 @@ TEST(StrainMemory, IsTheIntegralOverTheElements) {
     const Vec3 by = inside(0, 0) * a * sample->frame.transpose() * (p.gradient * (C * p.m));
     EXPECT_LT((by - f).norm(), 0.02 * f.norm());
   }
-  StressStates states(sample->frame, a, inside(0, 0) * a * a, v);
+  StressStates states(sample->frame, a, inside(0, 0) * a * a, v, 1);
   states.add([&](std::size_t i) { return responses[i]; });
   const Eigen::MatrixXd &W = states.works(), &F = states.forces();
-  StressStates parts(sample->frame, a, inside(0, 0) * a * a, v);
+  StressStates parts(sample->frame, a, inside(0, 0) * a * a, v, 1);
   const Eigen::Index numbers = responses[0].stress.size();
   for (const auto& [from, rows] :
        {std::pair{Eigen::Index{0}, numbers / 3}, {numbers / 3, numbers - numbers / 3}})
