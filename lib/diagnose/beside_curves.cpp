@@ -70,6 +70,7 @@ void curves_for_laws(Baseline& base, const TrialGround& g, const Folds& folds,
     if (f->verdict == Verdict::kMissing && std::count(names.begin(), names.end(), f->effect) == 0)
       names.push_back(f->effect);
   for (const std::string& effect : names) {
+    if (!base.fitted.model.has(effect)) continue;  // a curve before holds it
     options.tell("a curve in the place of " + effect);
     std::optional<InPlace> found =
         curve_in_place(effect, left.kind, options.unknown, base, g, folds, options.gates);
@@ -91,6 +92,9 @@ void curves_for_laws(Baseline& base, const TrialGround& g, const Folds& folds,
     std::erase_if(d.findings, [&](const Finding& f) { return f.effect == curve.effect; });
     d.findings.push_back(curve);
     base = std::move(found->base);
+    for (const std::string& name : names)
+      if (name != effect && !base.fitted.model.has(name))
+        doubt_form(name, curve.effect, curve.effect + " holds it", false, d.findings);
     left = left_over(base.fitted, g);
     if (left.noise_alone()) break;
     tell_kinds(base.fitted, g, left);

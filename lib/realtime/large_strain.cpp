@@ -12,6 +12,7 @@
 #include "experiment/labels.h"
 #include "io/stream.h"
 #include "mesh/way_through.h"
+#include "realtime/strain_mesh.h"
 
 namespace hapsim {
 namespace {
@@ -184,6 +185,7 @@ std::vector<StepPlace> LargeStrain::apart(const std::vector<StepPlace>& pool,
 }
 
 void LargeStrain::add(std::vector<StepPlace> places) {
+  constexpr std::size_t kCompared = 2;  // samples with finer elements beside
   std::vector<std::optional<StrainSample>> found(places.size());
   std::vector<std::string> why(places.size());
   in_parallel(places.size(), options_.threads, [&](std::size_t i) {
@@ -194,12 +196,16 @@ void LargeStrain::add(std::vector<StepPlace> places) {
     const std::string path =
         options_.cache.empty() ? "" : options_.cache + "/" + key.hex() + ".strain";
     found[i] = load_sample(path);
-    if (found[i] && options_.memory && !found[i]->memory) found[i].reset();
+    const bool compared = samples_.empty() && i < kCompared;
+    if (found[i] && (options_.memory && !found[i]->memory)) found[i].reset();
+    if (found[i] && compared && !found[i]->finer) found[i].reset();
     if (!found[i]) {
       const double through = way_through(surface_, place.point, -place.normal);
       const double into = std::min(kDeepest, kStrainThrough * through / options_.tool_radius);
       found[i] = solve_strain_sample(body_, base_, model_, place.point, options_.tool_radius, into,
                                      options_.memory, why[i]);
+      if (found[i] && compared)
+        found[i]->finer = strain_mesh_error(body_, base_, model_, *found[i], options_.tool_radius);
       if (found[i]) store_sample(path, *found[i]);
     }
     if (options_.sampled) options_.sampled();

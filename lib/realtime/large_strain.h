@@ -127,7 +127,8 @@ class LargeStrain {
   std::array<double, 4> length_ = {};  // of the process: place, normal, stiffness, its second part
   double second_ = 0, nugget_ = 0;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> inverse_;
-  double variance_ = 0;  // of the relative doubt, for a process of variance one
+  double variance_ = 0;        // of the relative doubt, for a process of variance one
+  StrainMeshError mesh_ = {};  // the largest of samples that were compared with finer elements
   double left_out_ = 0;
 };
 

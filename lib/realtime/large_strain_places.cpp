@@ -15,11 +15,6 @@ using Coordinates = Eigen::Matrix<double, 9, 1>;
 constexpr double kOtherWay = 0.2;  // normals of less cosine have nothing in common
 // Of what is beyond the linear force: what its meshes leave (solve_strain_sample()).
 constexpr double kStrainMesh = 0.0075;
-// Of the force at all of `into` where the surface folds beside the tool (StrainSample::aside),
-// which meshes do each in its way: of a Neo-Hookean block finer elements were 3.8 % off (median), 9
-// % of 95 in 100 samples.
-constexpr double kStrainFold = 0.05;
-
 // Displacements at which places are compared, (d, p, q) over the radius, up to a depth and as far
 // aside as strain_side() has it.
 std::vector<Vec3> probes(double into, double aside) {
@@ -53,6 +48,14 @@ Eigen::Vector4d invariants(const StrainSample& s, double into, double aside) {
   return result;
 }
 
+// At a share of `into`; none at none.
+double between(const StrainMeshError& error, double share) noexcept {
+  const double at = std::clamp(share, 0.0, 1.0) * kStrainDepths;
+  const auto above = std::min<std::size_t>(static_cast<std::size_t>(at), kStrainDepths - 1);
+  const double below = above > 0 ? error[above - 1] : 0;
+  return below + (at - static_cast<double>(above)) * (error[above] - below);
+}
+
 }  // namespace
 
 // Place over the radius, normal, and of the stiffness logarithms and how it couples.
@@ -84,9 +87,12 @@ void LargeStrain::relate() {
   const std::size_t n = samples_.size();
   const auto rows = static_cast<Eigen::Index>(n);
   double into = kDeepest, aside = 1;
+  mesh_ = {};
   for (const Known& k : samples_) {
     into = std::min(into, k.sample.into);
     aside = std::min(aside, k.sample.aside);
+    for (std::size_t d = 0; k.sample.finer && d < kStrainDepths; ++d)
+      mesh_[d] = std::max(mesh_[d], (*k.sample.finer)[d]);
   }
   KrigingCoordinates where{Eigen::MatrixXd(rows, 9), {3, 6, 9}};
   Eigen::MatrixXd values(rows, 4);
@@ -242,8 +248,8 @@ LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const n
   result.f = linear + beyond;
   result.beyond = beyond;
   const double size = result.f.norm();
-  const double fold = place.aside < 1 && place.into > 0 ? kStrainFold * into / place.into : 0;
-  if (size > 0) result.doubt = std::hypot(place.fit, place.doubt * beyond.norm() / size, fold);
+  const double mesh = place.into > 0 ? between(mesh_, into / place.into) : 0;
+  if (size > 0) result.doubt = std::hypot(place.fit, place.doubt * beyond.norm() / size, mesh);
   if (size > 0 && (d < 0 || !result.within)) {  // the tangent may be off by all of what it adds
     const double share = d < 0 && side <= most ? std::min(1.0, -d / a) : 1;
     result.doubt = std::hypot(result.doubt, share * (place.K * rest).norm() / size);

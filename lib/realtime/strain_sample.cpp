@@ -14,12 +14,11 @@
 #include "base/error.h"
 #include "contact/contact_cache.h"
 #include "realtime/power_table.h"
-#include "simulate/full_simulation.h"
+#include "realtime/strain_mesh.h"
 
 namespace hapsim {
 namespace {
 
-constexpr double kStrainRim = 0.5, kStrainGrowth = 0.6;
 constexpr double kStrainFloor = 0.05;  // of the largest force: below, errors are over that
 constexpr std::size_t kMemoryBytes = std::size_t{1} << 28;  // of numbers of all states at a time
 constexpr double kStrainRidge = 1e-7;                       // of the columns' squares
@@ -169,6 +168,8 @@ std::string StrainSample::bytes() const {
   numbers.insert(numbers.end(), frame.data(), frame.data() + 9);
   numbers.insert(numbers.end(), K.data(), K.data() + 9);
   numbers.insert(numbers.end(), {into, aside, fit});
+  const StrainMeshError error = finer.value_or(StrainMeshError{-1});
+  numbers.insert(numbers.end(), error.begin(), error.end());
   numbers.insert(numbers.end(), c.data(), c.data() + kStrainTerms);
   if (memory) {
     numbers.push_back(memory_fit);
@@ -189,7 +190,7 @@ std::string StrainSample::bytes() const {
 }
 
 std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
-  constexpr std::size_t kStatic = 3 + 9 + 9 + 3 + kStrainTerms, kSum = 32;
+  constexpr std::size_t kStatic = 3 + 9 + 9 + 3 + kStrainDepths + kStrainTerms, kSum = 32;
   constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms +
                                  2 * kInsideFields * kInsideNow * kInsideBefore +
                                  kInsideFields * kInsideFields * (kInsideNow + kInsideBefore);
@@ -211,7 +212,10 @@ std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
   s.into = numbers[21];
   s.aside = numbers[22];
   s.fit = numbers[23];
-  s.c = Eigen::Map<const StrainCoefficients>(numbers.data() + 24);
+  StrainMeshError error;
+  std::copy_n(numbers.data() + 24, kStrainDepths, error.begin());
+  if (error[0] >= 0) s.finer = error;
+  s.c = Eigen::Map<const StrainCoefficients>(numbers.data() + 24 + kStrainDepths);
   if (remembers) {
     s.memory_fit = numbers[kStatic];
     s.memory.emplace();
@@ -234,12 +238,7 @@ namespace {
 std::optional<StrainSample> solve_aside(const TetMesh& body, const ContactBase& base,
                                         const Model& model, const Vec3& point, double tool_radius,
                                         double into, double aside, bool memory, std::string& why) {
-  FullOptions options;
-  options.rim_edge = kStrainRim;
-  options.growth = kStrainGrowth;
-  options.quarter_points = false;
-  options.solve.past_instability = true;
-  options.base = &base;
+  const FullOptions options = strain_elements(base);
   StrainSample sample;
   Solved solved;
   try {

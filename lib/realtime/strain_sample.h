@@ -32,6 +32,10 @@ inline double strain_side(double depth, double aside) noexcept {
   return aside * std::min(1.0, 0.25 + 0.5 * std::max(depth, 0.0));
 }
 
+// Depths at which elements are compared with finer ones: even shares of `into`.
+constexpr int kStrainDepths = 6;
+using StrainMeshError = std::array<double, kStrainDepths>;
+
 struct StrainSample {
   Vec3 point = Vec3::Zero();                    // on the surface [m]
   Eigen::Matrix3d frame;                        // rows: into the surface, two ways along it
@@ -39,6 +43,7 @@ struct StrainSample {
   double into = 0;                              // depth up to which it was solved, in tool radii
   double aside = 1;                             // strain_side()
   double fit = 0;                               // relative error of the forces solved, rms
+  std::optional<StrainMeshError> finer;         // strain_mesh.h, where it was asked for
   StrainCoefficients
       c;  // force that moves the tool: K u + k a P'(frame u / a), k = frame0.K frame0
   // What bodies that relax have beside (strain_memory.h), C over the same k a^2 less the linear
