@@ -22,7 +22,7 @@ constexpr double kOneOfTwo = 0.5, kOneOfMany = 0.1;  // of one kind
 constexpr double kSetHolds = 0.95, kSetAndMoreHolds = 0.75;
 // Where nothing is missing, where noise alone is left beside what is, and where more is.
 constexpr double kAbsentOfComplete = 0.0002, kAbsentAlone = 0.002, kAbsentAndMore = 0.008;
-constexpr double kPossibleAlone = 0.03, kPossibleAndMore = 0.15;
+constexpr double kPossibleAlone = 0.03, kPossibleAndMore = 0.1;
 
 // By the shape of the body, which is no effect.
 bool is_doubted(const Finding& f) {
