@@ -49,11 +49,12 @@ Eigen::Vector4d invariants(const StrainSample& s, double into, double aside) {
 }
 
 // At a share of `into`; none at none.
-double between(const StrainMeshError& error, double share) noexcept {
+double mesh_doubt(const StrainMeshError& error, double share) noexcept {
+  constexpr double kOfDifference = 0.5;  // so that 95 in 100 are within the difference
   const double at = std::clamp(share, 0.0, 1.0) * kStrainDepths;
   const auto above = std::min<std::size_t>(static_cast<std::size_t>(at), kStrainDepths - 1);
   const double below = above > 0 ? error[above - 1] : 0;
-  return below + (at - static_cast<double>(above)) * (error[above] - below);
+  return kOfDifference * (below + (at - static_cast<double>(above)) * (error[above] - below));
 }
 
 }  // namespace
@@ -248,7 +249,7 @@ LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const n
   result.f = linear + beyond;
   result.beyond = beyond;
   const double size = result.f.norm();
-  const double mesh = place.into > 0 ? between(mesh_, into / place.into) : 0;
+  const double mesh = place.into > 0 ? mesh_doubt(mesh_, into / place.into) : 0;
   if (size > 0) result.doubt = std::hypot(place.fit, place.doubt * beyond.norm() / size, mesh);
   if (size > 0 && (d < 0 || !result.within)) {  // the tangent may be off by all of what it adds
     const double share = d < 0 && side <= most ? std::min(1.0, -d / a) : 1;

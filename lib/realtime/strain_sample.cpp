@@ -22,8 +22,8 @@ namespace {
 constexpr double kStrainFloor = 0.05;  // of the largest force: below, errors are over that
 constexpr std::size_t kMemoryBytes = std::size_t{1} << 28;  // of numbers of all states at a time
 constexpr double kStrainRidge = 1e-7;                       // of the columns' squares
-constexpr double kAsides[] = {1, 0.5, 0.3};                 // StrainSample::aside
-constexpr double kPlain = 0.05;          // error of the memory that asks for no narrower way
+constexpr double kAsides[] = {1, 0.3};                      // StrainSample::aside
+constexpr double kFolds = 0.1;  // error of the memory from which on a narrower way is asked for
 constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
 constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '4'};
 
@@ -308,7 +308,7 @@ std::optional<StrainSample> solve_strain_sample(const TetMesh& body, const Conta
     std::optional<StrainSample> sample =
         solve_aside(body, base, model, point, tool_radius, into, aside, memory, why);
     if (!best || (sample && sample->memory_fit < best->memory_fit)) best = std::move(sample);
-    if (!best || best->memory_fit < kPlain) break;
+    if (!best || best->memory_fit < kFolds) break;
   }
   return best;
 }

@@ -65,7 +65,7 @@ struct StrainSample {
 // and the sample with the shortest. `model`: body and support effects alone, static. Nothing, and
 // `why`, where the model or the place is refused, the undeformed body is not stable there, or
 // nothing converges. `memory`: with what stresses of one state do at another, which takes some
-// three times as long, and again as long for each narrower way: where the surface folds beside the
+// three times as long, and again as long for a narrower way: where the surface folds beside the
 // tool, no polynomial tells that (of a Neo-Hookean block at 30 % of its thickness the fit of the
 // memory is 29 % off with all of strain_side(), 1 % with 0.3 of it), and the sample is taken less
 // far aside.

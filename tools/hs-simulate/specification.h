@@ -80,7 +80,7 @@ inline ToolSpec simulate_specification() {
       "folds beside the tool (a Neo-Hookean body, s = 0, from one radius or so on) every mesh "
       "folds "
       "in its way, and they are 4 to 17 % apart at 30 % of the thickness. Where folds keep what is "
-      "remembered from a smooth law, a place is sampled half or a third as far aside, and what "
+      "remembered from a smooth law, a place is sampled a third as far aside, and what "
       "goes farther is flagged. Friction, the sensor and all else act on that force as on the "
       "linear one, which was not compared with elements that slip. Farther than "
       "was pressed the force goes on along its tangent, with 32 in "
