@@ -16,7 +16,7 @@ FullOptions strain_elements(const ContactBase& base, double finer = 1);
 // By how much elements two thirds as large differ in the force over the linear stiffness, relative
 // to it, the larger of straight down and of half of strain_side() aside; 0.2 at least from where
 // they do not converge. Where the surface folds beside the tool, as of a Neo-Hookean block from
-// half a radius or so on, meshes fold each in its way, and differ by 4 to 17 % at 30 % of the
+// one radius or so on, meshes fold each in its way, and differ by 4 to 17 % at 30 % of the
 // thickness (s = 0.2: 0.9 %).
 StrainMeshError strain_mesh_error(const TetMesh& body, const ContactBase& base, const Model& model,
                                   const StrainSample& sample, double tool_radius);
