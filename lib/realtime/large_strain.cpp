@@ -112,6 +112,10 @@ LargeStrain::LargeStrain(const TetMesh& body, const Model& model, const Stiffnes
                "hardly any place of this body could be solved at finite strain" +
                    (refused_.empty() ? "" : "; the last: " + refused_),
                "check the unit of the tool's radius, or leave out --large-strain");
+  const auto compared = [](const Known& known) { return known.sample.finer.has_value(); };
+  if (std::none_of(samples_.begin(), samples_.end(), compared))  // those places were refused
+    samples_[0].sample.finer =
+        strain_mesh_error(body_, base_, model_, samples_[0].sample, options_.tool_radius);
   for (std::uint64_t round = 2;; ++round) {
     relate();
     if (left_out_ <= options_.tolerance || tried_.size() >= options_.most_samples) break;
@@ -197,7 +201,7 @@ void LargeStrain::add(std::vector<StepPlace> places) {
         options_.cache.empty() ? "" : options_.cache + "/" + key.hex() + ".strain";
     found[i] = load_sample(path);
     const bool compared = samples_.empty() && i < kCompared;
-    if (found[i] && (options_.memory && !found[i]->memory)) found[i].reset();
+    if (found[i] && options_.memory && !found[i]->memory) found[i].reset();
     if (found[i] && compared && !found[i]->finer) found[i].reset();
     if (!found[i]) {
       const double through = way_through(surface_, place.point, -place.normal);
