@@ -29,13 +29,7 @@ void turn(std::array<int, 10>& t) {
 
 void check_shapes(TetMesh& mesh, bool mend, MeshRepairs& repairs, const std::string& where) {
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const auto& n = mesh.tets[t];
-    double longest = 0;
-    for (int a = 0; a < 4; ++a)
-      for (int b = a + 1; b < 4; ++b)
-        longest = std::max(longest, (mesh.nodes[n[a]] - mesh.nodes[n[b]]).norm());
-    // Below this a tetrahedron is flat to rounding; real meshes stay orders of magnitude above.
-    const double v = tet_volume(mesh, t), least = 1e-12 * longest * longest * longest;
+    const double v = tet_volume(mesh, t), least = least_volume(mesh, t);
     if (v > least) continue;
     if (!(v < -least))
       fail_input(where,

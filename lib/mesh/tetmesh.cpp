@@ -29,6 +29,15 @@ double tet_volume(const TetMesh& mesh, std::size_t tet) {
          6;
 }
 
+double least_volume(const TetMesh& mesh, std::size_t tet) {
+  constexpr double kFlat = 1e-12;  // over the cube of the longest edge; a regular one has 0.12
+  const auto& t = mesh.tets[tet];
+  double longest = 0;
+  for (const auto& edge : kTetEdges)
+    longest = std::max(longest, (mesh.nodes[t[edge[0]]] - mesh.nodes[t[edge[1]]]).norm());
+  return kFlat * longest * longest * longest;
+}
+
 Vec3 tet_centroid(const TetMesh& mesh, std::size_t tet) {
   const auto& n = mesh.tets[tet];
   return (mesh.nodes[n[0]] + mesh.nodes[n[1]] + mesh.nodes[n[2]] + mesh.nodes[n[3]]) / 4;

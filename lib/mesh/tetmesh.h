@@ -29,6 +29,8 @@ struct TetMesh {
 };
 
 double tet_volume(const TetMesh& mesh, std::size_t tet);  // from the corners, signed [m^3]
+// Below this a tetrahedron is flat to rounding [m^3]; real meshes stay orders of magnitude above.
+double least_volume(const TetMesh& mesh, std::size_t tet);
 Vec3 tet_centroid(const TetMesh& mesh, std::size_t tet);  // of the corners
 double volume(const TetMesh& mesh);
 // Adds the middles of all edges (straight): order 1 -> 2. A middle is fixed when its edge lies on a

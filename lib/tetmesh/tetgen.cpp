@@ -118,7 +118,8 @@ TetgenResult run_tetgen(const TetgenInput& input, const TetgenOptions& options,
           off < 1e-6 * inside + std::min(redrawn_volume(input.surface), 1e-3 * inside)))
       failure = fmt::format("TetGen filled {:.6g} of {:.6g} m^3", filled, inside);
     for (std::size_t t = 0; t < result.mesh.tets.size() && failure.empty(); ++t)
-      if (!(tet_volume(result.mesh, t) > 0)) failure = "TetGen left a flat tetrahedron";
+      if (!(tet_volume(result.mesh, t) > least_volume(result.mesh, t)))
+        failure = "TetGen left a flat tetrahedron";
   }
   if (!failure.empty()) {
     check_self_intersection(input.surface, where);  // a better message when that is the cause

@@ -92,6 +92,24 @@ TEST(CurvesForLaws, TheCurveStandsWhereTheFormIsWrong) {
               1e-9);
 }
 
+// A curve that was put in the place of one effect may hold another.
+TEST(CurvesForLaws, AnEffectThatTheModelHoldsNoMoreHasNoPlace) {
+  Experiment w = test::experiment();
+  const Model model = test::with(test::elastic(1.5e4, 0.42), "viscoelastic", {5e3, 0.4});
+  test::measure_finer(w, model, 0.01, 3);
+  for (std::size_t i = 0; i < w.dataset.recording.f.size(); ++i)
+    w.dataset.recording.f[i] *= 1.1 + 0.1 * std::sin(1.9 * static_cast<double>(i));
+  const TrialGround ground(w, w.allowance());
+  const Folds folds = make_folds(w.dataset, 6);
+  Baseline base = make_baseline(model, ground, folds);
+  Diagnosis d;
+  d.findings.push_back(missing("sensor-drift"));
+  curves_for_laws(base, ground, folds, {}, d);
+  ASSERT_EQ(d.findings.size(), 1);
+  EXPECT_EQ(d.findings[0].verdict, Verdict::kMissing);
+  EXPECT_TRUE(base.fitted.model.has("viscoelastic"));
+}
+
 TEST(CurvesForLaws, TheLawStandsWhereSomethingElseIsLeft) {
   const Diagnosis d = with_curves(
       "viscoelastic", test::with(test::elastic(1.5e4, 0.42), "viscoelastic", {5e3, 0.4}),

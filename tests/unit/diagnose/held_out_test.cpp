@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/superfluous.h"
+#include "expect_error.h"
 #include "fit/fit.h"
 #include "support/synthetic.h"
 
@@ -61,6 +62,25 @@ TEST(Unseen, WhatAnUnsureMapDrownsIsNotDropped) {
   const Baseline both = make_baseline(with_map(relaxing, w).model, ground(w), folds);
   EXPECT_GT(both.held_out.error.pooled, 3 * both.on_known_map.error.pooled);
   EXPECT_FALSE(without_superfluous("viscoelastic", both, ground(w), folds, Gates{}));
+}
+
+// Such a law may be asked for by what is left out, where others hold.
+TEST(Unseen, ALawWithoutEquilibriumForetellsNothing) {
+  const Model elastic = test::elastic(1.5e4, 0.42);
+  Experiment w = test::experiment();
+  test::measure_finer(w, elastic, kNoise, 5);
+  Model extreme = test::with(elastic, "hyperelastic", {100, 0});
+  for (Parameter& p : extreme.parameters) p.state = ParameterState::kFixed;
+  EXPECT_NE(
+      error_of([&] { fit(extreme, w, all_episodes(w.dataset), {}); }, ExitCode::kNoConvergence)
+          .find("no equilibrium"),
+      std::string::npos);
+  const ModelBuilder builder = [&](const Selection&) { return Starts{{extreme}, {}}; };
+  const HeldOut found = held_out_error(builder, w, make_folds(w.dataset, 6), {});
+  double squares = 0;
+  for (const Vec3& f : w.dataset.recording.f) squares += f.squaredNorm();
+  EXPECT_NEAR(found.error.pooled,
+              std::sqrt(squares / (3 * static_cast<double>(w.dataset.recording.f.size()))), 1e-9);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "expect_error.h"
 #include "realtime/force_loop.h"
+#include "realtime/strain_mesh.h"
 #include "simulate/full_simulation.h"
 #include "strained_body.h"
 #include "support/allocations.h"
@@ -196,6 +197,26 @@ TEST(LargeStrain, SaysThatALargePullIsTheLinearForceAlone) {
   EXPECT_FALSE(much.within);
   EXPECT_GT(much.doubt, 0.3);
   EXPECT_LT((much.f - at.contact.K * Vec3(0, 0, 0.4 * a)).norm(), 1e-12 * much.f.norm());
+}
+
+// A sample is doubted by what finer elements say, by all where there are none.
+TEST(LargeStrain, FinerElementsDoubtASample) {
+  const TetMesh mesh = test::block_mesh({0.05, 0.05, 0.03}, 2, 2, 2, 1);
+  const ContactBase base = make_contact_base(mesh);
+  Model model = static_part(test::strained_model());
+  const double radius = 0.5 * test::kStrainedRadius;
+  std::string why;
+  auto sample = solve_strain_sample(mesh, base, model, {0.026, 0.023, 0.03}, radius, 1, false, why);
+  ASSERT_TRUE(sample);
+  const StrainMeshError own = strain_mesh_error(mesh, base, model, *sample, radius);
+  sample->c *= 1.5;
+  const StrainMeshError off = strain_mesh_error(mesh, base, model, *sample, radius);
+  for (std::size_t i = 0; i < own.size(); ++i) EXPECT_LT(own[i], 0.04);
+  EXPECT_GT(off.back(), own.back() + 0.05);
+  EXPECT_GT(off.back(), off.front());
+  model.find("elastic", 0, "E")->value = -2e4;
+  for (const double unknown : strain_mesh_error(mesh, base, model, *sample, radius))
+    EXPECT_GE(unknown, 0.2);
 }
 
 // No elements take a modulus below zero.
