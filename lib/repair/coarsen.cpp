@@ -28,7 +28,11 @@ using FaceClass = Mesh::Property_map<Mesh::Face_index, std::uint8_t>;
 
 using EdgeLength = std::function<double(const Vec3&)>;
 
-// Height over longest side below which a triangle counts as thin.
+// Of a triangle: its height over its longest side. Thin ones have less than kThin.
+double height_over_side(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const double side = std::max({(a - b).norm(), (a - c).norm(), (b - c).norm()});
+  return side > 0 ? (b - a).cross(c - a).norm() / (side * side) : 0;
+}
 constexpr double kThin = 0.3;
 
 Vec3 vec(const Kernel::Point_3& p) {
@@ -96,8 +100,8 @@ bool coarsen_outline_once(Mesh& mesh, Outline outline, const EdgeLength& edge_at
 }
 
 // Squared edge length plus squared distance of the new vertex from the old planes, each over what
-// is wished, plus a price for thin triangles: flat parts become even triangles of the wished size,
-// bent parts stay finer.
+// is wished, plus a price for triangles that become thin, or thinner than those before, as of a fan
+// about a pole: flat parts become even triangles of the wished size, bent parts stay finer.
 class EvenCost {
  public:
   EvenCost(const EdgeLength& edge, double tolerance) : edge_(edge), tolerance_(tolerance) {}
@@ -108,7 +112,7 @@ class EvenCost {
     const Vec3 p = vec(*placed);
     const double edge = edge_(p);
     const auto& mesh = profile.surface_mesh();
-    double off = 0, longest = 0, thinnest = kThin;
+    double off = 0, longest = 0, before = kThin, thinnest = kThin;
     for (const auto v : {profile.v0(), profile.v1()})
       for (const auto h : CGAL::halfedges_around_target(v, mesh)) {
         const Vec3 a = vec(mesh.point(mesh.target(h))), b = vec(mesh.point(mesh.source(h))),
@@ -116,13 +120,13 @@ class EvenCost {
         const Vec3 n = (b - a).cross(c - a);
         if (n.norm() > 0) off = std::max(off, std::abs(n.dot(p - a)) / n.norm());
         longest = std::max(longest, (p - b).norm());
+        before = std::min(before, height_over_side(a, b, c));
         const auto removed = [&](auto w) { return w == profile.v0() || w == profile.v1(); };
         if (removed(mesh.source(h)) || removed(mesh.target(mesh.next(h)))) continue;
-        const double side = std::max({(p - b).norm(), (p - c).norm(), (b - c).norm()});
-        thinnest = std::min(thinnest, (b - p).cross(c - p).norm() / (side * side));
+        thinnest = std::min(thinnest, height_over_side(p, b, c));
       }
     const double bend = off / (tolerance_ * edge), size = longest / (1.6 * edge);
-    return size * size + bend * bend + (kThin / std::max(thinnest, 1e-6) - 1);
+    return size * size + bend * bend + std::max(before / std::max(thinnest, 1e-6) - 1, 0.0);
   }
 
  private:

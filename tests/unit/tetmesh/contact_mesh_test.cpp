@@ -51,6 +51,45 @@ void expect_sound(const ContactMesh& contact, const ContactBase& base) {
     EXPECT_EQ(mesh.fixed[n] != 0, std::abs(mesh.nodes[n].z()) < 1e-9) << mesh.nodes[n].transpose();
 }
 
+// By meridians and circles, as bodies of CAD are: needles about the pole.
+TEST(ContactBase, CoarsensTheFanAboutAPole) {
+  constexpr int kRound = 96, kUp = 32;
+  constexpr double kDome = 0.05;
+  ClassedSurface dome;
+  std::vector<Vec3>& v = dome.surface.vertices;
+  for (int j = 0; j < kUp; ++j)
+    for (int i = 0; i < kRound; ++i) {
+      const double up = 0.5 * M_PI * j / kUp, round = 2 * M_PI * i / kRound;
+      v.push_back(kDome * Vec3(std::cos(up) * std::cos(round), std::cos(up) * std::sin(round),
+                               std::sin(up)));
+    }
+  v.insert(v.end(), {Vec3(0, 0, kDome), Vec3::Zero()});
+  const auto add = [&](int a, int b, int c, int bonded) {
+    dome.surface.faces.push_back({a, b, c});
+    dome.face_class.push_back(static_cast<std::uint8_t>(bonded));
+  };
+  for (int i = 0; i < kRound; ++i) {
+    const int next = (i + 1) % kRound, top = (kUp - 1) * kRound;
+    add(i, kRound * kUp + 1, next, 1);
+    for (int j = 0; j + 1 < kUp; ++j) {
+      const int k = j * kRound;
+      add(k + i, k + next, k + kRound + next, 0);
+      add(k + i, k + kRound + next, k + kRound + i, 0);
+    }
+    add(top + i, top + next, kRound * kUp, 0);
+  }
+  const ContactBase base = make_contact_base(dome, 0.008);
+  for (std::size_t f = 0; f < base.surface.faces.size(); ++f) {
+    if (base.fixed_face[f]) continue;
+    const Triangle& t = base.surface.faces[f];
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GT((base.surface.vertices[t[k]] - base.surface.vertices[t[(k + 1) % 3]]).norm(),
+                0.003);
+  }
+  EXPECT_NEAR(signed_volume(base.surface) / signed_volume(dome.surface), 1, 0.005);
+  EXPECT_TRUE(is_closed(base.surface));
+}
+
 TEST(ContactBase, KeepsVolumeAndSupport) {
   for (const ContactBase& base : {block_base(), dome_base()}) {
     EXPECT_NEAR(signed_volume(base.surface) / signed_volume(base.fine), 1, 0.005);
