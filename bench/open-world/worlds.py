@@ -14,6 +14,7 @@ import numpy as np
 import bodies
 import callers
 import causes
+import drifters
 import guests
 import newcomers
 import outsiders
@@ -24,7 +25,7 @@ import visitors
 
 EVERY = (causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() +
          outsiders.every_outsider() + visitors.every_visitor() + guests.every_guest() +
-         callers.every_caller() + strays.every_stray())
+         callers.every_caller() + strays.every_stray() + drifters.every_drifter())
 
 
 class Null:

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Begins every entry; a new layout, meshing or mixture gets a new number.
-constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '1', '3'};
+constexpr char kMagic[8] = {'h', 's', 'c', 'o', 'n', 't', '1', '4'};
 
 struct Head {
   char magic[8];

@@ -87,6 +87,18 @@ class Fitting {
   // The least sum of squares with a parameter held at a value, from where result_ is, to `settled`;
   // goes there.
   double fit_beside(Eigen::Index which, double value, double settled);
+  // Of samples that err alike all along a place or a press, n tell less than n. Standard errors are
+  // at least those by the scores of whole groups (the sandwich of Liang and Zeger, Biometrika 73,
+  // 1986), which ask nothing of how samples of one group err together.
+  void widen_by_groups(const Signal& signal, const Eigen::VectorXd& residual);
+  // Forces [N] over the noise, as they are weighed.
+  template <class Rows>
+  void whiten(Rows& rows) const {
+    if (force_weights_)
+      force_weights_->whiten(rows);
+    else
+      rows /= options_.noise;
+  }
   // What the active ones cost, and what they leave to be known.
   void tell_constraints(const Eigen::MatrixXd& J, double variance);
 

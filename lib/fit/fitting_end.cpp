@@ -44,6 +44,7 @@ Fit Fitting::end() {
     return end();
   }
   tell_bounds(signal, errors, variance);
+  widen_by_groups(signal, residual);
   if (result_.stopped) result_.converged = false, result_.message = "interrupted";
   Eigen::VectorXd whitened = residual / options_.noise;
   Eigen::MatrixXd J = signal.df / options_.noise;
@@ -66,13 +67,8 @@ Eigen::VectorXd Fitting::by_gain_of_all(const Signal& signal, const Eigen::Matri
   if (positions.size() < 2 || !(options_.floor > 0)) return Eigen::VectorXd::Zero(signal.df.cols());
   Eigen::MatrixXd J = signal.df;
   Eigen::VectorXd f = signal.f;
-  if (force_weights_) {
-    force_weights_->whiten(J);
-    force_weights_->whiten(f);
-  } else {
-    J /= options_.noise;
-    f /= options_.noise;
-  }
+  whiten(J);
+  whiten(f);
   return options_.floor * (bread * (J.transpose() * f));
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 using Coordinates = Eigen::Matrix<double, 9, 1>;
 
-constexpr double kStrainVersion = 1;  // of samples in the cache
+constexpr double kStrainVersion = 2;  // of samples in the cache
 constexpr std::size_t kStrainFirst = 24, kStrainRound = 12, kStrainPool = 600;
 // The first where much may be left unknown, and the tolerance from which on that is so.
 constexpr std::size_t kStrainFewest = 8;

@@ -20,7 +20,7 @@ namespace hapsim {
 namespace {
 
 // A new layout of fields, or another way to sample, gets a new number.
-constexpr double kFieldVersion = 5;
+constexpr double kFieldVersion = 6;
 // Places where the some thirty materials of regional relaxation are solved.
 constexpr std::size_t kRegionalPlaces = 40;
 constexpr std::size_t kEntriesAtOnce = 256;

@@ -100,8 +100,8 @@ bool coarsen_outline_once(Mesh& mesh, Outline outline, const EdgeLength& edge_at
 }
 
 // Squared edge length plus squared distance of the new vertex from the old planes, each over what
-// is wished, plus a price for triangles that become thin, or thinner than those before, as of a fan
-// about a pole: flat parts become even triangles of the wished size, bent parts stay finer.
+// is wished, plus a price for triangles that become thin (those of a fan about a pole are, and
+// become less so): flat parts become even triangles of the wished size, bent parts stay finer.
 class EvenCost {
  public:
   EvenCost(const EdgeLength& edge, double tolerance) : edge_(edge), tolerance_(tolerance) {}
@@ -126,7 +126,8 @@ class EvenCost {
         thinnest = std::min(thinnest, height_over_side(p, b, c));
       }
     const double bend = off / (tolerance_ * edge), size = longest / (1.6 * edge);
-    return size * size + bend * bend + std::max(before / std::max(thinnest, 1e-6) - 1, 0.0);
+    const double thin = thinnest < before ? kThin / std::max(thinnest, 1e-6) - 1 : 0;
+    return size * size + bend * bend + thin;
   }
 
  private:
