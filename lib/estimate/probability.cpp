@@ -1,6 +1,7 @@
 #include "estimate/probability.h"
 
 #include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 
@@ -9,6 +10,10 @@ namespace hapsim {
 double student_two_sided(double t, double freedom) {
   if (freedom > 1e6) return std::erfc(std::abs(t) / std::sqrt(2.0));
   return fisher_upper(t * t, 1, freedom);
+}
+
+double student_half95(double freedom) {
+  return boost::math::quantile(boost::math::students_t(freedom), 0.975);
 }
 
 double fisher_upper(double f, double d1, double d2) {

@@ -3,8 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "estimate/least_squares.h"
+#include "estimate/probability.h"
 #include "fit/fitting.h"
+#include "model/interval.h"
 
 namespace hapsim {
 namespace {
@@ -48,11 +49,13 @@ void Fitting::widen_by_groups(const Signal& signal, const Eigen::VectorXd& resid
   }
   scores.colwise() -= scores.rowwise().mean().eval();
   const Eigen::MatrixXd moves = solution_.covariance * scores;
+  // Intervals are 1.96 errors wide; of few groups those are Student's.
+  const double others = count - 1;
+  const double widening = std::sqrt(count / others) * student_half95(others) / kHalf95;
   const std::vector<int> free = result_.model.free_parameters();
   for (std::size_t c = 0; c < free.size(); ++c) {
     Parameter& p = result_.model.parameters[static_cast<std::size_t>(free[c])];
-    const double error = moves.row(static_cast<Eigen::Index>(c)).norm() *
-                         std::sqrt(count / static_cast<double>(count - 1));
+    const double error = widening * moves.row(static_cast<Eigen::Index>(c)).norm();
     if (error > p.std_error) p.std_error = error;  // never of a NaN
   }
 }

@@ -100,8 +100,9 @@ bool coarsen_outline_once(Mesh& mesh, Outline outline, const EdgeLength& edge_at
 }
 
 // Squared edge length plus squared distance of the new vertex from the old planes, each over what
-// is wished, plus a price for triangles that become thin (those of a fan about a pole are, and
-// become less so): flat parts become even triangles of the wished size, bent parts stay finer.
+// is wished, plus a price for thin triangles: flat parts become even triangles of the wished size,
+// bent parts stay finer. Needles that the input has, as about a pole, may become less so for
+// nothing.
 class EvenCost {
  public:
   EvenCost(const EdgeLength& edge, double tolerance) : edge_(edge), tolerance_(tolerance) {}
@@ -126,7 +127,8 @@ class EvenCost {
         thinnest = std::min(thinnest, height_over_side(p, b, c));
       }
     const double bend = off / (tolerance_ * edge), size = longest / (1.6 * edge);
-    const double thin = thinnest < before ? kThin / std::max(thinnest, 1e-6) - 1 : 0;
+    const bool needles = before < 0.5 * kThin && thinnest >= before;  // no collapse makes such
+    const double thin = needles ? 0 : kThin / std::max(thinnest, 1e-6) - 1;
     return size * size + bend * bend + thin;
   }
 

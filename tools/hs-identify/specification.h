@@ -307,7 +307,9 @@ inline ToolSpec identify_specification() {
          "value). Where finite elements are solved for a size that is hardly known (a layer's "
          "thickness, the radius of an inclusion), from the profile of its likelihood, the bodies "
          "solved anew along it, and its longer side; of models without such sizes so that of the "
-         "others where one is at its bound or may be there; not with --constrain or --robust"},
+         "others where one is at its bound or may be there. At least that by what whole positions "
+         "(presses, of fewer than 8 positions) differ by, as where the misfit goes together over "
+         "one. Neither with --constrain nor --robust"},
         {"lower, upper", "bounds"},
         {"state", "free, fixed or derived"}}},
       {"Model of --acfm (output)",

@@ -56,6 +56,29 @@ TEST_F(Fitted, StandardErrorsCoverTheTruthOverManySeeds) {
   EXPECT_LE(share, 1.0);
 }
 
+// As by a surface that does not lie where it is said to: no noise that samples have each by itself.
+TEST_F(Fitted, StandardErrorsCoverWhereEachPressErrsAllAlong) {
+  const Model truth = test::elastic(1.5e4, 0.4);
+  Random random(11);
+  int covered = 0, counted = 0;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    test::measure(w(), truth, 0.01, seed);
+    for (const Episode& e : w().dataset.episodes) {
+      const double gain = 1 + 0.1 * random.normal();
+      for (const int row : e.rows) w().dataset.recording.f[static_cast<std::size_t>(row)] *= gain;
+    }
+    const Fit result = fit(truth, w(), all_episodes(w().dataset), options());
+    for (std::size_t i = 0; i < truth.parameters.size(); ++i) {
+      const double error = result.model.parameters[i].value - truth.parameters[i].value;
+      covered += std::abs(error) < 1.96 * result.model.parameters[i].std_error;
+      ++counted;
+    }
+  }
+  const double share = static_cast<double>(covered) / counted;
+  std::printf("95 %% intervals cover the truth in %.1f %% of %d cases\n", 100 * share, counted);
+  EXPECT_GT(share, 0.88);
+}
+
 TEST_F(Fitted, WhatAllPositionsErrByAlikeIsInTheModulus) {
   const Model truth = test::elastic(1.5e4, 0.4);
   test::measure(w(), truth, 0.01, 3);
