@@ -34,6 +34,7 @@ double height_over_side(const Vec3& a, const Vec3& b, const Vec3& c) {
   return side > 0 ? (b - a).cross(c - a).norm() / (side * side) : 0;
 }
 constexpr double kThin = 0.3;
+constexpr double kNeedle = 0.135;  // no collapse makes such: at its price it may make kThin / 2
 
 Vec3 vec(const Kernel::Point_3& p) {
   return Vec3(p.x(), p.y(), p.z());
@@ -127,7 +128,7 @@ class EvenCost {
         thinnest = std::min(thinnest, height_over_side(p, b, c));
       }
     const double bend = off / (tolerance_ * edge), size = longest / (1.6 * edge);
-    const bool needles = before < 0.5 * kThin && thinnest >= before;  // no collapse makes such
+    const bool needles = before < kNeedle && thinnest >= before;
     const double thin = needles ? 0 : kThin / std::max(thinnest, 1e-6) - 1;
     return size * size + bend * bend + thin;
   }
