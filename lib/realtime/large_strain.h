@@ -41,7 +41,7 @@ class LargeStrain {
 
   // Solves places until what samples say of those left out is within the tolerance; each is stored
   // in the cache as it comes, so that a run that was ended goes on from there. `surface` and
-  // `facts` of the prepared body outlive it. Cost: some 3 to 7 s of a processor a sample.
+  // `facts` of the prepared body outlive it. Cost: some 3 to 13 s of a processor a sample.
   // Error(kBadInput): the model has no hyperelastic effect of finite strain, or the tool fits
   // hardly anywhere.
   LargeStrain(const TetMesh& body, const Model& model, const StiffnessField& field,
