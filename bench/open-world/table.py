@@ -22,7 +22,7 @@ SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time
         "phase": "history", "cycle": "order", "rate": "speed", "position": "place", "body": "place", "place": "place",
         "press-direction": "direction", "set-up": "set-up axes", "direction": "direction axes", "learned-depth": "depth",
         "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",
-        "learned-place": "place", "learned-axes": "direction axes", "press": "session order", "zero-of-press": "session order offset"}
+        "learned-place": "place", "learned-axes": "direction axes", "press": "session order", "place-and-way": "place direction", "wander": "frequency session", "zero-of-press": "session order offset"}
 # What acts beside a cause, and the curve that contains it (the effects' cards).
 CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
 MOST_ALIKE = 3

@@ -1,5 +1,6 @@
 #include "diagnose/kind_laws.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -124,6 +125,27 @@ Columns by_matrix(const LawSamples& s) {
   return c;
 }
 
+// Gains along the normal and across it, and a turn about it.
+Columns about_normal(const LawSamples& s) {
+  Vectors turned(3, s.f.cols());
+  for (Eigen::Index i = 0; i < s.f.cols(); ++i)
+    turned.col(i) = Vec3(s.normal.col(i)).cross(Vec3(s.across.col(i)));
+  return join(gains(s), {turned});
+}
+
+// One, and how far the place lies along the two longest axes of all places, from -1 to 1.
+std::vector<Column> slopes(const LawSamples& s) {
+  const Vectors off = s.place.colwise() - s.place.rowwise().mean();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(off * off.transpose());
+  std::vector<Column> found{Column::Ones(s.f.cols())};
+  for (const int axis : {2, 1}) {
+    const Column x = off.transpose() * axes.eigenvectors().col(axis);
+    const double half = (x.maxCoeff() - x.minCoeff()) / 2;
+    if (half > 0) found.emplace_back((x.array() - x.minCoeff()) / half - 1);
+  }
+  return found;
+}
+
 // The increment of the force between two lags, along the normal and across it; before the press
 // there is none.
 Columns by_history(const LawSamples& s, const Eigen::VectorXd& forces, const Dataset& dataset) {
@@ -205,6 +227,9 @@ std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& force
                   }});
   add(kDirection, [&] { return times(azimuths(s), {s.across}); });
   add(kDirection, [&] { return by_side(s); });
+  for (const Columns& what : {by_matrix(s), about_normal(s)})
+    add(
+        kBody, [&s, what] { return times(slopes(s), what); }, [what] { return what; });
   add("history", [&] { return by_history(s, forces, dataset); });
   add("reading", [&] { return by_reading(s); });
   add_order_laws(s, laws);

@@ -53,7 +53,7 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
         &s.number, &s.temperature, &s.last_depth, &s.rest, &s.rest_here, &s.here})
     *c = Column::Zero(count);
   for (Vectors* v : {&s.f, &s.along, &s.across, &s.normal, &s.u, &s.velocity, &s.acceleration,
-                     &s.way, &s.rate, &s.came, &s.last_u})
+                     &s.way, &s.rate, &s.came, &s.last_u, &s.place})
     *v = Vectors::Zero(3, count);
   double longest = 0;
   for (const Vec3& u : dataset.recording.u) longest = std::max(longest, u.norm());
@@ -104,6 +104,7 @@ LawSamples law_samples(const Eigen::VectorXd& forces, const Dataset& dataset) {
       s.here[k] = place.presses > 0 ? 1 : 0;
       if (before.presses > 0) s.came.col(k) = before.point - point;
       s.last_u.col(k) = before.u;
+      s.place.col(k) = point;
       if (s.warmed) s.temperature[k] = e.view.temperature[static_cast<std::size_t>(i)];
       if (s.timed) {
         s.age[k] = e.view.t[static_cast<std::size_t>(i)];

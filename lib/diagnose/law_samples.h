@@ -22,6 +22,7 @@ struct LawSamples {
   // of the one before at this place; here: 1 if there was one.
   Column last_depth, rest, rest_here, here;
   Vectors came, last_u;            // from the place before [m]; how the tool left it [m]
+  Vectors place;                   // where [m]
   Vectors f, along, across, rate;  // along and across the normal; how fast it changes
   Vectors normal, u, velocity, acceleration;
   Vectors way;  // which way each axis last went, -1 to 1, turned within 1 % of the longest way

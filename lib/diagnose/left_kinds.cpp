@@ -10,13 +10,14 @@
 #include "diagnose/gates.h"
 #include "diagnose/kind_laws.h"
 #include "diagnose/left_over.h"
+#include "diagnose/own_laws.h"
 #include "diagnose/unseen_share.h"
 
 namespace hapsim {
 namespace {
 
 constexpr double kTold = 0.1;  // of what is left, to be worth a word
-constexpr double kHalf = 0.5, kAsMuch = 0.8, kNearlyAll = 0.9;
+constexpr double kHalf = 0.5, kAsMuch = 0.8;
 constexpr Eigen::Index kGainsOfPlace = 6;
 
 // Of each sample, as of unforetold_squares().
@@ -39,24 +40,6 @@ Eigen::VectorXd unforetold_by_places(const LawSamples& s, const Eigen::VectorXd&
       samples.push_back(static_cast<Eigen::Index>(found->second));
     }
     left(samples) = unforetold_squares(place.Z(of_block, Eigen::all), residual(rows), own);
-  }
-  return left;
-}
-
-// Where each press has numbers of its own, told by stretches of it that are left out in turn.
-double unforetold_by_presses(const LawSamples& s, const Eigen::MatrixXd& columns,
-                             const Eigen::VectorXd& residual) {
-  constexpr Eigen::Index kStretch = 8;
-  double left = 0;
-  for (std::size_t from = 0, to = 0; from < s.kept.size(); from = to) {
-    std::vector<int> parts;
-    for (to = from; to < s.kept.size() && s.press[to] == s.press[from]; ++to)
-      parts.push_back(static_cast<int>(s.since[to] / kStretch % 3));
-    const auto first = 3 * static_cast<Eigen::Index>(from),
-               count = 3 * static_cast<Eigen::Index>(to - from);
-    left +=
-        unforetold_squares(columns.middleRows(first, count), residual.segment(first, count), parts)
-            .sum();
   }
   return left;
 }
@@ -101,7 +84,9 @@ const char* goes_with(const std::string& kind) {
       {kDirection, "the direction and the size of the force"},
       {kBody, "the place"},
       {kPress, "gains of each press (tried on its other samples)"},
-      {kZeroOfPress, "a zero of each press (tried on its other samples)"}};
+      {kZeroOfPress, "a zero of each press (tried on its other samples)"},
+      {kPlaceAndWay, "the place and the way it is pressed, together (tried on each press)"},
+      {kWander, "a force that moves in each press in its own way (tried on its other samples)"}};
   return words.at(kind);
 }
 
@@ -167,14 +152,13 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
     if (std::none_of(kinds.begin(), kinds.end(), said))
       kinds.push_back({each->kind, share(each->left), each < alike});
   }
-  const double gain_of_press = share(std::max(noise, unforetold_by_presses(s, gains, r))),
-               zero_of_press = share(std::max(noise, unforetold_by_presses(s, zero_columns(s), r)));
-  const double of_press = std::max(gain_of_press, zero_of_press);
-  if (of_press > kNearlyAll && (found.empty() || kinds.front().share < kHalf)) {
+  if (!kinds.empty() && kinds.front().share >= kHalf) return kinds;
+  const auto beyond_noise = [&](double left) { return share(std::max(noise, left)); };
+  std::vector<LeftKind> own = own_laws(s, r, beyond_noise);
+  if (own.empty() && kinds.empty()) own = wandering(s, r, beyond_noise);
+  if (!own.empty())
     for (LeftKind& kind : kinds) kind.alike = false;
-    kinds.insert(kinds.begin(),
-                 {gain_of_press > zero_of_press ? kPress : kZeroOfPress, of_press, true});
-  }
+  kinds.insert(kinds.begin(), own.begin(), own.end());
   return kinds;
 }
 

@@ -40,10 +40,12 @@ struct LeftKind {
 //   set-up          any 3 x 3 matrix
 //   direction       gains that differ by how far the force leans, across the normal by which way;
 //                   the law of shared_law.h
-//   body            six gains of each position (experiment/weights.h)
-//   press, zero-of-press
-//                   gains, or a zero, of each press, foretold by other samples of the same press,
-//                   where that is nine tenths and no law of unseen presses foretells half
+//   body            six gains of each position (experiment/weights.h); any 3 x 3 matrix, or gains
+//                   along the normal and across it with a turn about it, that change evenly from
+//                   one side of all places to the other
+//   press, place-and-way, zero-of-press, wander
+//                   what each press has of its own (diagnose/own_laws.h), where no law of unseen
+//                   presses foretells half
 // `forces`: of the model. Empty for fewer presses than kLeastPresses.
 std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                                const TrialGround& ground);

@@ -184,6 +184,10 @@ std::string kind_in_words(const LeftOver& left) {
       left.strained
           ? fmt::format(" ({:.2g} times the squares that mesh and shape are allowed)", left.strain)
           : "";
+  const auto may_be = [&](const char* kind) {
+    return std::any_of(left.kinds.begin(), left.kinds.end(),
+                       [&](const LeftKind& each) { return each.kind == kind && each.alike; });
+  };
   if (left.events.found)
     return fmt::format(
         "{}, in single samples at one part of the presses ({} of {} presses err by more than {:g} "
@@ -213,7 +217,23 @@ std::string kind_in_words(const LeftOver& left) {
   if (left.kind == kPress)
     return fmt::format(
         "{}, and it is a gain that changes from press to press, at one place too: look at what "
-        "changes between presses, the grip, the temperature, the body itself",
+        "changes between presses, the grip, the temperature, the body itself{}",
+        much,
+        may_be(kPlaceAndWay) ? "; or it differs by place and way of pressing together, which "
+                               "presses of one place the same way would tell (they are too few "
+                               "here, or have little of it): press one place twice as it errs most"
+                             : "");
+  if (left.kind == kPlaceAndWay)
+    return fmt::format(
+        "{}, and it goes with the load, comes back where a place is pressed the same way again and "
+        "differs from place to place and from way to way: look at what holds or gives way at some "
+        "places in some directions (fibres, walls, edges, the tool's own shape), and press more "
+        "ways at one place",
+        much);
+  if (left.kind == kWander)
+    return fmt::format(
+        "{}, and it moves slowly in each press, in each in its own way: look at what breathes, "
+        "swings or settles by itself meanwhile, and record that, or hold still for longer",
         much);
   if (left.kind == kZeroOfPress)
     return fmt::format(

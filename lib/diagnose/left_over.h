@@ -13,7 +13,8 @@ namespace hapsim {
 // Kinds of LeftOver.
 inline constexpr const char *kSetUp = "set-up", *kBody = "body", *kFrequency = "frequency",
                             *kEvent = "event", *kDirection = "direction", *kPress = "press",
-                            *kZeroOfPress = "zero-of-press";
+                            *kZeroOfPress = "zero-of-press", *kPlaceAndWay = "place-and-way",
+                            *kWander = "wander";
 
 // The allowance for mesh and shape error is a prior of the six gains c_p of each position
 // (experiment/weights.h), of standard deviation delta. What the forces say of them is tested: with

@@ -20,7 +20,7 @@ struct Sample {
   int press = 0, number = 0;  // number: of the sample in its press
   int here = 0;               // how often its place was pressed before
   Vec3 f, before;             // the model's force, and that of the sample before (0 before a press)
-  Vec3 u, normal;
+  Vec3 u, normal, place;
   double depth = 0;    // over the deepest
   double session = 0;  // share of the session
 };
@@ -45,6 +45,7 @@ std::vector<LeftKind> kinds_left(const Change& change) {
     s.press = e;
     s.here = pressed[episode.position]++;
     s.normal = episode.view.normal;
+    s.place = w.dataset.positions[static_cast<std::size_t>(episode.position)];
     for (const int row : episode.rows) {
       s.before = s.number == 0 ? Vec3(Vec3::Zero()) : s.f;
       s.f = f.segment<3>(at);
@@ -113,6 +114,14 @@ TEST(LeftKinds, ABentScrewGoesWithTheTravelOfItsAxis) {
       kinds_left([](const Sample& s) { return Vec3(0, 0, 0.08 * std::sin(5e3 * s.u.z())); });
   ASSERT_EQ(first_of(kinds), "depth");
   EXPECT_GT(kinds.front().share, 0.5);
+}
+
+// An arm that swings about its foot: a turn that no two places share.
+TEST(LeftKinds, ATurnThatGrowsFromPlaceToPlaceGoesWithThePlace) {
+  const auto kinds = kinds_left(
+      [](const Sample& s) { return Vec3(20 * (s.place.x() - 0.04) * s.normal.cross(s.f)); });
+  ASSERT_EQ(first_of(kinds), kBody);
+  EXPECT_GT(kinds.front().share, 0.9);
 }
 
 // Coulomb's friction of a guide: against the way it last went, and kept while it stands.
