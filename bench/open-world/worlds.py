@@ -16,6 +16,7 @@ import callers
 import causes
 import drifters
 import guests
+import latecomers
 import newcomers
 import outsiders
 import stiffnesses
@@ -25,7 +26,8 @@ import visitors
 
 EVERY = (causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() +
          outsiders.every_outsider() + visitors.every_visitor() + guests.every_guest() +
-         callers.every_caller() + strays.every_stray() + drifters.every_drifter())
+         callers.every_caller() + strays.every_stray() + drifters.every_drifter() +
+         latecomers.every_latecomer())
 
 
 class Null:

@@ -11,6 +11,7 @@
 #include "diagnose/left_over.h"
 #include "diagnose/marker_left.h"
 #include "diagnose/of_one_kind.h"
+#include "diagnose/stand_ins.h"
 #include "diagnose/torque_left.h"
 #include "diagnose/trial_ground.h"
 #include "fit/extend.h"
@@ -90,8 +91,9 @@ struct Diagnosis {
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
-  LeftOver left;     // with all missing effects, of an ambiguous verdict with the best rival
-  OneKind one_kind;  // of the missing effects
+  LeftOver left;       // with all missing effects, of an ambiguous verdict with the best rival
+  OneKind one_kind;    // of the missing effects
+  StandIns stand_ins;  // of what is missing or may be, where more than noise is left
   std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
   TorqueLeft torque;             // of the same model, where torques were measured
   MarkerLeft marker;             // of the same model, where points were seen

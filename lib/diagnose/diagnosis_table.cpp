@@ -196,6 +196,8 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
   for (const LeftKind& k : d.left.kinds)
     j["left"]["kinds"].push_back({{"kind", k.kind}, {"share", k.share}, {"alike", k.alike}});
   j["one_kind"] = d.one_kind.kind;
+  j["stand_ins"] = {
+      {"kind", d.stand_ins.kind}, {"law", d.stand_ins.law}, {"named", d.stand_ins.named}};
   j["odd_presses"] = d.odd_presses;
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));

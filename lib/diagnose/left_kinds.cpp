@@ -67,29 +67,6 @@ bool no_worse(const TriedKind& law, const TriedKind& best) {
   return more.mean() <= kPlainly * spread;
 }
 
-const char* goes_with(const std::string& kind) {
-  static const std::map<std::string, const char*> words{
-      {"offset", "a zero"},
-      {"drift", "a zero that changes in the session"},
-      {"depth", "the depth"},
-      {"contact-time", "the time since the press began"},
-      {"rate", "the speed"},
-      {"phase", "loading, hold and unloading"},
-      {"session-time", "the time of the session"},
-      {kByTemperature, "the temperature"},
-      {"cycle", "what was pressed before, how often or how long ago"},
-      {"history", "how the force rose and fell before"},
-      {"reading", "what each axis of the sensor reads (its converter)"},
-      {kSetUp, "axes that are mixed (sensor, robot)"},
-      {kDirection, "the direction and the size of the force"},
-      {kBody, "the place"},
-      {kPress, "gains of each press (tried on its other samples)"},
-      {kZeroOfPress, "a zero of each press (tried on its other samples)"},
-      {kPlaceAndWay, "the place and the way it is pressed, together (tried on each press)"},
-      {kWander, "a force that moves in each press in its own way (tried on its other samples)"}};
-  return words.at(kind);
-}
-
 }  // namespace
 
 std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
@@ -160,6 +137,29 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
     for (LeftKind& kind : kinds) kind.alike = false;
   kinds.insert(kinds.begin(), own.begin(), own.end());
   return kinds;
+}
+
+const char* goes_with(const std::string& kind) {
+  static const std::map<std::string, const char*> words{
+      {"offset", "a zero"},
+      {"drift", "a zero that changes in the session"},
+      {"depth", "the depth"},
+      {"contact-time", "the time since the press began"},
+      {"rate", "the speed"},
+      {"phase", "loading, hold and unloading"},
+      {"session-time", "the time of the session"},
+      {kByTemperature, "the temperature"},
+      {"cycle", "what was pressed before, how often or how long ago"},
+      {"history", "how the force rose and fell before"},
+      {"reading", "what each axis of the sensor reads (its converter)"},
+      {kSetUp, "axes that are mixed (sensor, robot)"},
+      {kDirection, "the direction and the size of the force"},
+      {kBody, "the place"},
+      {kPress, "gains of each press (tried on its other samples)"},
+      {kZeroOfPress, "a zero of each press (tried on its other samples)"},
+      {kPlaceAndWay, "the place and the way it is pressed, together (tried on each press)"},
+      {kWander, "a force that moves in each press in its own way (tried on its other samples)"}};
+  return words.at(kind);
 }
 
 std::string words_of(const std::vector<LeftKind>& kinds) {

@@ -50,6 +50,8 @@ struct LeftKind {
 std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::VectorXd& forces,
                                const TrialGround& ground);
 
+// "the depth", "a zero of each press (...)": what a kind goes with, in words.
+const char* goes_with(const std::string& kind);
 // "Tried on presses that were left out, the speed foretells 74 % of that, ..."; "" of none.
 std::string words_of(const std::vector<LeftKind>& kinds);
 

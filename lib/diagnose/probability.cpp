@@ -18,6 +18,7 @@ constexpr double kTemper = 15;
 // of the misfit at least, and less.
 constexpr double kMissingAlone = 0.97, kMissingOfSeveral = 0.8;
 constexpr double kMissingAndMore = 0.75, kMissingOfLittle = 0.25;
+constexpr double kStandsIn = 0.1;  // for a cause that has no name, or is one of a set that does
 constexpr double kOneOfTwo = 0.5, kOneOfMany = 0.1;  // of one kind
 constexpr double kSetHolds = 0.95, kSetAndMoreHolds = 0.75;
 // Where nothing is missing, where noise alone is left beside what is, and where more is.
@@ -39,6 +40,7 @@ double of_missing(const Diagnosis& d, const Finding& finding) {
     if (f.verdict == Verdict::kMissing) named.insert(f.effect);
   const double alone = named.size() > 1 ? kMissingOfSeveral : kMissingAlone,
                and_more = finding.share < kLittle ? kMissingOfLittle : kMissingAndMore;
+  if (!d.stand_ins.kind.empty()) return kStandsIn;
   const double p = d.left.noise_alone() ? alone : and_more;
   if (std::find(alike.begin(), alike.end(), finding.effect) == alike.end()) return p;
   return alike.size() == 2 ? std::min(p, kOneOfTwo) : kOneOfMany;
@@ -60,7 +62,9 @@ void set_probabilities(Diagnosis& d) {
                         : alone                              ? kAbsentAlone
                                                              : kAbsentAndMore,
                possible = alone ? kPossibleAlone : kPossibleAndMore,
-               set_holds = alone ? kSetHolds : kSetAndMoreHolds;
+               set_holds = alone                      ? kSetHolds
+                           : d.stand_ins.kind.empty() ? kSetAndMoreHolds
+                                                      : kStandsIn;
   std::vector<const Finding*> rivals;
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kIndistinguishable && !is_doubted(f)) rivals.push_back(&f);
@@ -99,12 +103,14 @@ std::string probability_in_words() {
       "is missing and leaves noise alone {:g} %, {:g} where several are; where more is left {:g}, "
       "{:g} of what takes less than half of the misfit; {:g} where two are of one kind, {:g} of "
       "more, less where others passed beside it; a set that cannot be told apart holds it in {:g} "
-      "% of these, {:g} where more is left, shared by the likelihoods; possible {:g} %, {:g} where "
+      "% of these, {:g} where more is left, shared by the likelihoods; {:g} of what stands in for "
+      "a "
+      "cause of another kind, or of a set that does; possible {:g} %, {:g} where "
       "more is left; absent "
       "{:g} % of a complete model, {:g} where noise alone is left, {:g} where more is. Empty of "
       "fewer than {} presses",
       100 * kMissingAlone, 100 * kMissingOfSeveral, 100 * kMissingAndMore, 100 * kMissingOfLittle,
-      100 * kOneOfTwo, 100 * kOneOfMany, 100 * kSetHolds, 100 * kSetAndMoreHolds,
+      100 * kOneOfTwo, 100 * kOneOfMany, 100 * kSetHolds, 100 * kSetAndMoreHolds, 100 * kStandsIn,
       100 * kPossibleAlone, 100 * kPossibleAndMore, 100 * kAbsentOfComplete, 100 * kAbsentAlone,
       100 * kAbsentAndMore, kLeastPresses);
 }

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "diagnose/left_over.h"
 #include "diagnose/of_one_kind.h"
+#include "diagnose/stand_ins.h"
 
 namespace hapsim {
 namespace {
@@ -67,6 +69,29 @@ TEST(Probability, SeveralAreLessSureThanOneAndThoseOfOneKindLeast) {
   d.one_kind.effects.push_back("arm-compliance");
   set_probabilities(d);
   EXPECT_LT(d.findings[0].probability, 0.2);
+}
+
+TEST(Probability, WhatStandsInForACauseOfAnotherKindIsUnlikely) {
+  Diagnosis d;
+  d.left.structured = true;
+  d.findings = {finding("tare", Verdict::kMissing, 500)};
+  d.findings.front().share = 0.7;
+  set_probabilities(d);
+  EXPECT_GT(d.findings.front().probability, 0.5);
+  d.stand_ins = find_stand_ins({{"rate", 0.93, true}}, {"tare"}, 0.7);
+  set_probabilities(d);
+  EXPECT_LT(d.findings.front().probability, 0.2);
+  EXPECT_NE(stand_in_words(d.stand_ins).find("the speed"), std::string::npos);
+}
+
+TEST(StandIns, NeedALawOfAnotherKindThatForetellsPlainlyMore) {
+  EXPECT_EQ(find_stand_ins({{"rate", 0.93, true}}, {"tare", "tip"}, 0.7).kind, "rate");
+  EXPECT_EQ(find_stand_ins({{"rate", 0.93, true}}, {"tare"}, 0.88).kind, "");  // as much
+  EXPECT_EQ(find_stand_ins({{"rate", 0.6, true}}, {"tare"}, 0.45).kind, "");   // leaves as much
+  EXPECT_EQ(find_stand_ins({{kPress, 1.0, true}}, {"tip"}, 0.7).kind, "");     // of each press
+  EXPECT_EQ(find_stand_ins({{"depth", 1.0, true}}, {"learned-depth"}, 0.7).kind, "");
+  EXPECT_EQ(find_stand_ins({}, {"tip"}, 0.7).kind, "");
+  EXPECT_EQ(stand_in_words({}), "");
 }
 
 }  // namespace
