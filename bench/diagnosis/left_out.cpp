@@ -37,8 +37,14 @@ bool is_kin(const std::string& hidden, const std::string& named) {
 }
 
 const char* judged(const Trial& t) {
-  if (!t.rivals.empty()) return "set";
-  const std::vector<std::string> missing = words(t.missing);
+  const std::vector<std::string> missing = words(t.missing), rivals = words(t.rivals);
+  if (is_kind_of(t.effects, t.stand_ins)) return "kind";
+  if (!rivals.empty())
+    return std::any_of(rivals.begin(), rivals.end(),
+                       [&](const std::string& rival) { return is_kin(t.effects, rival); })
+               ? "set"
+           : t.left.empty() ? "sure"
+                            : "hedged";
   if (!missing.empty() && std::all_of(missing.begin(), missing.end(), states_no_cause))
     return std::any_of(missing.begin(), missing.end(),
                        [&](const std::string& curve) { return is_of_kind(t.effects, curve); })
