@@ -19,6 +19,7 @@ import guests
 import latecomers
 import newcomers
 import outsiders
+import passersby
 import stiffnesses
 import strangers
 import strays
@@ -27,7 +28,7 @@ import visitors
 EVERY = (causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() +
          outsiders.every_outsider() + visitors.every_visitor() + guests.every_guest() +
          callers.every_caller() + strays.every_stray() + drifters.every_drifter() +
-         latecomers.every_latecomer())
+         latecomers.every_latecomer() + passersby.every_passerby())
 
 
 class Null:
