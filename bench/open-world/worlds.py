@@ -59,15 +59,19 @@ class Null:
         return np.einsum("nij,nj->ni", self.K, u)
 
 
-def write(null, body, cause, out):
-    name = "%s-%s" % (body, cause.name)
-    random = np.random.default_rng(zlib.crc32(name.encode()))
-    head, u, f = cause.make(null, random)
+def save(path, null, head, u, f):
+    """A recording of NULL's presses whose tool went by u and met f."""
     lines = list(head) + ["press,t,x,y,z,ux,uy,uz,fx,fy,fz"]
     for p, t, x, v, g in zip(null.press, null.t, null.x, u, f):
         lines.append("%d,%.2f,%.6f,%.6f,%.6f,%.7f,%.7f,%.7f,%.4f,%.4f,%.4f" % (p, t, *x, *v, *g))
-    (out / "data").mkdir(parents=True, exist_ok=True)
-    (out / "data" / (name + ".csv")).write_text("\n".join(lines) + "\n")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("\n".join(lines) + "\n")
+
+
+def write(null, body, cause, out):
+    name = "%s-%s" % (body, cause.name)
+    random = np.random.default_rng(zlib.crc32(name.encode()))
+    save(out / "data" / (name + ".csv"), null, *cause.make(null, random))
 
 
 if __name__ == "__main__":
