@@ -12,7 +12,7 @@
 namespace hapsim {
 namespace {
 
-constexpr Eigen::Index kStretch = 8;  // samples that are left out, of three times as many
+constexpr std::size_t kStretch = 8;  // samples that are left out, of three times as many
 constexpr double kNearlyAll = 0.9, kMostly = 0.8;
 constexpr double kAll = 0.95;  // of a force of any direction, in which much else lies
 
@@ -46,12 +46,12 @@ std::vector<PressSamples> split_presses(const LawSamples& s, const Eigen::Vector
 }
 
 double unforetold(const Eigen::MatrixXd& columns, const Eigen::VectorXd& residual,
-                  const LawSamples& s, const std::vector<PressSamples>& presses) {
+                  const std::vector<PressSamples>& presses) {
   double left = 0;
   for (const PressSamples& press : presses) {
     std::vector<int> parts;
     for (std::size_t k = press.from; k < press.to; ++k)
-      parts.push_back(static_cast<int>(s.since[k] / kStretch % 3));
+      parts.push_back(static_cast<int>((k - press.from) / kStretch % 3));
     const auto first = 3 * static_cast<Eigen::Index>(press.from),
                count = 3 * static_cast<Eigen::Index>(press.to - press.from);
     left +=
@@ -68,13 +68,16 @@ law::Columns loads(const LawSamples& s) {
   return c;
 }
 
-// Of the time in a press, a knot for each two stretches.
-std::vector<law::Column> moments(const LawSamples& s) {
-  law::Column since(s.f.cols());
-  std::copy(s.since.begin(), s.since.end(), since.begin());
+// Of where in a press a sample is, a knot for each two stretches.
+std::vector<law::Column> moments(const LawSamples& s, const std::vector<PressSamples>& presses) {
+  constexpr double kApart = 2.0 * kStretch;
+  law::Column at(s.f.cols());
+  for (const PressSamples& press : presses)
+    for (std::size_t k = press.from; k < press.to; ++k)
+      at[static_cast<Eigen::Index>(k)] = static_cast<double>(k - press.from);
   std::vector<double> knots;
-  for (double at = 0; at < since.maxCoeff() + 2 * kStretch; at += 2 * kStretch) knots.push_back(at);
-  return law::hats(since, knots);
+  for (double knot = 0; knot < at.maxCoeff() + kApart; knot += kApart) knots.push_back(knot);
+  return law::hats(at, knots);
 }
 
 enum class Repeats { kUnknown, kAlike, kDifferent };
@@ -117,7 +120,7 @@ std::vector<LeftKind> own_laws(const LawSamples& s, const Eigen::VectorXd& resid
                                const std::function<double(double)>& share) {
   const std::vector<PressSamples> presses = split_presses(s, residual);
   const auto foretold = [&](const Eigen::MatrixXd& columns) {
-    return share(unforetold(columns, residual, s, presses));
+    return share(unforetold(columns, residual, presses));
   };
   const double by_gain = foretold(gain_columns(s)), by_any = foretold(law::stacked(loads(s), s));
   const double by_load = by_any > kAll ? std::max(by_gain, by_any) : by_gain;
@@ -138,8 +141,8 @@ std::vector<LeftKind> wandering(const LawSamples& s, const Eigen::VectorXd& resi
   const std::vector<PressSamples> presses = split_presses(s, residual);
   double most = 0;
   for (const law::Columns& what : {law::zeros(s), law::gains(s)})
-    most = std::max(most, share(unforetold(law::stacked(law::times(moments(s), what), s), residual,
-                                           s, presses)));
+    most = std::max(most, share(unforetold(law::stacked(law::times(moments(s, presses), what), s),
+                                           residual, presses)));
   return most > kMostly ? std::vector<LeftKind>{{kWander, most, true}} : std::vector<LeftKind>{};
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "effects/catalogue.h"
+
 namespace hapsim {
 namespace {
 
@@ -19,6 +21,8 @@ constexpr double kTemper = 15;
 constexpr double kMissingAlone = 0.97, kMissingOfSeveral = 0.8;
 constexpr double kMissingAndMore = 0.75, kMissingOfLittle = 0.25;
 constexpr double kStandsIn = 0.1;  // for a cause that has no name, or is one of a set that does
+// Beside a value of each press, which takes what any cause leaves that differs by press.
+constexpr double kBesideValues = kMissingOfLittle;
 constexpr double kOneOfTwo = 0.5, kOneOfMany = 0.1;  // of one kind
 constexpr double kSetHolds = 0.95, kSetAndMoreHolds = 0.75;
 // Where nothing is missing, where noise alone is left beside what is, and where more is.
@@ -41,7 +45,12 @@ double of_missing(const Diagnosis& d, const Finding& finding) {
   const double alone = named.size() > 1 ? kMissingOfSeveral : kMissingAlone,
                and_more = finding.share < kLittle ? kMissingOfLittle : kMissingAndMore;
   if (!d.stand_ins.kind.empty()) return kStandsIn;
-  const double p = d.left.noise_alone() ? alone : and_more;
+  const auto is_per_press = [](const std::string& effect) {
+    return require_effect(effect).card().per_press;
+  };
+  double p = d.left.noise_alone() ? alone : and_more;
+  if (std::any_of(named.begin(), named.end(), is_per_press) && !is_per_press(finding.effect))
+    p = std::min(p, kBesideValues);
   if (std::find(alike.begin(), alike.end(), finding.effect) == alike.end()) return p;
   return alike.size() == 2 ? std::min(p, kOneOfTwo) : kOneOfMany;
 }
@@ -101,7 +110,8 @@ std::string probability_in_words() {
       "that it acts (of a curve of no law: that the cause is of its kind), as verdicts like it "
       "were borne out in simulated trials, a part of them with causes that no effect covers: what "
       "is missing and leaves noise alone {:g} %, {:g} where several are; where more is left {:g}, "
-      "{:g} of what takes less than half of the misfit; {:g} where two are of one kind, {:g} of "
+      "{:g} of what takes less than half of the misfit or stands beside a value of each press; "
+      "{:g} where two are of one kind, {:g} of "
       "more, less where others passed beside it; a set that cannot be told apart holds it in {:g} "
       "% of these, {:g} where more is left, shared by the likelihoods; {:g} of what stands in for "
       "a "

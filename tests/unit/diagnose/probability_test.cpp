@@ -84,6 +84,15 @@ TEST(Probability, WhatStandsInForACauseOfAnotherKindIsUnlikely) {
   EXPECT_NE(stand_in_words(d.stand_ins).find("the speed"), std::string::npos);
 }
 
+// It may take what the cause leaves that the other name comes near.
+TEST(Probability, BesideAValueOfEachPressOthersAreUnlikely) {
+  Diagnosis d;
+  d.findings = {finding("tare", Verdict::kMissing, 500), finding("tip", Verdict::kMissing, 500)};
+  set_probabilities(d);
+  EXPECT_GT(d.findings[0].probability, 0.7);
+  EXPECT_LT(d.findings[1].probability, 0.3);
+}
+
 TEST(StandIns, NeedALawOfAnotherKindThatForetellsPlainlyMore) {
   EXPECT_EQ(find_stand_ins({{"rate", 0.93, true}}, {"tare", "tip"}, 0.7).kind, "rate");
   EXPECT_EQ(find_stand_ins({{"rate", 0.93, true}}, {"tare"}, 0.88).kind, "");  // as much
