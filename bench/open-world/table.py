@@ -8,7 +8,7 @@ presses do not tell apart. The kind is said, too, where names are said to stand
 in for a cause of that kind. kin: other effects are named, each of which is first of all of the cause's kind
 (EffectCard::kinds). open: called unexplained without a kind, or with another, or what acts beside it is named and more
 is said to be left. hedged: something wrong is named, but the words say that more is left, or that the set-up would do
-the same. companion: the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model
+the same; told: so, and the kind of all that the model misses is said. companion: the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model
 leaves no more than noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a
 null called complete; where noise itself is the cause, no name."""
 import csv
@@ -29,7 +29,7 @@ CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
 MOST_ALIKE = 3
 
 
-def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None, stand_ins=""):
+def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None, stand_ins="", misfit=""):
     """first: of each effect the first of its kinds; others: kinds that what is left may have as well;
     one_kind: of two names and more."""
     kinds = set(kind.split())
@@ -63,7 +63,7 @@ def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end
     if all(name in good | beside or tells((first or {}).get(name, "")) for name in missing + alike):
         return "kin"
     if said or hint:
-        return "hedged"
+        return "told" if misfit and tells(misfit) else "hedged"
     return "companion" if good & set(missing) or (known and set(known) <= set(missing)) else "wrong"
 
 
@@ -81,7 +81,7 @@ def row(out, name, truth):
                   found["rmse_with_missing_effects"] / found["force_noise"],
                   {e["effect"]: e["kinds"][0] for e in found["effects"] if e.get("kinds")},
                   [k["kind"] for k in found.get("left", {}).get("kinds", [])[1:] if k.get("alike")], found.get("one_kind"),
-                  found.get("stand_ins", {}).get("kind", "")))
+                  found.get("stand_ins", {}).get("kind", ""), next((k["kind"] for k in found.get("misfit", [])), "")))
 
 
 if __name__ == "__main__":

@@ -76,7 +76,8 @@ void doubt_beside_laws(const Fit& given, const TrialGround& g, Diagnosis& d) {
   LeftOver now = left_over(given, g);
   tell_kinds(given, g, now);
   const double before = now.error * now.error, after = d.left.error * d.left.error;
-  if (before > 1) d.stand_ins = find_stand_ins(now.kinds, named, (before - after) / (before - 1));
+  d.misfit = now.kinds;
+  if (before > 1) d.stand_ins = find_stand_ins(d.misfit, named, (before - after) / (before - 1));
 }
 
 // Presses unlike all others are what is left, where the model is right without them.

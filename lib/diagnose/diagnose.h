@@ -91,9 +91,12 @@ struct Diagnosis {
   ForceError force_rms;       // of the measured forces
   ForceError rmse_end, held_out_end;  // with all missing effects added
   std::string kind_now;               // LeftOver::kind of the model as given, refitted
-  LeftOver left;       // with all missing effects, of an ambiguous verdict with the best rival
-  OneKind one_kind;    // of the missing effects
-  StandIns stand_ins;  // of what is missing or may be, where more than noise is left
+  LeftOver left;     // with all missing effects, of an ambiguous verdict with the best rival
+  OneKind one_kind;  // of the missing effects
+  // Kinds of all that the model as given misses, where effects are named and more than noise is
+  // left beside them; whether these stand in for a cause of the first kind.
+  std::vector<LeftKind> misfit;
+  StandIns stand_ins;
   std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
   TorqueLeft torque;             // of the same model, where torques were measured
   MarkerLeft marker;             // of the same model, where points were seen

@@ -170,6 +170,13 @@ nlohmann::json finding_json(const Finding& f, const DiagnosedFiles& files) {
   return j;
 }
 
+nlohmann::json kinds_json(const std::vector<LeftKind>& kinds) {
+  nlohmann::json j = nlohmann::json::array();
+  for (const LeftKind& k : kinds)
+    j.push_back({{"kind", k.kind}, {"share", k.share}, {"alike", k.alike}});
+  return j;
+}
+
 }  // namespace
 
 std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
@@ -192,9 +199,8 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
                {"error_over_noise", d.left.error},
                {"strain", d.left.strain},
                {"common", d.left.common},
-               {"kinds", nlohmann::json::array()}};
-  for (const LeftKind& k : d.left.kinds)
-    j["left"]["kinds"].push_back({{"kind", k.kind}, {"share", k.share}, {"alike", k.alike}});
+               {"kinds", kinds_json(d.left.kinds)}};
+  j["misfit"] = kinds_json(d.misfit);
   j["one_kind"] = d.one_kind.kind;
   j["stand_ins"] = {
       {"kind", d.stand_ins.kind}, {"law", d.stand_ins.law}, {"named", d.stand_ins.named}};

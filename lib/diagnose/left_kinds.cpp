@@ -97,6 +97,7 @@ std::vector<LeftKind> kinds_of(const Eigen::VectorXd& residual, const Eigen::Vec
     both << columns, gains;
     return unforetold_squares(both, r, parts);
   };
+  judge(kDirection, all, unforetold_squares(gains, r, parts), gains.cols());
   for (const KindLaw& law : kind_laws(s, forces, dataset)) {
     const Eigen::MatrixXd columns = law.columns();
     const Eigen::VectorXd left = beside_gains(columns);

@@ -27,8 +27,13 @@ StandIns find_stand_ins(const std::vector<LeftKind>& misfit,
   return {best.kind, best.share, named};
 }
 
-std::string stand_in_words(const StandIns& s) {
-  if (s.kind.empty()) return "";
+std::string misfit_words(const std::vector<LeftKind>& misfit, const StandIns& s) {
+  if (misfit.empty()) return "";
+  if (s.kind.empty())
+    return fmt::format(
+        " All that the given model misses goes with {}: on presses that were left out that alone "
+        "foretells {:.0f} % of it.",
+        goes_with(misfit.front().kind), 100 * misfit.front().share);
   return fmt::format(
       " But what the given model misses goes with {}: on presses that were left out that alone "
       "foretells {:.0f} % of it, while what is named here takes {:.0f} %. So the names stand in "

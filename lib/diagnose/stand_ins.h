@@ -23,7 +23,7 @@ struct StandIns {
 StandIns find_stand_ins(const std::vector<LeftKind>& misfit,
                         const std::vector<std::string>& effects, double named);
 
-// Begins with a space; "" where nothing stands in.
-std::string stand_in_words(const StandIns& stand_ins);
+// That they do, or else what all of the misfit goes with. Begins with a space; "" of no misfit.
+std::string misfit_words(const std::vector<LeftKind>& misfit, const StandIns& stand_ins);
 
 }  // namespace hapsim

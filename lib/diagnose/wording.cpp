@@ -315,7 +315,7 @@ std::string explain_verdict(const Diagnosis& d, const Noise& noise) {
                                      : describe_verdict(d);
   if (!torques_alone && !d.torque.words.empty()) words += " " + d.torque.words;
   if (!points_alone && !d.marker.words.empty()) words += " " + d.marker.words;
-  return words + converter_words(noise) + stand_in_words(d.stand_ins) + one_kind_words(d);
+  return words + converter_words(noise) + misfit_words(d.misfit, d.stand_ins) + one_kind_words(d);
 }
 
 }  // namespace hapsim

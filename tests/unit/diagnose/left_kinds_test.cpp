@@ -116,6 +116,14 @@ TEST(LeftKinds, ABentScrewGoesWithTheTravelOfItsAxis) {
   EXPECT_GT(kinds.front().share, 0.5);
 }
 
+// What slides holds less across the normal, wherever it is pushed: two gains say it, nine do too.
+TEST(LeftKinds, AGainAcrossTheNormalGoesWithTheDirection) {
+  const auto kinds =
+      kinds_left([](const Sample& s) { return Vec3(-0.4 * (s.f - s.f.dot(s.normal) * s.normal)); });
+  ASSERT_EQ(first_of(kinds), kDirection);
+  EXPECT_GT(kinds.front().share, 0.9);
+}
+
 // An arm that swings about its foot: a turn that no two places share.
 TEST(LeftKinds, ATurnThatGrowsFromPlaceToPlaceGoesWithThePlace) {
   const auto kinds = kinds_left(

@@ -81,7 +81,9 @@ TEST(Probability, WhatStandsInForACauseOfAnotherKindIsUnlikely) {
   d.stand_ins = find_stand_ins({{"rate", 0.93, true}}, {"tare"}, 0.7);
   set_probabilities(d);
   EXPECT_LT(d.findings.front().probability, 0.2);
-  EXPECT_NE(stand_in_words(d.stand_ins).find("the speed"), std::string::npos);
+  EXPECT_NE(misfit_words({{"rate", 0.93, true}}, d.stand_ins).find("stand in"), std::string::npos);
+  EXPECT_NE(misfit_words({{"rate", 0.93, true}}, {}).find("goes with the speed"),
+            std::string::npos);
 }
 
 // It may take what the cause leaves that the other name comes near.
@@ -100,7 +102,7 @@ TEST(StandIns, NeedALawOfAnotherKindThatForetellsPlainlyMore) {
   EXPECT_EQ(find_stand_ins({{kPress, 1.0, true}}, {"tip"}, 0.7).kind, "");     // of each press
   EXPECT_EQ(find_stand_ins({{"depth", 1.0, true}}, {"learned-depth"}, 0.7).kind, "");
   EXPECT_EQ(find_stand_ins({}, {"tip"}, 0.7).kind, "");
-  EXPECT_EQ(stand_in_words({}), "");
+  EXPECT_EQ(misfit_words({}, {}), "");
 }
 
 }  // namespace
