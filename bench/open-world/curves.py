@@ -67,34 +67,41 @@ def by_drift(null, random):
     return a * change, {"zero " + axis: lambda x, law=law: a * law(x / span) for axis, law in zip("xyz", laws)}
 
 
-def read_as(force, law):
-    """Readings of forces whose gain at a reading r of at most 1 is exp(law(r)); None where that goes back somewhere."""
-    r = np.linspace(0, 3, 3001)
-    x = r * np.exp(-law(np.minimum(r, 1)))
-    return np.interp(force, x, r) if (np.diff(x) > 0).all() else None
+def readings(law, over_force):
+    """Forces and what they are read as, in shares of the largest; the gain's logarithm is law(force), or law(reading).
+    None where a larger force reads less."""
+    grid = np.linspace(0, 3, 3001)
+    gain = np.exp(law(np.minimum(grid, 1)))
+    force, read = (grid, grid * gain) if over_force else (grid / gain, grid)
+    return (force, read) if min(np.diff(force).min(), np.diff(read).min()) > 0 else None
 
 
 def by_axes(null, random):
-    size, z = np.linalg.norm(null.f[:, :2], axis=1), np.abs(null.f[:, 2])
+    """Every other draw's gains go by the force, not by what is read, as the effect has it."""
+    size, z, over_force = np.linalg.norm(null.f[:, :2], axis=1), np.abs(null.f[:, 2]), random.uniform() < 0.5
     sa, sz = size.max(), z.max()
     while True:  # until both are curves of what is read
         across, along = waves(random), waves(random)
 
-        def change(a):
-            laws = (lambda r: a * across(r)), (lambda r: a * (along(r) - along(1)))
-            reads = read_as(size / sa, laws[0]), read_as(z / sz, laws[1])
-            if any(r is None for r in reads):
-                return None
-            times = np.stack([sa * reads[0] / np.maximum(size, 1e-12)] * 2 + [sz * reads[1] / np.maximum(z, 1e-12)], axis=1)
-            return null.f * (np.where(null.f == 0, 1, times) - 1)
+        def tables(a):
+            return readings(lambda r: a * across(r), over_force), readings(lambda r: a * (along(r) - along(1)), over_force)
 
-        sizes = np.linspace(0, 2, 201)[1:]
-        good = [a for a in sizes if change(a) is not None]
+        def change(a):
+            (xa, ya), (xz, yz) = tables(a)
+            times = [sa * np.interp(size / sa, xa, ya) / np.maximum(size, 1e-12)] * 2
+            times.append(sz * np.interp(z / sz, xz, yz) / np.maximum(z, 1e-12))
+            return null.f * (np.where(null.f == 0, 1, np.stack(times, axis=1)) - 1)
+
+        good = [a for a in np.linspace(0, 2, 201)[1:] if all(tables(a))]
         if good and own(change(good[-1]), null) > SIZE * null.noise:
             break
     a = largest(change, null, good[-1])
-    return change(a), {"gain across z": lambda x: np.exp(a * across(np.minimum(x / sa, 1))),
-                       "gain along z": lambda x: np.exp(a * (along(np.minimum(x / sz, 1)) - along(1)))}
+    (xa, ya), (xz, yz) = tables(a)
+
+    def gain(span, x, y):
+        return lambda read: np.exp(np.interp(read / span, y[1:], np.log(y[1:] / x[1:])))
+
+    return change(a), {"gain across z": gain(sa, xa, ya), "gain along z": gain(sz, xz, yz)}
 
 
 def by_memory(null, random):

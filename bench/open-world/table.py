@@ -3,14 +3,14 @@ noise (of the elastic model, and with all that is named).
 
 named: what is missing is the cause, and nothing else; what acts beside it may be told by the curve that contains it.
 set: a set of at most three that are told to look alike, with the cause in it, nothing wrong beside it; wide: such a set
-of more. kind: its kind is said, by what is left or by a curve of no law; alike: so is another, of three at most that
-presses do not tell apart. The kind is said, too, where names are said to stand
-in for a cause of that kind. kin: other effects are named, each of which is first of all of the cause's kind
-(EffectCard::kinds). open: called unexplained without a kind, or with another, or what acts beside it is named and more
-is said to be left. hedged: something wrong is named, but the words say that more is left, or that the set-up would do
-the same; told: so, and the kind of all that the model misses is said. companion: the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model
-leaves no more than noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a
-null called complete; where noise itself is the cause, no name."""
+of more. kind: its kind is said, by what is left, by a curve of no law, or as that of a cause which the names stand in
+for; alike: so is another, of three at most that presses do not tell apart. kin: other effects are named, each of which
+is first of all of the cause's kind (EffectCard::kinds). open: called unexplained without a kind, or with another, or
+what acts beside it is named and more is said to be left. hedged: something wrong is named, but the words say that more
+is left, or that the set-up would do the same; told: so, and the kind of all that the model misses is said. companion:
+the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model leaves no more than
+noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a null called complete;
+where noise itself is the cause, no name."""
 import csv
 import json
 import pathlib
@@ -23,13 +23,15 @@ SAID = {"offset": "set-up offset", "drift": "time session offset", "session-time
         "phase": "history", "cycle": "order", "rate": "speed", "position": "place", "body": "place", "place": "place",
         "press-direction": "direction", "set-up": "set-up axes", "direction": "direction axes", "learned-depth": "depth",
         "learned-kernel": "time history", "learned-drift": "time session offset", "learned-gain": "time session",
-        "learned-place": "place", "learned-axes": "direction axes", "press": "session order", "place-and-way": "place direction", "wander": "frequency session", "zero-of-press": "session order offset"}
+        "learned-place": "place", "learned-axes": "direction axes", "press": "session order",
+        "place-and-way": "place direction", "wander": "frequency session", "zero-of-press": "session order offset"}
 # What acts beside a cause, and the curve that contains it (the effects' cards).
 CONTAINED = {"viscoelastic": "learned-kernel", "sensor-bias": "learned-drift"}
 MOST_ALIKE = 3
 
 
-def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None, stand_ins="", misfit=""):
+def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None,
+          stand_ins="", misfit=""):
     """first: of each effect the first of its kinds; others: kinds that what is left may have as well;
     one_kind: of two names and more."""
     kinds = set(kind.split())

@@ -65,15 +65,14 @@ std::string verdict_name(ModelVerdict verdict) {
 
 namespace {
 
-// What the given model leaves, by laws, beside what the names take of it.
-void doubt_beside_laws(const Fit& given, const TrialGround& g, Diagnosis& d) {
+// What the given model leaves (`now`), by laws, beside what the names take of it.
+void doubt_beside_laws(const Fit& given, LeftOver now, const TrialGround& g, Diagnosis& d) {
   if (d.left.noise_alone()) return;
   std::vector<std::string> named;
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable)
       named.push_back(f.effect);
   if (named.empty()) return;
-  LeftOver now = left_over(given, g);
   tell_kinds(given, g, now);
   const double before = now.error * now.error, after = d.left.error * d.left.error;
   d.misfit = now.kinds;
@@ -104,7 +103,8 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   d.mesh_uncertainty = g.experiment.places.mesh_uncertainty();
   d.rmse = base.fitted.error;
   const Fit given = base.fitted;
-  d.kind_now = left_over(base.fitted, g).kind;
+  const LeftOver now = left_over(given, g);
+  d.kind_now = now.kind;
   d.held_out = base.held_out.error;
   d.held_out_by = folds.by;
   const Eigen::VectorXd measured = measured_forces(g.dataset, all_episodes(g.dataset));
@@ -132,7 +132,7 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   if (!few_presses && !d.left.noise_alone()) {
     tell_kinds(ambiguous ? as_it_is(d.rivals.front(), g.experiment) : base.fitted, g, d.left);
     if (!ambiguous) blame_odd_presses(base.fitted, g, d);
-    doubt_beside_laws(given, g, d);
+    doubt_beside_laws(given, now, g, d);
   }
   d.torque = torque_left(base.fitted, g);
   d.marker = marker_left(base.fitted, g, options.markers);

@@ -39,8 +39,7 @@ struct LeftKind {
 //   reading         an error of each axis by its own force, in forty steps: a converter's
 //   set-up          any 3 x 3 matrix of the force, or of the motion
 //   direction       these two gains alone (than nothing); gains that differ by how far the force
-//   leans, across the normal by which way;
-//                   the law of shared_law.h
+//                   leans, across the normal by which way; the law of shared_law.h
 //   body            six gains of each position (experiment/weights.h); any 3 x 3 matrix, or gains
 //                   along the normal and across it with a turn about it, that change evenly from
 //                   one side of all places to the other

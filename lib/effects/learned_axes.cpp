@@ -93,11 +93,9 @@ class LearnedAxes : public Effect {
         .title = "forces grow by laws of their own along z and across it, everywhere alike",
         .equation =
             "(fx, fy) = (fx, fy)_true exp(P(|(fx, fy)| / sa)), fz = fz_true exp(Q(|fz| / sz)), P "
-            "and "
-            "Q cubic splines over what is read, at 0.04, 0.12, 0.22, 0.34, 0.48, 0.64, 0.82 and 1 "
-            "through a1 to a8, and through z1 to z7 and 0, straight before the first and level "
-            "beyond "
-            "the last; z is that of the recording",
+            "and Q cubic splines over what is read, at 0.04, 0.12, 0.22, 0.34, 0.48, 0.64, 0.82 "
+            "and 1 through a1 to a8, and through z1 to z7 and 0, straight before the first and "
+            "level beyond the last; z is that of the recording",
         .source =
             "regression splines (Hastie, Tibshirani and Friedman, The Elements of "
             "Statistical Learning, 5.2)",
