@@ -48,9 +48,10 @@ ToolSpec specification() {
       "than three that leave more than noise are no answer: they are possible, and what is left is "
       "told.",
       "Where effects are named and more than noise is left, what all of the given model's misfit "
-      "goes with is told beside them, by laws on presses that were left out; where such a law "
-      "foretells plainly more than the effects take, they are said to stand in for a cause of its "
-      "kind which has no name here.",
+      "goes with is told beside them, by laws on presses that were left out. Where none of them is "
+      "of that kind, and the law does no worse than they do, or they and a law of the rest leave "
+      "more than a tenth, they only come near a cause of that kind which has no name here: the "
+      "model is unexplained.",
       "Contact points that lie off the body's surface by more than a hundredth of its least extent "
       "are told. Where the forces do not follow the move of the body that would explain them "
       "(shift), the shape is in doubt: the gain error allows for it, and an effect that a wrong "

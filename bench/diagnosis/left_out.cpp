@@ -38,7 +38,6 @@ bool is_kin(const std::string& hidden, const std::string& named) {
 
 const char* judged(const Trial& t) {
   const std::vector<std::string> missing = words(t.missing), rivals = words(t.rivals);
-  if (is_kind_of(t.effects, t.stand_ins)) return "kind";
   if (!rivals.empty())
     return std::any_of(rivals.begin(), rivals.end(),
                        [&](const std::string& rival) { return is_kin(t.effects, rival); })

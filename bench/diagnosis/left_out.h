@@ -17,8 +17,7 @@ bool is_of_kind(const std::string& hidden, const std::string& learned);
 
 // To standard output: what was said of each, and how often; the kinds are those of the cards
 // (EffectCard::kinds)
-//   kind    no cause is named, and its kind is said or its curve learned; or what is named is said
-//           to stand in for a cause of its kind
+//   kind    no cause is named, and its kind is said or its curve learned
 //   open    no cause is named, and no kind or another is said
 //   set     effects that look alike, one of them first of all of its kind
 //   hedged  something else is named, and it is said that more is left

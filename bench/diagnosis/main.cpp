@@ -165,7 +165,6 @@ Trial run(const Truth& truth, const std::vector<Truth>& all, Pairs& pairs, const
     if (list != nullptr) *list += (list->empty() ? "" : " ") + finding.effect;
   }
   trial.left = d.left.kind;
-  trial.stand_ins = d.stand_ins.kind;
   const double floor = std::hypot(d.noise, d.floor * d.force_rms.told());
   trial.now = d.held_out.told() / floor;
   trial.after = d.held_out_end.told() / floor;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFloors = 1.3;
 const char* const kHeader =
-    "truth,effects,level,seed,verdict,missing,rivals,left,stand_ins,now,after,presses,own_form,"
+    "truth,effects,level,seed,verdict,missing,rivals,left,now,after,presses,own_form,"
     "sized,covered,"
     "seconds";
 
@@ -112,12 +112,11 @@ std::vector<Trial> read_trials(const std::string& path) {
   const CsvTable table = read_csv(input);
   for (std::size_t r = 0; r < table.rows(); ++r) {
     const auto cell = [&](const char* name) { return table.columns[table.find(name)][r]; };
-    trials.push_back({cell("truth"), cell("effects"), std::stod(cell("level")),
-                      std::stoi(cell("seed")), cell("verdict"), cell("missing"), cell("rivals"),
-                      cell("left"), cell("stand_ins"), std::stod(cell("now")),
-                      std::stod(cell("after")), std::stod(cell("presses")),
-                      std::stoi(cell("own_form")), std::stoi(cell("sized")),
-                      std::stoi(cell("covered")), std::stod(cell("seconds"))});
+    trials.push_back(
+        {cell("truth"), cell("effects"), std::stod(cell("level")), std::stoi(cell("seed")),
+         cell("verdict"), cell("missing"), cell("rivals"), cell("left"), std::stod(cell("now")),
+         std::stod(cell("after")), std::stod(cell("presses")), std::stoi(cell("own_form")),
+         std::stoi(cell("sized")), std::stoi(cell("covered")), std::stod(cell("seconds"))});
   }
   return trials;
 }
@@ -126,10 +125,9 @@ void append_trial(const std::string& path, const Trial& t) {
   const bool fresh = !std::filesystem::exists(path);
   std::ofstream out(path, std::ios::app);
   if (fresh) out << kHeader << '\n';
-  out << fmt::format("{},{},{:.3g},{},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{},{},{},{:.2f}\n",
-                     t.truth, t.effects, t.level, t.seed, t.verdict, t.missing, t.rivals, t.left,
-                     t.stand_ins, t.now, t.after, t.presses, t.own_form, t.sized, t.covered,
-                     t.seconds)
+  out << fmt::format("{},{},{:.3g},{},{},{},{},{},{:.3f},{:.3f},{:.3f},{},{},{},{:.2f}\n", t.truth,
+                     t.effects, t.level, t.seed, t.verdict, t.missing, t.rivals, t.left, t.now,
+                     t.after, t.presses, t.own_form, t.sized, t.covered, t.seconds)
       << std::flush;
 }
 

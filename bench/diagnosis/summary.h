@@ -14,7 +14,6 @@ struct Trial {
   std::string missing;         // effects called missing, in order, separated by spaces
   std::string rivals;          // effects called indistinguishable
   std::string left;            // LeftOver::kind of what all that is missing leaves; "": noise
-  std::string stand_ins;       // StandIns::kind: of the cause that the names stand in for
   double now = 0, after = 0;   // error on unseen positions over the floor, before and after adding
   double presses = 0;          // after, on unseen presses of positions that were pressed otherwise
   int own_form = 0;            // 1: what is hidden has a form of the catalogue

@@ -3,7 +3,8 @@
 # CalculiX computed of a block and a ball (bench/independent), diagnosed as a user would; a table at the end. OUT may be
 # that of bench/independent/run.sh. What is there is not made again: delete OUT/worlds/diagnosed to diagnose anew. Causes
 # that no effect of the catalogue covers (strangers.py, newcomers.py, outsiders.py, visitors.py, guests.py,
-# callers.py, strays.py, drifters.py, latecomers.py, passersby.py) come in three sizes over the noise (NAME-2, -4, -8).
+# callers.py, strays.py, drifters.py, latecomers.py, passersby.py, wayfarers.py) come in three sizes over the noise
+# (NAME-2, -4, -8).
 # BODIES=cuboid: that body alone; THIN=1: fewer places and samples, in a third of the time.
 # Recorded in bench/results/open-world.txt.
 set -euo pipefail

@@ -3,14 +3,14 @@ noise (of the elastic model, and with all that is named).
 
 named: what is missing is the cause, and nothing else; what acts beside it may be told by the curve that contains it.
 set: a set of at most three that are told to look alike, with the cause in it, nothing wrong beside it; wide: such a set
-of more. kind: its kind is said, by what is left, by a curve of no law, or as that of a cause which the names stand in
-for; alike: so is another, of three at most that presses do not tell apart. kin: other effects are named, each of which
-is first of all of the cause's kind (EffectCard::kinds). open: called unexplained without a kind, or with another, or
-what acts beside it is named and more is said to be left. hedged: something wrong is named, but the words say that more
-is left, or that the set-up would do the same; told: so, and the kind of all that the model misses is said. companion:
-the cause, and a wrong name beside it, nothing left. unseen: called complete, and the elastic model leaves no more than
-noise (1.1 times), or what acts beside it is named and leaves no more. wrong: the rest. right: a null called complete;
-where noise itself is the cause, no name."""
+of more. kind: its kind is said, by what is left or by a curve of no law; alike: so is another, of three at most that
+presses do not tell apart. kin: other effects are named, each of which is first of all of the cause's kind
+(EffectCard::kinds). open: called unexplained without a kind, or with another, or what acts beside it is named and more
+is said to be left. hedged: something wrong is named, but the words say that more is left, or that the set-up would do
+the same; told: so, and the kind of all that the model misses is said. companion: the cause, and a wrong name beside it,
+nothing left. unseen: called complete, and the elastic model leaves no more than noise (1.1 times), or what acts beside
+it is named and leaves no more. wrong: the rest. right: a null called complete; where noise itself is the cause, no
+name."""
 import csv
 import json
 import pathlib
@@ -31,7 +31,7 @@ MOST_ALIKE = 3
 
 
 def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end=0.0, first=None, others=(), one_kind=None,
-          stand_ins="", misfit=""):
+          misfit=""):
     """first: of each effect the first of its kinds; others: kinds that what is left may have as well;
     one_kind: of two names and more."""
     kinds = set(kind.split())
@@ -58,8 +58,6 @@ def judge(names, kind, missing, alike, verdict, said, hint, error, known=(), end
         if said and tells(said) or good & set(missing):
             return "kind"
         return "alike" if len(others) < MOST_ALIKE and any(tells(other) for other in others) else "open"
-    if stand_ins and tells(stand_ins):
-        return "kind"
     if one_kind and tells(one_kind):  # several names of one kind stand for it
         return "kind"
     if all(name in good | beside or tells((first or {}).get(name, "")) for name in missing + alike):
@@ -83,7 +81,7 @@ def row(out, name, truth):
                   found["rmse_with_missing_effects"] / found["force_noise"],
                   {e["effect"]: e["kinds"][0] for e in found["effects"] if e.get("kinds")},
                   [k["kind"] for k in found.get("left", {}).get("kinds", [])[1:] if k.get("alike")], found.get("one_kind"),
-                  found.get("stand_ins", {}).get("kind", ""), next((k["kind"] for k in found.get("misfit", [])), "")))
+                  next((k["kind"] for k in found.get("misfit", [])), "")))
 
 
 if __name__ == "__main__":

@@ -24,11 +24,12 @@ import stiffnesses
 import strangers
 import strays
 import visitors
+import wayfarers
 
 EVERY = (causes.every_cause() + strangers.every_stranger() + newcomers.every_newcomer() +
          outsiders.every_outsider() + visitors.every_visitor() + guests.every_guest() +
          callers.every_caller() + strays.every_stray() + drifters.every_drifter() +
-         latecomers.every_latecomer() + passersby.every_passerby())
+         latecomers.every_latecomer() + passersby.every_passerby() + wayfarers.every_wayfarer())
 
 
 class Null:

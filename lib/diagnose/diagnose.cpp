@@ -65,18 +65,31 @@ std::string verdict_name(ModelVerdict verdict) {
 
 namespace {
 
-// What the given model leaves (`now`), by laws, beside what the names take of it.
-void doubt_beside_laws(const Fit& given, LeftOver now, const TrialGround& g, Diagnosis& d) {
-  if (d.left.noise_alone()) return;
+bool is_named(const Finding& f) {
+  return f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable;
+}
+
+// What the given model leaves (`now`), by laws, beside what the names take of it. Where these stand
+// in for another cause, what is said is of the given model; whether they do.
+bool doubt_beside_laws(const Baseline& given, LeftOver now, const TrialGround& g, Diagnosis& d) {
+  if (d.left.noise_alone() || !(now.error > 1)) return false;
   std::vector<std::string> named;
   for (const Finding& f : d.findings)
-    if (f.verdict == Verdict::kMissing || f.verdict == Verdict::kIndistinguishable)
-      named.push_back(f.effect);
-  if (named.empty()) return;
-  tell_kinds(given, g, now);
+    if (is_named(f)) named.push_back(f.effect);
+  if (named.empty()) return false;
+  tell_kinds(given.fitted, g, now);
   const double before = now.error * now.error, after = d.left.error * d.left.error;
-  d.misfit = now.kinds;
-  if (before > 1) d.stand_ins = find_stand_ins(d.misfit, named, (before - after) / (before - 1));
+  d.stand_ins = find_stand_ins(now.kinds, named, (before - after) / (before - 1), d.left.kinds);
+  if (d.stand_ins.kind.empty()) {
+    d.misfit = now.kinds;
+    return false;
+  }
+  for (Finding& f : d.findings)
+    if (is_named(f)) doubt("what the model misses is of another kind", f);
+  put_in_order(d.findings);
+  d.rivals.clear();
+  d.left = now;
+  return true;
 }
 
 // Presses unlike all others are what is left, where the model is right without them.
@@ -102,8 +115,8 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
   d.shape = g.experiment.shape;
   d.mesh_uncertainty = g.experiment.places.mesh_uncertainty();
   d.rmse = base.fitted.error;
-  const Fit given = base.fitted;
-  const LeftOver now = left_over(given, g);
+  const Baseline given = base;
+  const LeftOver now = left_over(given.fitted, g);
   d.kind_now = now.kind;
   d.held_out = base.held_out.error;
   d.held_out_by = folds.by;
@@ -124,16 +137,17 @@ Diagnosis with_allowance(const Model& model, const TrialGround& g, const Diagnos
     curves_for_laws(base, g, folds, options, d);
     doubt_beside_curves(base, g, folds, d);
   }
+  if (few_presses || d.rivals.empty()) d.left = left_over(base.fitted, g);
+  if (!few_presses && !d.left.noise_alone()) {
+    tell_kinds(d.rivals.empty() ? base.fitted : as_it_is(d.rivals.front(), g.experiment), g,
+               d.left);
+    if (d.rivals.empty()) blame_odd_presses(base.fitted, g, d);
+    if (d.odd_presses.empty() && doubt_beside_laws(given, now, g, d)) base = given;
+  }
   const bool ambiguous = !d.rivals.empty();
-  if (d.rivals.empty()) d.rivals.push_back(base.fitted.model);
+  if (!ambiguous) d.rivals.push_back(base.fitted.model);
   d.rmse_end = base.fitted.error;
   if (!few_presses) d.held_out_end = base.held_out.error;
-  if (few_presses || !ambiguous) d.left = left_over(base.fitted, g);
-  if (!few_presses && !d.left.noise_alone()) {
-    tell_kinds(ambiguous ? as_it_is(d.rivals.front(), g.experiment) : base.fitted, g, d.left);
-    if (!ambiguous) blame_odd_presses(base.fitted, g, d);
-    doubt_beside_laws(given, now, g, d);
-  }
   d.torque = torque_left(base.fitted, g);
   d.marker = marker_left(base.fitted, g, options.markers);
   const bool missing =

@@ -94,9 +94,9 @@ struct Diagnosis {
   LeftOver left;     // with all missing effects, of an ambiguous verdict with the best rival
   OneKind one_kind;  // of the missing effects
   // Kinds of all that the model as given misses, where effects are named and more than noise is
-  // left beside them; whether these stand in for a cause of the first kind.
+  // left beside them.
   std::vector<LeftKind> misfit;
-  StandIns stand_ins;
+  StandIns stand_ins;  // the verdict is `unexplained` then
   std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
   TorqueLeft torque;             // of the same model, where torques were measured
   MarkerLeft marker;             // of the same model, where points were seen

@@ -202,8 +202,10 @@ std::string diagnosis_json(const Diagnosis& d, const DiagnosedFiles& files) {
                {"kinds", kinds_json(d.left.kinds)}};
   j["misfit"] = kinds_json(d.misfit);
   j["one_kind"] = d.one_kind.kind;
-  j["stand_ins"] = {
-      {"kind", d.stand_ins.kind}, {"law", d.stand_ins.law}, {"named", d.stand_ins.named}};
+  j["stand_ins"] = {{"kind", d.stand_ins.kind},
+                    {"effects", d.stand_ins.effects},
+                    {"law", d.stand_ins.law},
+                    {"named", d.stand_ins.named}};
   j["odd_presses"] = d.odd_presses;
   j["effects"] = nlohmann::json::array();
   for (const Finding& f : d.findings) j["effects"].push_back(finding_json(f, files));

@@ -115,45 +115,6 @@ Columns by_reading(const LawSamples& s) {
   return c;
 }
 
-Columns by_matrix(const LawSamples& s) {
-  Columns c;
-  for (Eigen::Index to = 0; to < 3; ++to)
-    for (Eigen::Index from = 0; from < 3; ++from) {
-      c.emplace_back(Vectors::Zero(3, s.f.cols()));
-      c.back().row(to) = s.f.row(from);
-    }
-  return c;
-}
-
-// What any 3 x 3 matrix of the motion does, by the place's own stiffness along the normal and
-// across it: of a sample that goes along the normal alone the one across is by the ratio of all.
-Columns by_motion(const LawSamples& s) {
-  constexpr double kSideways = 0.1;  // of the motion, to tell a stiffness
-  const Eigen::Index count = s.f.cols();
-  Column along = Column::Zero(count), across = Column::Zero(count);
-  double products = 0, squares = 0;
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Vec3 n = s.normal.col(i), u = s.u.col(i), side = u - n.dot(u) * n;
-    const double down = n.dot(u);
-    if (std::abs(down) > kSideways * u.norm()) along[i] = n.dot(Vec3(s.f.col(i))) / down;
-    if (side.norm() > kSideways * u.norm()) across[i] = s.across.col(i).norm() / side.norm();
-    products += std::abs(along[i]) * across[i];
-    squares += across[i] > 0 ? along[i] * along[i] : 0;
-  }
-  const double ratio = squares > 0 ? products / squares : 0;
-  Columns c;
-  for (Eigen::Index to = 0; to < 3; ++to)
-    for (Eigen::Index from = 0; from < 3; ++from) {
-      c.emplace_back(Vectors::Zero(3, count));
-      for (Eigen::Index i = 0; i < count; ++i) {
-        const Vec3 n = s.normal.col(i), e = Vec3::Unit(to);
-        const double aside = std::copysign(across[i] > 0 ? across[i] : ratio * along[i], along[i]);
-        c.back().col(i) = s.u(from, i) * (along[i] * n[to] * n + aside * (e - n[to] * n));
-      }
-    }
-  return c;
-}
-
 // Gains along the normal and across it, and a turn about it.
 Columns about_normal(const LawSamples& s) {
   Vectors turned(3, s.f.cols());
@@ -172,6 +133,15 @@ std::vector<Column> slopes(const LawSamples& s) {
     const double half = (x.maxCoeff() - x.minCoeff()) / 2;
     if (half > 0) found.emplace_back((x.array() - x.minCoeff()) / half - 1);
   }
+  return found;
+}
+
+// The same, and what curves over the places.
+std::vector<Column> curved(const LawSamples& s) {
+  std::vector<Column> found = slopes(s);
+  const std::size_t straight = found.size();
+  for (std::size_t a = 1; a < straight; ++a)
+    for (std::size_t b = a; b < straight; ++b) found.emplace_back(found[a].cwiseProduct(found[b]));
   return found;
 }
 
@@ -260,6 +230,10 @@ std::vector<KindLaw> kind_laws(const LawSamples& s, const Eigen::VectorXd& force
   for (const Columns& what : {by_matrix(s), about_normal(s)})
     add(
         kBody, [&s, what] { return times(slopes(s), what); }, [what] { return what; });
+  const std::vector<Column> deep = hats(s.depth, quantiles(s.depth, 4));
+  add(
+      kBody, [&s, deep] { return times(products(curved(s), deep), gains(s)); },
+      [&s, deep] { return times(deep, gains(s)); });
   add("history", [&] { return by_history(s, forces, dataset); });
   add("reading", [&] { return by_reading(s); });
   add_order_laws(s, laws);

@@ -1,6 +1,7 @@
 #include "diagnose/law_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hapsim::law {
@@ -53,6 +54,43 @@ Columns zeros(const LawSamples& s) {
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     c[static_cast<std::size_t>(axis)].row(axis).setOnes();
   c.push_back(s.normal);
+  return c;
+}
+
+Columns by_matrix(const LawSamples& s) {
+  Columns c;
+  for (Eigen::Index to = 0; to < 3; ++to)
+    for (Eigen::Index from = 0; from < 3; ++from) {
+      c.emplace_back(Vectors::Zero(3, s.f.cols()));
+      c.back().row(to) = s.f.row(from);
+    }
+  return c;
+}
+
+Columns by_motion(const LawSamples& s) {
+  constexpr double kSideways = 0.1;  // of the motion, to tell a stiffness
+  const Eigen::Index count = s.f.cols();
+  Column along = Column::Zero(count), across = Column::Zero(count);
+  double products = 0, squares = 0;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Vec3 n = s.normal.col(i), u = s.u.col(i), side = u - n.dot(u) * n;
+    const double down = n.dot(u);
+    if (std::abs(down) > kSideways * u.norm()) along[i] = n.dot(Vec3(s.f.col(i))) / down;
+    if (side.norm() > kSideways * u.norm()) across[i] = s.across.col(i).norm() / side.norm();
+    products += std::abs(along[i]) * across[i];
+    squares += across[i] > 0 ? along[i] * along[i] : 0;
+  }
+  const double ratio = squares > 0 ? products / squares : 0;
+  Columns c;
+  for (Eigen::Index to = 0; to < 3; ++to)
+    for (Eigen::Index from = 0; from < 3; ++from) {
+      c.emplace_back(Vectors::Zero(3, count));
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Vec3 n = s.normal.col(i), e = Vec3::Unit(to);
+        const double aside = std::copysign(across[i] > 0 ? across[i] : ratio * along[i], along[i]);
+        c.back().col(i) = s.u(from, i) * (along[i] * n[to] * n + aside * (e - n[to] * n));
+      }
+    }
   return c;
 }
 

@@ -28,6 +28,11 @@ Column slants(const LawSamples& samples);
 Columns gains(const LawSamples& samples);
 Columns gains_of_axes(const LawSamples& samples);
 Columns zeros(const LawSamples& samples);
+// What any 3 x 3 matrix of the force does; any of the motion, by the place's own stiffness along
+// the normal and across it: of a sample that goes along the normal alone the one across is by the
+// ratio of all.
+Columns by_matrix(const LawSamples& samples);
+Columns by_motion(const LawSamples& samples);
 
 Columns join(Columns a, const Columns& b);
 Columns times(const std::vector<Column>& factors, const Columns& what);

@@ -42,7 +42,7 @@ struct LeftKind {
 //                   leans, across the normal by which way; the law of shared_law.h
 //   body            six gains of each position (experiment/weights.h); any 3 x 3 matrix, or gains
 //                   along the normal and across it with a turn about it, that change evenly from
-//                   one side of all places to the other
+//                   one side of all places to the other; gains by depth that change so, or curve
 //   press, place-and-way, zero-of-press, wander
 //                   what each press has of its own (diagnose/own_laws.h), where no law of unseen
 //                   presses foretells half

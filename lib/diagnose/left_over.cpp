@@ -12,6 +12,7 @@
 #include "diagnose/gates.h"
 #include "diagnose/left_line.h"
 #include "diagnose/measure.h"
+#include "diagnose/press_lines.h"
 #include "estimate/probability.h"
 
 namespace hapsim {
@@ -314,6 +315,32 @@ LeftOver left_over(const Fit& fitted, const TrialGround& g) {
   return left;
 }
 
+namespace {
+
+// "frequency" of a swing that is no line, where laws say little.
+void tell_swing(const Eigen::VectorXd& residual, const TrialGround& g, LeftOver& left) {
+  const double noise = g.allowance.noise;
+  const bool other = left.kind == kEvent || left.kind == kFrequency || left.kind == "place";
+  if (other || (!left.kinds.empty() && left.kinds.front().share >= kMostOfIt)) return;
+  const double swing = left.kind == "left" ? swing_left(residual, g.dataset, noise) : 0;
+  const PressLines lines = swing > 0 ? PressLines{} : find_press_lines(residual, g.dataset, noise);
+  if (swing == 0 && lines.share < kMostOfIt) return;
+  left.kind = kFrequency;
+  left.observed += left.observed.empty() ? "." : "";
+  left.observed +=
+      swing > 0
+          ? fmt::format(
+                " It swings about {:.2g} Hz, not steadily: look at what turns or hums only at "
+                "times, or at a speed that changes",
+                swing)
+          : fmt::format(
+                " It swings in each press at a rate of its own, {:.2g} to {:.2g} Hz: look at "
+                "what beats, breathes or turns now faster, now slower, and record that",
+                lines.slowest, lines.fastest);
+}
+
+}  // namespace
+
 void tell_kinds(const Fit& fitted, const TrialGround& g, LeftOver& left) {
   if (left.noise_alone()) return;
   const Selection all = all_episodes(g.dataset);
@@ -329,14 +356,7 @@ void tell_kinds(const Fit& fitted, const TrialGround& g, LeftOver& left) {
     else if (could_be_tried(g.dataset) || !is({kBody, kSetUp}))
       left.kind = "left";
   }
-  const double swing = is({"left"}) ? swing_left(residual, g.dataset, g.allowance.noise) : 0;
-  if (swing > 0) {
-    left.kind = kFrequency;
-    left.observed += fmt::format(
-        "{} It swings about {:.2g} Hz, not steadily: look at what turns or hums only at times, or "
-        "at a speed that changes",
-        left.observed.empty() ? "." : "", swing);
-  }
+  tell_swing(residual, g, left);
   left.words = words_of(left);
 }
 

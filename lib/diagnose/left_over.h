@@ -52,7 +52,8 @@ LeftOver left_over(const Fit& fitted, const TrialGround& ground);
 
 // Adds what presses that were left out say (kinds_of()), with words. The kind becomes the first of
 // them, unless it is an event, a line or one place; where they say nothing of what no gains of
-// places or of all account for, "frequency" of a swing that is no line, or "left".
+// places or of all account for, "frequency" of a swing that is no line, or "left"; where they say
+// less than half, "frequency" of a line that each press has of its own (find_press_lines()).
 void tell_kinds(const Fit& fitted, const TrialGround& ground, LeftOver& left);
 
 }  // namespace hapsim

@@ -100,12 +100,6 @@ bool claims_a_size(const std::string& effect) {
   return !card.learned && !card.is_map && !card.is_field;
 }
 
-void doubt(const std::string& why, Finding& f) {
-  f.doubted = f.verdict == Verdict::kMissing;
-  f.verdict = Verdict::kPossible;
-  f.evidence += "; " + why + ": it may stand for another cause";
-}
-
 std::string words_of(const SizeSpread& spread) {
   return fmt::format("more than noise is left, and its size differs by {:.0f} % between {}",
                      100 * spread.share, spread.among);
@@ -141,6 +135,12 @@ void doubt_rivals(const TrialGround& g, Diagnosis& d) {
 }
 
 }  // namespace
+
+void doubt(const std::string& why, Finding& f) {
+  f.doubted = f.verdict == Verdict::kMissing;
+  f.verdict = Verdict::kPossible;
+  f.evidence += "; " + why + ": it may stand for another cause";
+}
 
 const Finding* outweighed(const Baseline& base, const TrialGround& g,
                           const std::vector<Finding>& findings) {

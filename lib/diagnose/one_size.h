@@ -24,6 +24,9 @@ struct SizeSpread {
 // and axes. `effect` is in the model.
 SizeSpread size_spread(const std::string& effect, const Fit& fitted, const TrialGround& ground);
 
+// What was found is possible only, for that reason.
+void doubt(const std::string& why, Finding& finding);
+
 // The last finding that is missing and takes less away, with all of its terms, than `base`, the
 // model with all of them, leaves beyond noise (squares); null: none. It may stand for anything, as
 // a name or as a curve of no law; of maps and fields nothing is said.

@@ -20,7 +20,6 @@ constexpr double kTemper = 15;
 // of the misfit at least, and less.
 constexpr double kMissingAlone = 0.97, kMissingOfSeveral = 0.8;
 constexpr double kMissingAndMore = 0.75, kMissingOfLittle = 0.25;
-constexpr double kStandsIn = 0.1;  // for a cause that has no name, or is one of a set that does
 // Beside a value of each press, which takes what any cause leaves that differs by press.
 constexpr double kBesideValues = kMissingOfLittle;
 constexpr double kOneOfTwo = 0.5, kOneOfMany = 0.1;  // of one kind
@@ -44,7 +43,6 @@ double of_missing(const Diagnosis& d, const Finding& finding) {
     if (f.verdict == Verdict::kMissing) named.insert(f.effect);
   const double alone = named.size() > 1 ? kMissingOfSeveral : kMissingAlone,
                and_more = finding.share < kLittle ? kMissingOfLittle : kMissingAndMore;
-  if (!d.stand_ins.kind.empty()) return kStandsIn;
   const auto is_per_press = [](const std::string& effect) {
     return require_effect(effect).card().per_press;
   };
@@ -71,9 +69,7 @@ void set_probabilities(Diagnosis& d) {
                         : alone                              ? kAbsentAlone
                                                              : kAbsentAndMore,
                possible = alone ? kPossibleAlone : kPossibleAndMore,
-               set_holds = alone                      ? kSetHolds
-                           : d.stand_ins.kind.empty() ? kSetAndMoreHolds
-                                                      : kStandsIn;
+               set_holds = alone ? kSetHolds : kSetAndMoreHolds;
   std::vector<const Finding*> rivals;
   for (const Finding& f : d.findings)
     if (f.verdict == Verdict::kIndistinguishable && !is_doubted(f)) rivals.push_back(&f);
@@ -113,14 +109,12 @@ std::string probability_in_words() {
       "{:g} of what takes less than half of the misfit or stands beside a value of each press; "
       "{:g} where two are of one kind, {:g} of "
       "more, less where others passed beside it; a set that cannot be told apart holds it in {:g} "
-      "% of these, {:g} where more is left, shared by the likelihoods; {:g} of what stands in for "
-      "a "
-      "cause of another kind, or of a set that does; possible {:g} %, {:g} where "
+      "% of these, {:g} where more is left, shared by the likelihoods; possible {:g} %, {:g} where "
       "more is left; absent "
       "{:g} % of a complete model, {:g} where noise alone is left, {:g} where more is. Empty of "
       "fewer than {} presses",
       100 * kMissingAlone, 100 * kMissingOfSeveral, 100 * kMissingAndMore, 100 * kMissingOfLittle,
-      100 * kOneOfTwo, 100 * kOneOfMany, 100 * kSetHolds, 100 * kSetAndMoreHolds, 100 * kStandsIn,
+      100 * kOneOfTwo, 100 * kOneOfMany, 100 * kSetHolds, 100 * kSetAndMoreHolds,
       100 * kPossibleAlone, 100 * kPossibleAndMore, 100 * kAbsentOfComplete, 100 * kAbsentAlone,
       100 * kAbsentAndMore, kLeastPresses);
 }

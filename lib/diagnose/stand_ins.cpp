@@ -5,40 +5,60 @@
 #include <algorithm>
 #include <array>
 
+#include "diagnose/gates.h"
 #include "diagnose/left_over.h"
 #include "effects/catalogue.h"
 
 namespace hapsim {
+namespace {
 
-StandIns find_stand_ins(const std::vector<LeftKind>& misfit,
-                        const std::vector<std::string>& effects, double named) {
-  constexpr double kMore = 0.1, kTimes = 2;
-  if (misfit.empty() || effects.empty()) return {};
-  const LeftKind& best = misfit.front();
-  const auto is_best = [&](const std::string& kind) { return kind == best.kind; };
-  const std::array<std::string, 4> own{kPress, kZeroOfPress, kPlaceAndWay, kWander};
-  if (std::any_of(own.begin(), own.end(), is_best) ||
-      std::any_of(effects.begin(), effects.end(), [&](const std::string& effect) {
-        const std::vector<std::string>& kinds = require_effect(effect).card().kinds;
-        return !kinds.empty() && is_best(kinds.front());
-      }))
-    return {};
-  if (best.share - named < kMore || 1 - named < kTimes * (1 - best.share)) return {};
-  return {best.kind, best.share, named};
+// any: of its card's kinds, not of the first alone.
+bool is_of_kind(const std::string& effect, const std::string& kind, bool any) {
+  const std::vector<std::string>& kinds = require_effect(effect).card().kinds;
+  const auto end = any || kinds.empty() ? kinds.end() : kinds.begin() + 1;
+  return std::find(kinds.begin(), end, kind) != end;
 }
 
-std::string misfit_words(const std::vector<LeftKind>& misfit, const StandIns& s) {
-  if (misfit.empty()) return "";
-  if (s.kind.empty())
-    return fmt::format(
-        " All that the given model misses goes with {}: on presses that were left out that alone "
-        "foretells {:.0f} % of it.",
-        goes_with(misfit.front().kind), 100 * misfit.front().share);
+}  // namespace
+
+StandIns find_stand_ins(const std::vector<LeftKind>& misfit,
+                        const std::vector<std::string>& effects, double named,
+                        const std::vector<LeftKind>& left) {
+  constexpr double kPlainly = 0.1;
+  if (misfit.empty() || effects.empty()) return {};
+  const LeftKind& best = misfit.front();
+  const bool plainly = best.share - named > kPlainly && 1 - named > 2 * (1 - best.share);
+  const std::array<std::string, 4> own{kPress, kZeroOfPress, kPlaceAndWay, kWander};
+  if (best.share < kMostOfIt || std::find(own.begin(), own.end(), best.kind) != own.end() ||
+      std::any_of(effects.begin(), effects.end(), [&](const std::string& effect) {
+        return is_of_kind(effect, best.kind, require_effect(effect).card().learned && !plainly);
+      }))
+    return {};
+  double foretold = 0;  // of what is left
+  for (const LeftKind& kind : left) foretold = std::max(foretold, kind.share);
+  if (best.share < named && (1 - named) * (1 - foretold) <= kPlainly) return {};
+  return {best.kind, effects, best.share, named};
+}
+
+std::string stand_in_words(const StandIns& s) {
+  if (s.kind.empty()) return "";
+  std::string names;
+  for (const std::string& effect : s.effects) names += (names.empty() ? "" : ", ") + effect;
   return fmt::format(
-      " But what the given model misses goes with {}: on presses that were left out that alone "
-      "foretells {:.0f} % of it, while what is named here takes {:.0f} %. So the names stand in "
-      "for a cause of that kind which has none here.",
-      goes_with(s.kind), 100 * s.law, 100 * std::max(0.0, s.named));
+      " Of the catalogue, {} came nearest, with {:.0f} % of it where it was fitted{}: no name of "
+      "the "
+      "cause, which goes with {} and has none here.",
+      names, 100 * std::max(0.0, s.named), s.law < s.named ? ", and no law foretells the rest" : "",
+      goes_with(s.kind));
+}
+
+std::string misfit_words(const std::vector<LeftKind>& misfit) {
+  return misfit.empty()
+             ? ""
+             : fmt::format(
+                   " All that the given model misses goes with {}: on presses that were left out "
+                   "that alone foretells {:.0f} % of it.",
+                   goes_with(misfit.front().kind), 100 * misfit.front().share);
 }
 
 }  // namespace hapsim

@@ -247,7 +247,8 @@ std::string describe_verdict(const Diagnosis& d) {
              "the data cannot tell " + rivals + " apart; see the next measurement." +
              set_up_words(d) + (left.empty() ? "" : " None of them explains all: " + d.left.words);
     case ModelVerdict::kUnexplained:
-      return "none of the effects it knows explains the error: " + d.left.words + doubted_words(d);
+      return "none of the effects it knows explains the error: " + d.left.words +
+             (d.stand_ins.kind.empty() ? doubted_words(d) : stand_in_words(d.stand_ins));
     default:
       return kNothingMissing +
              (d.left.error < kLikeNoise
@@ -315,7 +316,7 @@ std::string explain_verdict(const Diagnosis& d, const Noise& noise) {
                                      : describe_verdict(d);
   if (!torques_alone && !d.torque.words.empty()) words += " " + d.torque.words;
   if (!points_alone && !d.marker.words.empty()) words += " " + d.marker.words;
-  return words + converter_words(noise) + misfit_words(d.misfit, d.stand_ins) + one_kind_words(d);
+  return words + converter_words(noise) + misfit_words(d.misfit) + one_kind_words(d);
 }
 
 }  // namespace hapsim

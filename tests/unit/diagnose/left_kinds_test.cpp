@@ -132,6 +132,16 @@ TEST(LeftKinds, ATurnThatGrowsFromPlaceToPlaceGoesWithThePlace) {
   EXPECT_GT(kinds.front().share, 0.9);
 }
 
+// A body that curls off its plate towards its rim and is pressed down to it first.
+TEST(LeftKinds, AGapThatDiffersByPlaceGoesWithThePlace) {
+  const auto kinds = kinds_left([](const Sample& s) {
+    const double out = (s.place.x() - 0.04) / 0.02, gap = 0.3 * out * out;
+    return Vec3(-0.8 * std::min(1.0, gap / std::max(s.depth, 1e-3)) * s.f);
+  });
+  ASSERT_EQ(first_of(kinds), kBody);
+  EXPECT_GT(kinds.front().share, 0.6);
+}
+
 // Coulomb's friction of a guide: against the way it last went, and kept while it stands.
 TEST(LeftKinds, AGuideThatDragsGoesWithThePhase) {
   double before = 0, against = 0;

@@ -7,7 +7,6 @@
 
 #include "diagnose/left_over.h"
 #include "diagnose/of_one_kind.h"
-#include "diagnose/stand_ins.h"
 
 namespace hapsim {
 namespace {
@@ -71,21 +70,6 @@ TEST(Probability, SeveralAreLessSureThanOneAndThoseOfOneKindLeast) {
   EXPECT_LT(d.findings[0].probability, 0.2);
 }
 
-TEST(Probability, WhatStandsInForACauseOfAnotherKindIsUnlikely) {
-  Diagnosis d;
-  d.left.structured = true;
-  d.findings = {finding("tare", Verdict::kMissing, 500)};
-  d.findings.front().share = 0.7;
-  set_probabilities(d);
-  EXPECT_GT(d.findings.front().probability, 0.5);
-  d.stand_ins = find_stand_ins({{"rate", 0.93, true}}, {"tare"}, 0.7);
-  set_probabilities(d);
-  EXPECT_LT(d.findings.front().probability, 0.2);
-  EXPECT_NE(misfit_words({{"rate", 0.93, true}}, d.stand_ins).find("stand in"), std::string::npos);
-  EXPECT_NE(misfit_words({{"rate", 0.93, true}}, {}).find("goes with the speed"),
-            std::string::npos);
-}
-
 // It may take what the cause leaves that the other name comes near.
 TEST(Probability, BesideAValueOfEachPressOthersAreUnlikely) {
   Diagnosis d;
@@ -93,16 +77,6 @@ TEST(Probability, BesideAValueOfEachPressOthersAreUnlikely) {
   set_probabilities(d);
   EXPECT_GT(d.findings[0].probability, 0.7);
   EXPECT_LT(d.findings[1].probability, 0.3);
-}
-
-TEST(StandIns, NeedALawOfAnotherKindThatForetellsPlainlyMore) {
-  EXPECT_EQ(find_stand_ins({{"rate", 0.93, true}}, {"tare", "tip"}, 0.7).kind, "rate");
-  EXPECT_EQ(find_stand_ins({{"rate", 0.93, true}}, {"tare"}, 0.88).kind, "");  // as much
-  EXPECT_EQ(find_stand_ins({{"rate", 0.6, true}}, {"tare"}, 0.45).kind, "");   // leaves as much
-  EXPECT_EQ(find_stand_ins({{kPress, 1.0, true}}, {"tip"}, 0.7).kind, "");     // of each press
-  EXPECT_EQ(find_stand_ins({{"depth", 1.0, true}}, {"learned-depth"}, 0.7).kind, "");
-  EXPECT_EQ(find_stand_ins({}, {"tip"}, 0.7).kind, "");
-  EXPECT_EQ(misfit_words({}, {}), "");
 }
 
 }  // namespace
