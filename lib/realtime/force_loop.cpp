@@ -78,6 +78,8 @@ ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options,
   state_.driver.fill(Vec3::Zero());
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
   if (!steps_.empty()) strain_memory_ = steps_.back().memory + steps_.back().step->memory();
+  touches_otherwise_ = body.large_strain() != nullptr &&
+                       std::any_of(body.effects().begin(), body.effects().end(), touches_otherwise);
   const bool remembers = body.large_strain() != nullptr && body.large_strain()->remembers();
   const std::size_t strain = remembers ? (1 + body.terms().size()) * kStrainNumbers : 0;
   state_.memory.resize(strain_memory_ + strain, 0);
@@ -129,7 +131,7 @@ Vec3 ForceLoop::body_force(const StepSample& sample, const Vec3& u, double& doub
     if (body_.large_strain()->remembers()) strain_memory(sample, u, strained);
     f = -strained.f;
     doubt = strained.doubt;
-    if (!strained.within) mark_beyond_law();
+    if (!strained.within || touches_otherwise_) mark_beyond_law();
   }
   if (body_.is_regional()) f += regional_memory(sample, u);
   return f;

@@ -76,6 +76,7 @@ class ForceLoop : public ToolLoop {
   LargeStrain::Place strain_;       // of state_.place
   LargeStrain::Memory remembered_;  // where the body relaxes too
   std::size_t strain_memory_ = 0;   // where its own begins in state_.memory
+  bool touches_otherwise_ = false;  // than what was pressed beforehand (large_strain.h)
   double stiffness_ = 1, moduli_ = 1, times_ = 1;
 };
 

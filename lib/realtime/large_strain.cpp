@@ -56,6 +56,12 @@ bool is_finite_strain(const EffectInstance& effect) {
   return effect.effect->full(effect.values, 1, spec) && spec.finite;
 }
 
+bool touches_otherwise(const EffectInstance& effect) {
+  FullSpec spec;
+  return effect.effect->full(effect.values, 1, spec) &&
+         (std::isfinite(spec.friction) || spec.curvature != 0);
+}
+
 Model static_part(const Model& model) {
   std::set<std::string> kept;
   bool finite = false;

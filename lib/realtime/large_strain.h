@@ -134,6 +134,9 @@ class LargeStrain {
 
 // Its law is one of finite strain, which elements solve as it is (FullSpec::finite).
 bool is_finite_strain(const EffectInstance& effect);
+// Elements were pressed by a flat tool that holds, and the effect's tool is another (it slips, it
+// is a ball): at finite strain its law beside them was not verified.
+bool touches_otherwise(const EffectInstance& effect);
 
 // The part of a model that stands still: body and support without what relaxes, to be solved by
 // elements of finite strain. Error(kBadInput) without hyperelastic, finite = 1.

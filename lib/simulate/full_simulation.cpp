@@ -37,6 +37,15 @@ void straighten(TetMesh& mesh) {
           0.5 * (mesh.nodes[t[kTetEdges[e][0]]] + mesh.nodes[t[kTetEdges[e][1]]]);
 }
 
+// Of a flat tool: to its outermost node. The rim is a polygon of the circle's area, whose corners
+// lie outside of the circle.
+double reach_of(const TetMesh& mesh, const FullContact& contact) {
+  double farthest = 0;
+  for (const int n : contact.nodes)
+    farthest = std::max(farthest, (mesh.nodes[n] - contact.point).norm());
+  return farthest * (1 + 1e-9);
+}
+
 class Simulation {
  public:
   Simulation(const TetMesh& body, const Model& model, const Recording& recording,
@@ -90,6 +99,12 @@ class Simulation {
   Session& session() { return *session_; }
 
  private:
+  bool bonded() const {
+    return full_.spec().curvature == 0 && !std::isfinite(full_.spec().friction);
+  }
+  // A flat tool that slips at finite strain leaves the stress that quarter points are for.
+  bool slips_far() const { return full_.spec().finite && full_.spec().curvature == 0 && !bonded(); }
+
   void prepare(const ToolSteps& steps) {
     session_ = std::make_unique<Session>();
     Session& s = *session_;
@@ -98,7 +113,7 @@ class Simulation {
       s.own = make_contact_mesh(
           full_.base(), recording_.position[rows[0]], radius_, radius_ * options_.rim_edge,
           options_.growth > 0 ? options_.growth : kGrowth * options_.rim_edge / kRimEdge);
-      if (!options_.quarter_points) straighten(s.own.mesh);
+      if (!options_.quarter_points || slips_far()) straighten(s.own.mesh);
       s.mesh = &s.own.mesh;
       s.contacts = {{s.own.point, s.own.normal, s.own.patch_nodes}};
     } else {
@@ -110,16 +125,15 @@ class Simulation {
                    "mesh it with hs-tetmesh --contacts, or check the contact point");
       }
     }
-    const bool bonded = full_.spec().curvature == 0 && !std::isfinite(full_.spec().friction);
-    if (bonded) refuse_shared_nodes(rows);
+    if (bonded()) refuse_shared_nodes(rows);
     std::vector<BodyTool> tools;
     for (const FullContact& c : s.contacts) {
       BodyTool tool;
-      if (bonded)
+      if (bonded())
         tool.nodes = c.nodes;
       else if (full_.spec().curvature == 0)
         tool.tip =
-            SphericalTip{c.point, c.normal, kSticks, radius_ * (1 + 1e-6), full_.spec().friction};
+            SphericalTip{c.point, c.normal, kSticks, reach_of(*s.mesh, c), full_.spec().friction};
       else
         tool.tip = SphericalTip{c.point, c.normal, 1 / full_.spec().curvature, 1.6 * radius_,
                                 full_.spec().friction};

@@ -29,7 +29,8 @@ struct FullOptions {
   double rim_edge = 1.0 / 6;  // of that mesh, over the tool's radius
   double growth = 0;          // of its edges with the distance from there; 0: with rim_edge
   // At the rim, which follow the stress of the linear body there. At finite strain forces converge
-  // more slowly with them, and the tangent fails at half the depth or less.
+  // more slowly with them, and the tangent fails at half the depth or less: of a flat tool that
+  // slips there are none then.
   bool quarter_points = true;
   bool averaged = true;  // mean dilatation (dilatation.h), so that elements do not lock
   const ContactBase* base = nullptr;  // of the body; null: it is made

@@ -190,6 +190,11 @@ inline void tell_large_strain(const Arguments& arguments, const PreparedBody& bo
                   strain->samples(), 100 * strain->left_out_error());
   if (strain->left_out_error() > arguments[flag::accuracy])
     words += fmt::format(", not the {:g} % of --accuracy", 100 * arguments[flag::accuracy]);
+  for (const EffectInstance& i : body.effects())
+    if (touches_otherwise(i))
+      words += fmt::format(
+          "; they were pressed by a flat tool that holds, so with {} every row is flagged 32",
+          i.effect->card().name);
   say(arguments, "hs-simulate", words);
 }
 
