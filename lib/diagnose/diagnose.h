@@ -96,7 +96,7 @@ struct Diagnosis {
   // Kinds of all that the model as given misses, where effects are named and more than noise is
   // left beside them.
   std::vector<LeftKind> misfit;
-  StandIns stand_ins;  // the verdict is `unexplained` then
+  StandIns stand_ins;            // the verdict is `unexplained` then
   std::vector<int> odd_presses;  // what is left is theirs (diagnose/odd_presses.h)
   TorqueLeft torque;             // of the same model, where torques were measured
   MarkerLeft marker;             // of the same model, where points were seen

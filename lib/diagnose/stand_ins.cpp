@@ -45,9 +45,8 @@ std::string stand_in_words(const StandIns& s) {
   std::string names;
   for (const std::string& effect : s.effects) names += (names.empty() ? "" : ", ") + effect;
   return fmt::format(
-      " Of the catalogue, {} came nearest, with {:.0f} % of it where it was fitted{}: no name of "
-      "the "
-      "cause, which goes with {} and has none here.",
+      " Of the catalogue, {} came nearest, with {:.0f} % of it where it was fitted{}: no name "
+      "of the cause, which goes with {} and has none here.",
       names, 100 * std::max(0.0, s.named), s.law < s.named ? ", and no law foretells the rest" : "",
       goes_with(s.kind));
 }
