@@ -40,6 +40,14 @@ awk -F, '/^[0-9]/ { deep = -$8; flagged = int($13 / 32) % 2
 "$bin/hs-simulate" "${common[@]}" -o law.csv 2>err || complain 'the law'
 cmp -s first.csv law.csv && complain 'the law is what it was asked to replace'
 
+# A tool that slips was not pressed: the places are the same, and every row is flagged.
+{ cat model.csv; echo 'friction,0,mu,0.4,1,,0.001,1000,fixed'; } >slips.csv
+"$bin/hs-simulate" "${common[@]/model.csv/slips.csv}" --large-strain -o slips-out.csv 2>err || complain 'a tool that slips'
+grep -q 'friction every row is flagged 32' err || complain 'what was not pressed is not said'
+(($(pressed) == 8)) || complain 'places are pressed anew for a tool that slips'
+awk -F, '/^[0-9]/ { unflagged += $12 > 0 && int($13 / 32) % 2 == 0; ++n } END { exit !(n == 31 && !unflagged) }' slips-out.csv ||
+  complain 'a row of a tool that slips is not flagged'
+
 refuse() { # CODE TEXT ARGUMENTS...
   local code=$1 text=$2 got
   shift 2
