@@ -64,7 +64,8 @@ class Friction : public Effect {
             "does not change the normal force: then the return needs no stiffness at all; the tool "
             "slips as a whole, little against its radius. At finite strain slip does change it: "
             "elements of a block that stiffens have 4 % less at a depth of 0.35 radii, 10 % less "
-            "where it is pushed aside as well, more farther in",
+            "where it is pushed aside as well, more farther in, which hs-simulate --large-strain "
+            "has and this law has not",
         .parameters = {{"mu", "1", "coefficient of friction; 1000: bonded", kRough, 0.5, 1e-3,
                         kRough, 0.5, true}},
         .needs_sideways = true,

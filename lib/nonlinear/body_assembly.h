@@ -107,6 +107,8 @@ class BodyAssembly {
   };
   Derivatives derivatives(const Eigen::MatrixXd& fields, bool by_scale) const;
 
+  // The stiffest law's for a confined compression [Pa].
+  double modulus() const { return modulus_; }
   // Modulus times area [N]: what rounding is judged by.
   double force_unit() const { return force_unit_; }
 

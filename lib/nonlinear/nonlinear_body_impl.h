@@ -32,8 +32,10 @@ struct NonlinearBody::Impl {
     VectorXd traction;  // 3 hats [Pa]
     // Of a linear body: fields of unit tractions and the compliance of the hats.
     MatrixXd fields;
+    std::size_t first_clique = 0;  // of its hats' in `system`, once `holds`
   };
   std::vector<Tip> tips;
+  bool holds = false;  // hold_contact()
 
   static std::vector<char> free_nodes(const std::vector<int>& handle) {
     std::vector<char> free;
@@ -91,11 +93,16 @@ struct NonlinearBody::Impl {
     touched.clear();
     assembly.tangent(system, moved, touched);
     for (Tip& t : tips) t.fields.resize(0, 0);
+    if (holds) add_contact_springs();
     return factorised = system.factorise();
   }
   // The tangent, or the least stiffened one that has a way down.
   bool factorise(const SolveOptions& options) {
     if (factorise()) return true;
+    if (!tips.empty() && !holds) {
+      hold_contact();
+      if (factorise()) return true;
+    }
     if (!options.past_instability || !tips.empty()) return false;
     for (double share = 1e-4; share < 1; share *= 4) {
       system.clear();
@@ -144,6 +151,13 @@ struct NonlinearBody::Impl {
   // Fields of unit tractions; a linear body keeps those of all hats.
   MatrixXd fields_of(Tip& tip, const std::vector<Index>& columns);
   void evaluate_tips();
+  // A surface under dead tractions turns over as a column does from some pressure on, where under a
+  // tool that keeps its place it is stable. From here on springs between tool and body stand in the
+  // tangent where hats touch (normal) and stick (tangential): the conditions of contact leave these
+  // ways no freedom, so a change that meets them is the same with the springs and without (an
+  // augmented Lagrangian's tangent; Wriggers, Computational Contact Mechanics, 2006, 6.3).
+  void hold_contact();
+  void add_contact_springs();
   // The surfaces touch, or are apart, as they should, in the mean over each hat.
   bool fits() const;
   // With tips there is no energy to search along: whole steps, shorter where an element inverts.

@@ -1,4 +1,6 @@
 // Tips pressed against the body.
+#include <set>
+
 #include "nonlinear/coulomb_contact.h"
 #include "nonlinear/nonlinear_body_impl.h"
 
@@ -100,6 +102,40 @@ VectorXd NonlinearBody::Impl::settle_contact(const std::vector<std::vector<Index
     with += fields[k] * p;
   }
   return with;
+}
+
+void NonlinearBody::Impl::hold_contact() {
+  Cliques cliques = assembly.cliques();
+  for (Tip& t : tips) {
+    const TipSurface& surface = t.contact.surface();
+    std::vector<std::set<int>> nodes(static_cast<std::size_t>(t.contact.hats()));
+    for (const TipSurface::Point& p : surface.points)
+      for (const int h : p.hat)
+        nodes[h].insert(surface.faces[p.face].begin(), surface.faces[p.face].end());
+    t.first_clique = cliques.size();
+    for (const std::set<int>& n : nodes) cliques.add({n.begin(), n.end()});
+  }
+  system = NodeSystem(free_nodes(handle), std::move(cliques));
+  holds = true;
+}
+
+void NonlinearBody::Impl::add_contact_springs() {
+  constexpr double kSprings = 10;  // of the modulus, over the tip's reach
+  for (const Tip& t : tips)
+    for (Index h = 0; h < t.contact.hats(); ++h) {
+      const Vec3 p = t.traction.segment<3>(3 * h);
+      if (!(p[0] > 0)) continue;
+      const bool sticks = p.tail<2>().norm() < t.contact.tip().friction * p[0];
+      const std::size_t clique = t.first_clique + static_cast<std::size_t>(h);
+      const int count = system.cliques().count(clique);
+      const MatrixXd by = t.contact.directions().middleCols(3 * h, sticks ? 3 : 1);
+      MatrixXd own(3 * count, by.cols());
+      for (int a = 0; a < count; ++a)
+        own.middleRows<3>(3 * a) = by.middleRows<3>(3 * system.cliques().nodes(clique)[a]);
+      const double stiffness =
+          kSprings * assembly.modulus() / (t.contact.tip().reach * t.contact.surface().area[h]);
+      system.add(clique, stiffness * own * own.transpose());
+    }
 }
 
 void NonlinearBody::Impl::evaluate_tips() {

@@ -24,6 +24,8 @@ constexpr double kMultipleFrom = 0.01;
 
 // Numbers that a loop keeps of a state that is remembered, and of each memory.
 constexpr std::size_t kStrainNumbers = kMemoryTerms + kInsideFields * kInsideNow;
+// And of a tool that slips, as slide() has them.
+constexpr std::size_t kSlipNumbers = 3 * (StrainSlip::kSliders + 4);
 
 template <class Steps>
 LawRange law_of(const Steps& steps, double radius) {
@@ -56,6 +58,10 @@ std::vector<ForceLoop::Running> ForceLoop::steps_of(const PreparedBody& body,
     if (body.is_regional() && relaxes(i)) continue;  // the elements stand for all that relaxes
     // Sampled elements stand for the law of finite strain, and for what relaxes beside it.
     if (body.large_strain() != nullptr && (is_finite_strain(i) || relaxes(i))) continue;
+    // And for the tool that slips, where they were pressed by one.
+    if (body.large_strain() != nullptr && body.large_strain()->slip() &&
+        std::isfinite(flat_friction(i)))
+      continue;
     std::unique_ptr<EffectStep> step = i.effect->step(i.values, context);
     if (!step) continue;
     const std::size_t needed = step->memory();
@@ -78,11 +84,16 @@ ForceLoop::ForceLoop(const PreparedBody& body, const ToolLoopOptions& options,
   state_.driver.fill(Vec3::Zero());
   state_.maxwell.fill(Eigen::Matrix3d::Zero());
   if (!steps_.empty()) strain_memory_ = steps_.back().memory + steps_.back().step->memory();
-  touches_otherwise_ = body.large_strain() != nullptr &&
-                       std::any_of(body.effects().begin(), body.effects().end(), touches_otherwise);
-  const bool remembers = body.large_strain() != nullptr && body.large_strain()->remembers();
-  const std::size_t strain = remembers ? (1 + body.terms().size()) * kStrainNumbers : 0;
-  state_.memory.resize(strain_memory_ + strain, 0);
+  const LargeStrain* strain = body.large_strain();
+  const bool slips = strain != nullptr && strain->slip();
+  touches_otherwise_ =
+      strain != nullptr &&
+      std::any_of(body.effects().begin(), body.effects().end(),
+                  [slips](const EffectInstance& i) { return touches_otherwise(i, slips); });
+  const bool remembers = strain != nullptr && strain->remembers();
+  before_.resize(remembers ? (1 + body.terms().size()) * kStrainNumbers : 0);
+  slip_memory_ = strain_memory_ + before_.size();
+  state_.memory.resize(slip_memory_ + (slips ? kSlipNumbers : 0), 0);
 }
 
 ForceLoopState ForceLoop::state() const {
@@ -123,15 +134,21 @@ void ForceLoop::take_strain(const Vec3& before) noexcept {
   state_.frame = remembered_.frame;
 }
 
+LargeStrain::Force ForceLoop::strained(const StepSample& sample, const Vec3& u) noexcept {
+  LargeStrain::Force f = body_.large_strain()->force(strain_, u);
+  if (body_.large_strain()->remembers()) strain_memory(sample, u, f);
+  return f;
+}
+
 // `doubt`: what sampled elements leave of it, relative.
 Vec3 ForceLoop::body_force(const StepSample& sample, const Vec3& u, double& doubt) noexcept {
   Vec3 f = -(state_.place.contact.K * u);
   if (body_.large_strain() != nullptr) {
-    LargeStrain::Force strained = body_.large_strain()->force(strain_, u);
-    if (body_.large_strain()->remembers()) strain_memory(sample, u, strained);
-    f = -strained.f;
-    doubt = strained.doubt;
-    if (!strained.within || touches_otherwise_) mark_beyond_law();
+    const LargeStrain::Force found =
+        body_.large_strain()->slip() ? slide(sample, u) : strained(sample, u);
+    f = -found.f;
+    doubt = found.doubt;
+    if (!found.within || touches_otherwise_) mark_beyond_law();
   }
   if (body_.is_regional()) f += regional_memory(sample, u);
   return f;

@@ -26,7 +26,7 @@ struct ForceLoopState {
   // of and what it remembers [N], and their stiffnesses there [N/m].
   std::array<Vec3, PreparedBody::kMostTerms> driver = {}, h = {};
   std::array<Eigen::Matrix3d, PreparedBody::kMostTerms> maxwell = {};
-  std::vector<double> memory;  // of the effects' steps, then of large strain
+  std::vector<double> memory;  // of the effects' steps, then of large strain and of its slip
   // Of large strain: the axes in which that is [1].
   Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
 };
@@ -67,6 +67,11 @@ class ForceLoop : public ToolLoop {
   StepSample next_sample(double t, const Vec3& u, bool in_air) noexcept;
   Vec3 regional_memory(const StepSample& sample, const Vec3& u) noexcept;
   void strain_memory(const StepSample& sample, const Vec3& u, LargeStrain::Force& f) noexcept;
+  // What moves a tool that holds, by sampled elements.
+  LargeStrain::Force strained(const StepSample& sample, const Vec3& u) noexcept;
+  // The same of a tool that slips: the normal force at the way aside that has not slipped, less
+  // what friction leaves, and sideways what sliders bear, |f_t| <= mu f_n.
+  LargeStrain::Force slide(const StepSample& sample, const Vec3& u) noexcept;
   void take_strain(const Vec3& before) noexcept;
   Vec3 advance(double t, const Vec3& u, bool in_air) noexcept;
 
@@ -76,6 +81,8 @@ class ForceLoop : public ToolLoop {
   LargeStrain::Place strain_;       // of state_.place
   LargeStrain::Memory remembered_;  // where the body relaxes too
   std::size_t strain_memory_ = 0;   // where its own begins in state_.memory
+  std::size_t slip_memory_ = 0;     // and where that of slip does
+  std::vector<double> before_;      // strain's own, while slip is found
   bool touches_otherwise_ = false;  // than what was pressed beforehand (large_strain.h)
   double stiffness_ = 1, moduli_ = 1, times_ = 1;
 };

@@ -29,16 +29,18 @@ constexpr double kStrainApart = 0.5;     // samples, in tool radii
 // Lengths by which first places are told apart: tool radii, of a normal, of logarithms of K.
 constexpr std::array<double, 3> kUnlike{3, 0.3, 0.15};
 
-std::optional<StrainSample> load_sample(const std::string& path) {
+template <class Stored>
+std::optional<Stored> load(const std::string& path) {
   if (path.empty() || !std::filesystem::exists(path)) return std::nullopt;
   try {
-    return StrainSample::read(Input(path).read_all());
+    return Stored::read(Input(path).read_all());
   } catch (const Error&) {
     return std::nullopt;
   }
 }
 
-void store_sample(const std::string& path, const StrainSample& sample) {
+template <class Stored>
+void store(const std::string& path, const Stored& sample) {
   if (path.empty()) return;
   try {
     Output file(path);
@@ -56,18 +58,25 @@ bool is_finite_strain(const EffectInstance& effect) {
   return effect.effect->full(effect.values, 1, spec) && spec.finite;
 }
 
-bool touches_otherwise(const EffectInstance& effect) {
+bool touches_otherwise(const EffectInstance& effect, bool slips) {
   FullSpec spec;
   return effect.effect->full(effect.values, 1, spec) &&
-         (std::isfinite(spec.friction) || spec.curvature != 0);
+         ((std::isfinite(spec.friction) && !slips) || spec.curvature != 0);
 }
 
-Model static_part(const Model& model) {
+double flat_friction(const EffectInstance& effect) {
+  FullSpec spec;
+  const bool flat = effect.effect->full(effect.values, 1, spec) && spec.curvature == 0;
+  return flat ? spec.friction : std::numeric_limits<double>::infinity();
+}
+
+Model static_part(const Model& model, bool slips) {
   std::set<std::string> kept;
   bool finite = false;
   for (const EffectInstance& i : effect_instances(model, false)) {
     const EffectCard& card = i.effect->card();
-    if (card.stage != Stage::kBody && card.stage != Stage::kSupport) continue;
+    const bool holds = card.stage == Stage::kBody || card.stage == Stage::kSupport;
+    if (!holds && !(slips && std::isfinite(flat_friction(i)))) continue;
     FullSpec spec;
     if (!i.effect->full(i.values, 1, spec) || !spec.terms.empty()) continue;
     kept.insert(card.name);
@@ -130,6 +139,38 @@ LargeStrain::LargeStrain(const TetMesh& body, const Model& model, const Stiffnes
     if (next.empty()) break;
     add(next);
   }
+  if (options_.slips) add_slip(static_part(model, true));
+}
+
+// Friction at the first places, the second of which says how far places are apart.
+void LargeStrain::add_slip(const Model& model) {
+  const bool finer = options_.tolerance < kStrainMuch;
+  const std::size_t wanted = finer ? 2 : 1;
+  double friction = std::numeric_limits<double>::infinity();
+  for (const EffectInstance& i : effect_instances(model, false))
+    friction = std::min(friction, flat_friction(i));
+  const std::size_t places = std::min(wanted, samples_.size());
+  std::vector<std::optional<StrainSlip>> found(places);
+  in_parallel(places, options_.threads, [&](std::size_t i) {
+    const StrainSample& sample = samples_[i].sample;
+    ContentHash key;
+    key.add(key_);
+    key.add(sample.point.data(), 3 * sizeof(double));
+    key.add(sample.into);
+    key.add(friction);
+    key.add(finer ? 1.0 : 0.0);
+    const std::string path =
+        options_.cache.empty() ? "" : options_.cache + "/" + key.hex() + ".slip";
+    found[i] = load<StrainSlip>(path);
+    if (!found[i]) {
+      found[i] = solve_strain_slip(body_, base_, model_, model, sample, options_.tool_radius,
+                                   friction, finer);
+      if (found[i]) store(path, *found[i]);
+    }
+    if (options_.sampled) options_.sampled();
+  });
+  for (const std::optional<StrainSlip>& s : found)
+    if (s) slip_ = slip_ ? slip_->with(*s) : *s;
 }
 
 // Uniform over the surface where the tool can be laid on.
@@ -205,7 +246,7 @@ void LargeStrain::add(std::vector<StepPlace> places) {
     key.add(place.point.data(), 3 * sizeof(double));
     const std::string path =
         options_.cache.empty() ? "" : options_.cache + "/" + key.hex() + ".strain";
-    found[i] = load_sample(path);
+    found[i] = load<StrainSample>(path);
     const bool compared = samples_.empty() && i < kCompared;
     if (found[i] && options_.memory && !found[i]->memory) found[i].reset();
     if (found[i] && compared && !found[i]->finer) found[i].reset();
@@ -216,7 +257,7 @@ void LargeStrain::add(std::vector<StepPlace> places) {
                                      options_.memory, why[i]);
       if (found[i] && compared)
         found[i]->finer = strain_mesh_error(body_, base_, model_, *found[i], options_.tool_radius);
-      if (found[i]) store_sample(path, *found[i]);
+      if (found[i]) store(path, *found[i]);
     }
     if (options_.sampled) options_.sampled();
   });

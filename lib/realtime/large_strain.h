@@ -11,6 +11,7 @@
 #include "mesh/signed_distance.h"
 #include "realtime/place_facts.h"
 #include "realtime/strain_sample.h"
+#include "realtime/strain_slip.h"
 
 namespace hapsim {
 
@@ -20,6 +21,7 @@ struct LargeStrainOptions {
   std::size_t most_samples = 96;  // the tolerance may then not be reached
   std::vector<Vec3> near;         // places within kNear radii of these alone; empty: anywhere
   bool memory = false;            // samples have what bodies that relax ask for
+  bool slips = false;             // the flat tool, by an effect of the model
   int threads = 0;                // 0: as many as the machine has
   std::string cache;              // directory of samples, "" for none
   std::function<void()> sampled;  // called at each (from any thread)
@@ -81,6 +83,9 @@ class LargeStrain {
   Place at(const StepPlace& place) const noexcept;
   Force force(const Place& place, const Vec3& u) const noexcept;
   double energy(const Place& place, const Vec3& u) const noexcept;  // [J]; where it is within
+  Eigen::Matrix3d tangent(const Place& place, const Vec3& u) const noexcept;  // [N/m]
+  // Of a tool that slips; nothing where that was not asked for, or no place could be solved.
+  const std::optional<StrainSlip>& slip() const { return slip_; }
   // Samples have it. `memory.frame`: as it was, for the normal `before`; turned to the place's.
   // remember() at a new place took 0.5 ms of five samples, beside other work; a step a hundredth.
   bool remembers() const { return options_.memory; }
@@ -109,6 +114,7 @@ class LargeStrain {
   void neighbours(const double* weight, const StepPlace& at, Place& place) const noexcept;
   void add(std::vector<StepPlace> places);
   void relate();
+  void add_slip(const Model& model);
   std::vector<StepPlace> draw(std::size_t count, std::uint64_t seed) const;
   std::vector<StepPlace> apart(const std::vector<StepPlace>& pool, std::size_t count) const;
 
@@ -130,16 +136,20 @@ class LargeStrain {
   double variance_ = 0;        // of the relative doubt, for a process of variance one
   StrainMeshError mesh_ = {};  // the largest of samples that were compared with finer elements
   double left_out_ = 0;
+  std::optional<StrainSlip> slip_;
 };
 
 // Its law is one of finite strain, which elements solve as it is (FullSpec::finite).
 bool is_finite_strain(const EffectInstance& effect);
-// Elements were pressed by a flat tool that holds, and the effect's tool is another (it slips, it
-// is a ball): at finite strain its law beside them was not verified.
-bool touches_otherwise(const EffectInstance& effect);
+// Elements were pressed by a flat tool, held and (`slips`) slipping, and the effect's tool is
+// another (it slips, it is a ball): at finite strain its law beside them was not verified.
+bool touches_otherwise(const EffectInstance& effect, bool slips);
+// Coulomb's coefficient of a flat tool that slips; infinite of all other effects.
+double flat_friction(const EffectInstance& effect);
 
 // The part of a model that stands still: body and support without what relaxes, to be solved by
-// elements of finite strain. Error(kBadInput) without hyperelastic, finite = 1.
-Model static_part(const Model& model);
+// elements of finite strain, `slips`: and what makes the tool slip. Error(kBadInput) without
+// hyperelastic, finite = 1.
+Model static_part(const Model& model, bool slips = false);
 
 }  // namespace hapsim

@@ -258,6 +258,17 @@ LargeStrain::Force LargeStrain::force(const Place& place, const Vec3& u) const n
   return result;
 }
 
+Eigen::Matrix3d LargeStrain::tangent(const Place& place, const Vec3& u) const noexcept {
+  const Held at = hold(place, u);
+  Eigen::Matrix3d beyond = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < place.count; ++k) {
+    const StrainCoefficients& c = samples_[static_cast<std::size_t>(place.sample[k])].sample.c;
+    beyond += place.weight[k] *
+              (place.A[k].transpose() * strain_hessian(c, place.A[k] * at.held) * place.A[k]);
+  }
+  return place.K + place.stiffness * options_.tool_radius * options_.tool_radius * beyond;
+}
+
 double LargeStrain::energy(const Place& place, const Vec3& u) const noexcept {
   // The line from no displacement, by Gauss-Legendre: exact for the polynomials' degree.
   constexpr std::array<double, 5> x{0, -0.5384693101056831, 0.5384693101056831, -0.9061798459386640,

@@ -194,6 +194,10 @@ PreparedBody::PreparedBody(const TetMesh& body, const Model& model,
   strain.most_samples = options.most_strain_samples;
   for (const KnownStiffness& k : known) strain.near.push_back(k.point);
   strain.memory = !terms_.empty();
+  const auto slips = [](const EffectInstance& i) { return std::isfinite(flat_friction(i)); };
+  const auto ball = [](const EffectInstance& i) { return touches_otherwise(i, true); };
+  strain.slips = std::any_of(effects_.begin(), effects_.end(), slips) &&
+                 std::none_of(effects_.begin(), effects_.end(), ball);
   strain.threads = options.threads;
   strain.cache = options.cache;
   if (options.strain_progress) strain.sampled = options.strain_progress();

@@ -52,5 +52,40 @@ TEST(FullPunch, SlipsBetweenWhatHoldsAndWhatHasNoFriction) {
   }
 }
 
+// A block that stiffens, pressed straight down by so many steps with elements of half a radius at
+// the rim: force along the normal at a depth of 1.1 radii.
+double pressed_far(double mu, int steps) {
+  const TetMesh body = test::block_mesh({0.08, 0.06, 0.03}, 6, 5, 3, 1);
+  Model model;
+  model.parameters = effect_rows(*find_effect("elastic"), 1, {2e4, 0.4});
+  for (const Parameter& p : effect_rows(*find_effect("hyperelastic"), 1, {0.2, 1}))
+    model.parameters.push_back(p);
+  if (std::isfinite(mu))
+    for (const Parameter& p : effect_rows(*find_effect("friction"), 1, {mu}))
+      model.parameters.push_back(p);
+  FullOptions options;
+  options.rim_edge = 0.5;
+  options.growth = 0.6;
+  options.quarter_points = false;
+  FullPress press(body, model, {0.04, 0.034, 0.03}, 0.004, options);
+  Vec3 f = Vec3::Zero();
+  for (int i = 1; i <= steps; ++i) f = press.step({0, 0, -0.0044 * i / steps}, 0);
+  return f.z();
+}
+
+// Under dead tractions the surface is not stable any more from 0.9 radii on; under the tool it is.
+// However many steps it takes, the force is that of the place, and friction bears it between
+// nothing that slips and less.
+TEST(FullPunch, PressesOnWhereTheSurfaceAloneIsNotStable) {
+  const double holds = pressed_far(std::numeric_limits<double>::infinity(), 11),
+               rough = pressed_far(100, 11), slips = pressed_far(0.4, 11),
+               few = pressed_far(0.4, 4);
+  std::printf("held %.4f N, rough %.4f, slipping %.4f, in four steps %.4f\n", holds, rough, slips,
+              few);
+  EXPECT_NEAR(rough / holds, 1, 0.08);  // tractions are linear on faces of half a radius
+  EXPECT_LT(slips, 0.95 * rough);
+  EXPECT_NEAR(few / slips, 1, 0.002);
+}
+
 }  // namespace
 }  // namespace hapsim

@@ -190,8 +190,12 @@ inline void tell_large_strain(const Arguments& arguments, const PreparedBody& bo
                   strain->samples(), 100 * strain->left_out_error());
   if (strain->left_out_error() > arguments[flag::accuracy])
     words += fmt::format(", not the {:g} % of --accuracy", 100 * arguments[flag::accuracy]);
+  if (strain->slip())
+    words += fmt::format(
+        "; a tool that slips was pressed to {:.2g} of its radius, deeper rows are flagged 32",
+        strain->slip()->deepest());
   for (const EffectInstance& i : body.effects())
-    if (touches_otherwise(i))
+    if (touches_otherwise(i, strain->slip().has_value()))
       words += fmt::format(
           "; they were pressed by a flat tool that holds, so with {} every row is flagged 32",
           i.effect->card().name);

@@ -17,7 +17,7 @@ inline TetMesh strained_mesh() {
   return block_mesh({0.1, 0.1, 0.06}, 4, 4, 3, 1);
 }
 
-inline Model strained_model(double relaxing = 0) {
+inline Model strained_model(double relaxing = 0, double friction = 0) {
   Model model;
   const auto add = [&](const char* effect, const std::vector<double>& values) {
     for (const Effect* e : catalogue())
@@ -29,6 +29,7 @@ inline Model strained_model(double relaxing = 0) {
   add("elastic", {2e4, 0.4});
   if (relaxing > 0) add("viscoelastic", {relaxing, 0.2});
   add("hyperelastic", {0.2, 1});
+  if (friction > 0) add("friction", {friction});
   return model;
 }
 
