@@ -15,7 +15,7 @@ constexpr int kSlides = 8;          // rounds until the bounds follow the force
 constexpr double kSlideEnd = 1e-4;  // of the tool's radius: of a slider's way then
 // Standard, over the force: what is taken as the same for all depths and directions, and is not.
 constexpr double kSlipDoubt = 0.008, kSlidDoubt = 0.012, kRetreatDoubt = 0.06;
-constexpr double kTurns = 0.02;  // tool radii of a way back
+constexpr double kTurns = 0.02;  // tool radii of another way, or of one at all
 constexpr double kAllSlid = 0.1, kLeastSlid = 0.3;
 constexpr double kSlippedFar = 0.5;  // tool radii, from which on the contact is elsewhere
 
@@ -56,10 +56,14 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
   const Ways trial = (-(flat * slipped)).colwise() + along;
   const double aside = (along - last_along).norm() / a, deeper = d - deepest;
   last_along = along;
-  // Back the way that it came, out or aside, the rim sticks, and is as stiff as the rest.
-  const double far = farthest.norm(),
-               back = far > 0 ? far - farthest.dot(trial.col(kWhole)) / far : 0;
-  turned = std::max(turned, std::min(1.0, (std::max(0.0, back) / a - deeper) / kTurns));
+  // Another way than it came, out, back or across, the rim sticks, and is as stiff as the rest.
+  const double far = farthest.norm();
+  double back = 0;
+  if (far > kTurns * a) {
+    const Vec3 since = trial.col(kWhole) - farthest;
+    back = since.norm() - std::max(0.0, since.dot(farthest) / far);
+  }
+  turned = std::max(turned, std::min(1.0, (back / a - deeper) / kTurns));
   if (deeper > 0) {
     // What goes on in slips at its rim anew.
     slid *= deepest / d;
@@ -80,8 +84,9 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
     const double still = -n.dot(strain.force(strain_, held).f);
     f = strained(sample, held);
     pushes = -n.dot(f.f);
-    // Sideways a body that relaxes is as much stiffer than at rest as it is along the normal.
-    const double ratio = still > 0 ? std::clamp(pushes / still, 0.1, 10.0) : 1;
+    // Sideways a body that relaxes is as much stiffer than at rest as it is along the normal, where
+    // it is.
+    const double ratio = still > 0 ? std::clamp(pushes / still, 1.0, 10.0) : 1;
     const Eigen::Matrix3d K = ratio * (flat * strain.tangent(strain_, held) * flat);
     const Eigen::Matrix3d give = flat * (K + K.trace() * n * n.transpose()).inverse() * flat;
     const Vec3 across = flat * f.f;
