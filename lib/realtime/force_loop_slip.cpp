@@ -76,7 +76,7 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
   LargeStrain::Force f;
   Ways way = trial;
   Vec3 sideways = Vec3::Zero();
-  double factor = 1, pushes = 0;
+  double factor = 1, pushes = 0, bears = 0;
   for (int round = 0; round < kSlides; ++round) {
     if (round > 0) std::copy_n(before_.data(), before_.size(), remembered);
     const Vec3 mean = way.col(kWhole);  // at which the body is held
@@ -91,7 +91,7 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
     const Eigen::Matrix3d give = flat * (K + K.trace() * n * n.transpose()).inverse() * flat;
     const Vec3 across = flat * f.f;
     factor = law.normal(d, deepest, slid);
-    const double bears = law.friction * std::max(0.0, factor * pushes);
+    bears = law.friction * std::max(0.0, factor * pushes);
     sideways.setZero();
     for (int j = 0; j < kParts; ++j) {
       const auto slider = static_cast<std::size_t>(j % kWhole);
@@ -124,6 +124,8 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
     f.doubt = std::hypot(f.doubt * size / f.f.norm(), law.doubt_at(d),
                          std::hypot(kSlipDoubt + kSlidDoubt * slid, way_out));
   }
+  constexpr double kSeenAll = 0.95;  // then it was seen to slip as a whole
+  if (law.seen < kSeenAll && sideways.norm() > law.seen * bears) f.within = false;
   if (d > law.deepest() || slipped.col(kWhole).norm() > kSlippedFar * a) f.within = false;
   return f;
 }

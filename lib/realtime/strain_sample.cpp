@@ -6,14 +6,13 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
-#include "contact/contact_cache.h"
 #include "realtime/power_table.h"
+#include "realtime/stored_numbers.h"
 #include "realtime/strain_mesh.h"
 
 namespace hapsim {
@@ -25,7 +24,7 @@ constexpr double kStrainRidge = 1e-7;                       // of the columns' s
 constexpr double kAsides[] = {1, 0.3};                      // StrainSample::aside
 constexpr double kFolds = 0.1;  // error of the memory from which on a narrower way is asked for
 constexpr int kDown = 6, kSideways = 4;  // steps of the way straight down, and of the others
-constexpr char kStrainMagic[8] = {'h', 's', 's', 't', 'r', 'a', '0', '4'};
+constexpr const char* kStrainKind = "hsstra04";
 
 struct Powers {
   int i, j, k;
@@ -182,29 +181,18 @@ std::string StrainSample::bytes() const {
     numbers.insert(numbers.end(), inside.stressed.data(),
                    inside.stressed.data() + inside.stressed.size());
   }
-  std::string text(kStrainMagic, sizeof kStrainMagic);
-  text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
-  ContentHash sum;
-  sum.add(text);
-  return text + sum.hex();
+  return stored_numbers(kStrainKind, numbers);
 }
 
 std::optional<StrainSample> StrainSample::read(const std::string& bytes) {
-  constexpr std::size_t kStatic = 3 + 9 + 9 + 3 + kStrainDepths + kStrainTerms, kSum = 32;
+  constexpr std::size_t kStatic = 3 + 9 + 9 + 3 + kStrainDepths + kStrainTerms;
   constexpr std::size_t kWhole = kStatic + 1 + kMemoryTerms * kMemoryTerms +
                                  2 * kInsideFields * kInsideNow * kInsideBefore +
                                  kInsideFields * kInsideFields * (kInsideNow + kInsideBefore);
-  const auto size = [](std::size_t count) { return sizeof kStrainMagic + count * sizeof(double); };
-  const bool remembers = bytes.size() == size(kWhole) + kSum;
-  if (!remembers && bytes.size() != size(kStatic) + kSum) return std::nullopt;
-  const std::size_t end = bytes.size() - kSum;
-  ContentHash sum;
-  sum.add(bytes.substr(0, end));
-  if (sum.hex() != bytes.substr(end) ||
-      std::memcmp(bytes.data(), kStrainMagic, sizeof kStrainMagic) != 0)
-    return std::nullopt;
-  std::vector<double> numbers((end - sizeof kStrainMagic) / sizeof(double));
-  std::memcpy(numbers.data(), bytes.data() + sizeof kStrainMagic, end - sizeof kStrainMagic);
+  const auto stored = read_numbers(kStrainKind, bytes);
+  if (!stored || (stored->size() != kStatic && stored->size() != kWhole)) return std::nullopt;
+  const std::vector<double>& numbers = *stored;
+  const bool remembers = numbers.size() == kWhole;
   StrainSample s;
   s.point = Eigen::Map<const Vec3>(numbers.data());
   s.frame = Eigen::Map<const Eigen::Matrix3d>(numbers.data() + 3);

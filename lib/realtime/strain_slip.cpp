@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 #include "base/error.h"
-#include "contact/contact_cache.h"
+#include "realtime/stored_numbers.h"
 #include "realtime/strain_mesh.h"
 
 namespace hapsim {
 namespace {
 
-constexpr char kSlipMagic[8] = {'h', 's', 's', 'l', 'i', 'p', '0', '4'};
+constexpr const char* kSlipKind = "hsslip05";
 constexpr int kAsideAt = 3;  // the depth at which the tool is pushed aside, in steps
 constexpr int kBack = 3;     // steps aside
 constexpr double kSlipLeast = 1.0 / 8;
-constexpr int kFinerDepths = 5;  // no deeper do finer elements converge
+constexpr int kFinerDepths = 5;     // no deeper do finer elements converge
+constexpr double kMostSlipped = 3;  // of the rim, over what it had where a retreat was solved
 // Standard, of ratios: of coarse elements alone, and a depth that finer ones do not reach.
 constexpr double kCoarseDoubt = 0.02, kDeeperDoubt = 0.01;
 constexpr double kFinerShare = 1.0 / 3;  // of a difference by halving, second order
@@ -150,17 +150,19 @@ void fit_sliders(const StrainSample& sample, const Pressed& p, StrainSlip& slip)
     slope.push_back(std::clamp(s, 0.0, slope.empty() ? 1.0 : slope.back()));
   }
   slope.push_back(0);
-  double all = 0;
+  double all = 0, shares = 0;
   for (std::size_t j = 0; j + 1 < slope.size(); ++j) {
     slip.share[j] = slope[j] - slope[j + 1];
     slip.bound[j] = x[j + 1];
     all += slip.share[j] * slip.bound[j];
+    shares += slip.share[j];
   }
   // Together they bear mu N at most: the last ones' bounds, beyond what was solved, see to that.
   for (double& b : slip.bound) b /= std::max(all, 1e-9);
   const double would = held * (held_force(sample, d, 0.5 * step * kBack)[1] -
                                held_force(sample, d, -0.5 * step * kBack)[1]);
-  slip.share_slid = p.back > 0 ? std::clamp(p.back / would, 0.3, 1.0) : all;
+  slip.share_slid = std::clamp(p.back > 0 ? p.back / would : shares, 0.3, 1.0);
+  slip.seen = f.back();
 }
 
 }  // namespace
@@ -177,7 +179,9 @@ double StrainSlip::normal(double depth, double deepest, double slid) const noexc
   const double own = (1 - slid) * at(straight, depth) + slid * at(sliding, depth);
   if (!(deepest > depth && retreat_from > 0)) return own;
   // As far as the rim has slipped on the way in.
-  const double slipped = (1 - at(straight, deepest)) / (1 - at(straight, retreat_from));
+  const double slipped =
+      std::clamp((1 - at(straight, deepest)) / std::max(1 - at(straight, retreat_from), 1e-3), 0.0,
+                 kMostSlipped);
   const double share_in = std::clamp(depth / deepest, 0.0, 1.0) * kRetreat;
   const auto k =
       std::min(static_cast<std::size_t>(share_in), static_cast<std::size_t>(kRetreat - 1));
@@ -221,36 +225,27 @@ StrainSlip StrainSlip::with(const StrainSlip& other) const {
 }
 
 std::string StrainSlip::bytes() const {
-  std::vector<double> numbers{friction, static_cast<double>(reached), retreat_from, aside_at,
-                              share_slid};
+  std::vector<double> numbers{
+      friction, static_cast<double>(reached), retreat_from, aside_at, share_slid, seen};
   for (const auto* a : {&straight, &sliding, &doubt, &share, &bound})
     numbers.insert(numbers.end(), a->begin(), a->end());
   numbers.insert(numbers.end(), retreat.begin(), retreat.end());
-  std::string text(kSlipMagic, sizeof kSlipMagic);
-  text.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(double));
-  ContentHash sum;
-  sum.add(text);
-  return text + sum.hex();
+  return stored_numbers(kSlipKind, numbers);
 }
 
 std::optional<StrainSlip> StrainSlip::read(const std::string& bytes) {
-  constexpr std::size_t kNumbers = 5 + 3 * kDepths + 2 * kSliders + kRetreat, kSum = 32;
-  constexpr std::size_t kText = sizeof kSlipMagic + kNumbers * sizeof(double);
-  if (bytes.size() != kText + kSum) return std::nullopt;
-  ContentHash sum;
-  sum.add(bytes.substr(0, kText));
-  if (sum.hex() != bytes.substr(kText) ||
-      std::memcmp(bytes.data(), kSlipMagic, sizeof kSlipMagic) != 0)
-    return std::nullopt;
-  std::array<double, kNumbers> numbers;
-  std::memcpy(numbers.data(), bytes.data() + sizeof kSlipMagic, kNumbers * sizeof(double));
+  constexpr std::size_t kNumbers = 6 + 3 * kDepths + 2 * kSliders + kRetreat;
+  const auto stored = read_numbers(kSlipKind, bytes);
+  if (!stored || stored->size() != kNumbers) return std::nullopt;
+  const std::vector<double>& numbers = *stored;
   StrainSlip s;
   s.friction = numbers[0];
   s.reached = static_cast<int>(numbers[1]);
   s.retreat_from = numbers[2];
   s.aside_at = numbers[3];
   s.share_slid = numbers[4];
-  const double* next = numbers.data() + 5;
+  s.seen = numbers[5];
+  const double* next = numbers.data() + 6;
   for (auto* a : {&s.straight, &s.sliding, &s.doubt, &s.share, &s.bound}) {
     std::copy_n(next, a->size(), a->begin());
     next += a->size();
@@ -287,6 +282,7 @@ std::optional<StrainSlip> solve_strain_slip(const TetMesh& body, const ContactBa
   const std::size_t both = std::min({fine.straight.size(), fine.drawn.size(), common});
   if (both == 0 || fine.aside.size() < 3) return std::nullopt;
   fit_sliders(sample, fine, slip);
+  if (!(slip.sticks(slip.aside_at) > 0 && slip.seen > 0)) return std::nullopt;
   // Where a tool that bears mu N as a whole would hold, and what the sample says of that.
   const auto aside = [&](std::size_t i, double normal) {
     const double d = StrainSlip::kStep * static_cast<double>(i + 1),

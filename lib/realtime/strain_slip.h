@@ -34,6 +34,7 @@ struct StrainSlip {
   // Once the tool has slipped as a whole its rim has no part of its own any more: one slider, which
   // takes this share.
   double share_slid = 1;
+  double seen = 1;  // of mu N, how much the tool was seen to bear sideways: beyond is extrapolated
 
   // Allocate and throw nothing. `depth` beyond what was solved: as there.
   // Of the held tool's normal force. `slid`: 0 straight down, 1 once the tool slips as a whole.
@@ -46,7 +47,8 @@ struct StrainSlip {
   double doubt_at(double depth) const noexcept;
   double deepest() const noexcept { return kStep * reached; }
 
-  // The mean of two places, as far as both go, whose difference is in the doubt.
+  // Normal forces are the mean of two places, as far as both go, and their difference is in the
+  // doubt; all else is of this one.
   StrainSlip with(const StrainSlip& other) const;
 
   std::string bytes() const;

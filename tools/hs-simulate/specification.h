@@ -86,8 +86,11 @@ inline ToolSpec simulate_specification() {
       "the places (at one, and by coarse elements alone, from --accuracy 0.1 on), as deep as such "
       "elements converge, some 1.2 radii: its rim slips long before it does, which takes up to a "
       "tenth of the normal force and more. Other places take shares of their held force from "
-      "these, and ways aside, back and out what sliders side by side bear; what these leave, 1 to "
-      "3 % and most on the way out after slip, is in the uncertainty. The sensor and all else act "
+      "these, and ways aside, back and out what sliders side by side bear; what these leave, up to "
+      "5 % and more at the end of a way out after slip, is in the uncertainty (compared with "
+      "--full at a friction of 0.4, to 0.65 radii). Where the tool was not seen to slip as a whole "
+      "(large friction), rows that bear more than was seen are flagged 32. The sensor and all else "
+      "act "
       "on that force as on the linear one. Farther than was pressed the force goes on along its "
       "tangent, with 32 in beyond.",
       "With --hand the forces go through the last layer before a hand: within the limits they are "

@@ -38,6 +38,7 @@ StrainSlip some_slip() {
   s.share = {0.2, 0.3, 0.4};
   s.bound = {0.7, 1, 1.4};
   s.share_slid = 0.97;
+  s.seen = 0.99;
   return s;
 }
 
@@ -47,6 +48,7 @@ TEST(StrainSlip, IsReadAsItWasWrittenAndNotWhereItIsDamaged) {
   ASSERT_TRUE(back);
   EXPECT_EQ(back->bytes(), s.bytes());
   EXPECT_EQ(back->share_slid, s.share_slid);
+  EXPECT_EQ(back->seen, s.seen);
   std::string bytes = s.bytes();
   bytes[40] ^= 1;
   EXPECT_FALSE(StrainSlip::read(bytes));
@@ -64,6 +66,17 @@ TEST(StrainSlip, ItsTablesAreWhatTheyWereBetweenAndHeldBeyond) {
   EXPECT_GT(s.sticks(0.1), 1);
   EXPECT_EQ(StrainSlip::slid_at(0), 0);
   EXPECT_EQ(StrainSlip::slid_at(1), 1);
+}
+
+// Of a friction at which hardly anything slips a retreat has no loss to be scaled by.
+TEST(StrainSlip, ARimThatDoesNotSlipLosesNothingWithoutBound) {
+  StrainSlip s = some_slip();
+  s.straight = {1, 1, 1};
+  EXPECT_NEAR(s.normal(0.3, 0.45, 0), 1, 1e-12);
+  s.straight = {0.9, 0.95, 1.0001};
+  const double out = s.normal(0.1, 0.15, 0);
+  EXPECT_GT(out, 0.7);
+  EXPECT_LE(out, 1);
 }
 
 // In and aside, aside alone as far as it slips, back, and out.
@@ -137,7 +150,7 @@ TEST(StrainSlip, StepsAreOfNoRateGoOnFromAStateAndAllocateNothing) {
   }
 }
 
-// Beyond the friction that it was pressed with slips nothing sideways: |f_t| <= mu f_n everywhere.
+// Whatever way the tool goes.
 TEST(StrainSlip, BearsNoMoreSidewaysThanCoulombAllows) {
   const PreparedBody& body = slipping_body();
   ForceLoop loop(body);
