@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
-# slip.sh BIN OUT: a tool that slips (friction 0.4) at finite strain, hs-simulate --live --large-strain against --full,
-# whose elements slip (of a quarter of a radius at the rim). A block 80 x 60 x 30 mm that stiffens (s = 0.2), a tool of
-# 4 mm at places that were not pressed beforehand, up to 0.65 radii deep, where --full ends: straight in and out; drawn
-# aside with the depth and out; in, aside as far as it slips, back across and over; in askew, aside another way, and
-# out. Of every motion, over its rows: the error of the force over it (floor 5 % of the largest), how many of the rows
-# 1.96 times the stated uncertainty covers, and the same error of the law of a held tool. Places stay in OUT/cache.
-# Recorded in bench/results/large-strain.txt (bench/record.sh).
+# slip.sh BIN OUT [FRICTION [NU]]: a tool that slips (0.4 and 0.4) at finite strain, hs-simulate --live --large-strain
+# against --full, whose elements slip (of a quarter of a radius at the rim). A block 80 x 60 x 30 mm that stiffens (s =
+# 0.2), a tool of 4 mm at places that were not pressed beforehand, up to 0.65 radii deep, where --full ends: straight in
+# and out; drawn aside with the depth and out; in, aside as far as it slips, back across and over; in askew, aside
+# another way, and out; and eight ways from corner to corner that were drawn at random, each at its place, out at last.
+# Of every motion, over its rows: the error of the force over it (floor 5 % of the largest), how many of the rows 1.96
+# times the stated uncertainty covers, and the same error of the law of a held tool; then the same of all rows, and what
+# a step of a millisecond takes along the random ways, also of a body that relaxes. Places stay in OUT/cache. Recorded
+# in bench/results/large-strain.txt (bench/record.sh).
 set -euo pipefail
-(($# == 2)) || { echo 'usage: slip.sh BIN OUT' >&2; exit 2; }
+(($# >= 2 && $# <= 4)) || { echo 'usage: slip.sh BIN OUT [FRICTION [NU]]' >&2; exit 2; }
+friction=${3:-0.4} nu=${4:-0.4}
 bin=$(cd "$1" && pwd)
 mkdir -p "$2" && cd "$2"
 export XDG_CACHE_HOME=$PWD/cache
@@ -16,12 +19,15 @@ awk 'BEGIN { X = 0.08; Y = 0.06; Z = 0.03; print "OFF\n8 12 0"
   print "3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5" }' >block.off
 "$bin/hs-tetmesh" -q block.off --edge 0.0042 -o block.ply
 printf '%s\n' effect,region,parameter,value,unit,std_error,lower,upper,state elastic,0,E,20000,Pa,,1,1e12,fixed \
-  elastic,0,nu,0.4,1,,0,0.499,fixed hyperelastic,0,s,0.2,1,,0,1.2,fixed hyperelastic,0,finite,1,1,,0,1,fixed >held.csv
-{ cat held.csv; echo friction,0,mu,0.4,1,,0.001,1000,fixed; } >slips.csv
+  elastic,0,nu,$nu,1,,0,0.499,fixed hyperelastic,0,s,0.2,1,,0,1.2,fixed hyperelastic,0,finite,1,1,,0,1,fixed >held.csv
+{ cat held.csv; echo friction,0,mu,$friction,1,,0.001,1000,fixed; } >slips.csv
 printf '# tool_radius: 0.004\npress,x,y,z,ux,uy,uz\n0,0.04,0.034,0.03,0,0,0\n' >contacts.csv
-for motion in straight drawn aside askew; do
-  awk -v motion=$motion 'BEGIN {
+for motion in straight drawn aside askew wander{1..8}; do
+  # Ways aside go with the friction, since a tool slips by so much.
+  awk -v motion=$motion -v far="$friction" 'BEGIN {
+    far = far > 0.5 ? 1.25 : far / 0.4
     at = motion == "askew" ? "0.0321,0.0287,0.03" : "0.04,0.034,0.03"; n = 0
+    if (motion ~ /wander/) { seed = 7919 * substr(motion, 7); at = sprintf("%.4f,%.4f,0.03", 0.032 + 0.014 * draw(), 0.026 + 0.014 * draw()) }
     print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"
     row(0, 0, 0)
     if (motion == "straight") { for (i = 1; i <= 6; ++i) row(0.1 * i, 0, 0); for (i = 5; i >= 1; --i) row(0.1 * i, 0, 0) }
@@ -30,8 +36,15 @@ for motion in straight drawn aside askew; do
       for (i = 3; i >= -3; --i) row(0.5, 0.1 * i, 0) }
     if (motion == "askew") { for (i = 1; i <= 5; ++i) row(0.13 * i, 0.05 * i, 0.02 * i)
       for (i = 1; i <= 5; ++i) row(0.65, 0.25 - 0.02 * i, 0.1 + 0.08 * i); for (i = 4; i >= 1; --i) row(0.13 * i, 0.15, 0.5) }
+    if (motion ~ /wander/) for (leg = 1; leg <= 4; ++leg) {
+      r = 0.35 * sqrt(draw()); turn = 6.2832 * draw(); to = leg < 4 ? 0.3 + 0.33 * draw() : 0.12
+      dp = r * cos(turn) - p; dq = r * sin(turn) - q; dd = to - deep
+      steps = int(sqrt(dp ^ 2 + dq ^ 2 + dd ^ 2) / 0.11) + 1
+      for (i = 1; i <= steps; ++i) row(deep + dd * i / steps, p + dp * i / steps, q + dq * i / steps)
+      deep = to; p += dp; q += dq }
   }
-  function row(d, p, q) { printf "0,%.2f,%s,%.7f,%.7f,%.7f\n", 0.1 * n++, at, 0.004 * p, 0.004 * q, -0.004 * d }' >$motion.csv
+  function draw() { seed = (16807 * seed) % 2147483647; return seed / 2147483647 }
+  function row(d, p, q) { p *= far; q *= far; printf "0,%.2f,%s,%.7f,%.7f,%.7f\n", 0.1 * n++, at, 0.004 * p, 0.004 * q, -0.004 * d }' >$motion.csv
   "$bin/hs-simulate" -q $motion.csv --body block.ply --model slips.csv --full --rim-edge 0.25 -o $motion-full.csv
   for model in held slips; do
     "$bin/hs-simulate" -q $motion.csv --body block.ply --model $model.csv --live --large-strain --accuracy 0.05 \
@@ -47,4 +60,18 @@ for motion in straight drawn aside askew; do
         x = 100 * h[r] / u; held += x; if (x > held_worst) held_worst = x }
       printf "%-8s mean %.2f %% worst %.2f %%, within 2 %%: %d of %d, covered %d; a held tool: mean %.2f %% worst %.2f %%\n",
         motion, sum / n, worst, within, n, covered, held / n, held_worst }'
+done | tee told.txt
+sed 's/[,:;]//g' told.txt | awk '{ within += $11; n += $13; covered += $15; held += $20 * $13; sum += $3 * $13 }
+  END { printf "all      mean %.2f %%, within 2 %%: %d of %d (%.0f %%), covered %d (%.0f %%); a held tool: mean %.2f %%\n",
+    sum / n, within, n, 100 * within / n, covered, 100 * covered / n, held / n }'
+
+{ cat slips.csv; printf '%s\n' viscoelastic,0,E1,10000,Pa,,0,1e12,fixed viscoelastic,0,tau1,0.5,s,,1e-4,1e5,fixed; } >relaxing.csv
+for motion in wander{1..8}; do # rows of 0.1 s, straight between
+  awk -F, -v OFS=, -v press=${motion#wander} '!/^0,/ { if (press == 1) print; next }
+    n++ { for (i = 1; i <= 100; ++i) print press, sprintf("%.3f", t + i / 1000), $3, $4, $5, x + i * ($6 - x) / 100, y + i * ($7 - y) / 100, z + i * ($8 - z) / 100 }
+    { if (n == 1) { $1 = press; print } t = $2; x = $6; y = $7; z = $8 }' $motion.csv
+done >steps.csv
+for model in slips relaxing; do
+  "$bin/hs-simulate" steps.csv --body block.ply --model $model.csv --live --large-strain --accuracy $([[ $model == slips ]] && echo 0.05 || echo 0.1) \
+    --contacts contacts.csv -o steps-out.csv 2>&1 | sed -n "s/.*\([0-9]* samples: median\)/step, $model: \1/p"
 done

@@ -69,8 +69,8 @@ class ForceLoop : public ToolLoop {
   void strain_memory(const StepSample& sample, const Vec3& u, LargeStrain::Force& f) noexcept;
   // What moves a tool that holds, by sampled elements.
   LargeStrain::Force strained(const StepSample& sample, const Vec3& u) noexcept;
-  // The same of a tool that slips: the normal force at the way aside that has not slipped, less
-  // what friction leaves, and sideways what sliders bear, |f_t| <= mu f_n.
+  // The same of a tool that slips, |f_t| <= mu f_n: rings that slip (rim_slip.h), by what moves a
+  // tool that holds.
   LargeStrain::Force slide(const StepSample& sample, const Vec3& u) noexcept;
   void take_strain(const Vec3& before) noexcept;
   Vec3 advance(double t, const Vec3& u, bool in_air) noexcept;

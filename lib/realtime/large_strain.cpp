@@ -142,16 +142,15 @@ LargeStrain::LargeStrain(const TetMesh& body, const Model& model, const Stiffnes
   if (options_.slips) add_slip(static_part(model, true));
 }
 
-// Friction at the first places, the second of which says how far places are apart.
+// Friction at the first places.
 void LargeStrain::add_slip(const Model& model) {
   const bool finer = options_.tolerance < kStrainMuch;
   const std::size_t wanted = finer ? 2 : 1;
   double friction = std::numeric_limits<double>::infinity();
   for (const EffectInstance& i : effect_instances(model, false))
     friction = std::min(friction, flat_friction(i));
-  const std::size_t places = std::min(wanted, samples_.size());
-  std::vector<std::optional<StrainSlip>> found(places);
-  in_parallel(places, options_.threads, [&](std::size_t i) {
+  std::vector<std::optional<SlipPresses>> found(std::min(wanted, samples_.size()));
+  in_parallel(found.size(), options_.threads, [&](std::size_t i) {
     const StrainSample& sample = samples_[i].sample;
     ContentHash key;
     key.add(key_);
@@ -161,16 +160,18 @@ void LargeStrain::add_slip(const Model& model) {
     key.add(finer ? 1.0 : 0.0);
     const std::string path =
         options_.cache.empty() ? "" : options_.cache + "/" + key.hex() + ".slip";
-    found[i] = load<StrainSlip>(path);
+    found[i] = load<SlipPresses>(path);
     if (!found[i]) {
-      found[i] = solve_strain_slip(body_, base_, model_, model, sample, options_.tool_radius,
-                                   friction, finer);
+      found[i] = press_slipping(body_, base_, model_, model, sample, options_.tool_radius, friction,
+                                finer);
       if (found[i]) store(path, *found[i]);
     }
     if (options_.sampled) options_.sampled();
   });
-  for (const std::optional<StrainSlip>& s : found)
-    if (s) slip_ = slip_ ? slip_->with(*s) : *s;
+  std::vector<SlipPlace> places;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i]) places.push_back({samples_[i].sample, *found[i]});
+  if (!places.empty()) slip_ = fit_strain_slip(places, options_.threads);
 }
 
 // Uniform over the surface where the tool can be laid on.

@@ -4,9 +4,9 @@
 # not. The headers of a ROOM whose foreign library is not asked for are left out.
 #
 # Most of the time goes into what many headers include: <Eigen/Core>, <pybind11/pybind11.h>, a body, an experiment, a
-# fit. A header that includes one of those, itself or through others, begins with a copy that was compiled once: what
-# the copy holds is in what the header includes anyway, so nothing that it forgets is lent to it. All others begin
-# with nothing.
+# fit; of the others, <string>. A header that includes one of those, itself or through others, begins with a copy that
+# was compiled once: what the copy holds is in what the header includes anyway, so nothing that it forgets is lent to
+# it. All others begin with nothing.
 set -euo pipefail
 root=$(cd "$1" && pwd) compiler=$2
 flags=(-std=c++20 -fsyntax-only -I"$root/lib") without=
@@ -46,8 +46,12 @@ begin() {
 }
 copies=()
 begin '<pybind11/pybind11.h>' '<pybind11/'
-for header in fit/fit.h experiment/experiment.h contact/contact_library.h mesh/tetmesh.h; do begin "\"$header\""; done
+for header in realtime/prepared_body.h fit/fit.h experiment/experiment.h contact/contact_library.h mesh/tetmesh.h \
+  effects/effect.h; do
+  begin "\"$header\""
+done
 begin '<Eigen/Core>' '<Eigen/' # which Dense, Geometry and their like include
+begin '<string>'
 alone() { # FIRST HEADER: its first words where it does not compile
   "$compiler" "${flags[@]}" ${1:+-include "$1"} -include "$2" -x c++ /dev/null 2>"$work/${2//\//-}.err" ||
     { echo "$2 does not compile by itself:"; grep -m 3 -E 'error|required' "$work/${2//\//-}.err" | sed 's/^/  /'; return 1; }

@@ -193,7 +193,7 @@ inline void tell_large_strain(const Arguments& arguments, const PreparedBody& bo
   if (strain->slip())
     words += fmt::format(
         "; a tool that slips was pressed to {:.2g} of its radius, deeper rows are flagged 32",
-        strain->slip()->deepest());
+        strain->slip()->deepest);
   for (const EffectInstance& i : body.effects())
     if (touches_otherwise(i, strain->slip().has_value()))
       words += fmt::format(

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "realtime/force_loop.h"
 #include "realtime/strain_mesh.h"
@@ -26,57 +27,85 @@ const PreparedBody& slipping_body() {
   return body;
 }
 
-StrainSlip some_slip() {
-  StrainSlip s;
-  s.friction = kFriction;
-  s.reached = 3;
-  s.straight = {0.98, 0.97, 0.95};
-  s.sliding = {0.96, 0.94, 0.91};
-  s.doubt = {0.01, 0.02, 0.03};
-  s.retreat = {0.04, 0.04, 0.03, 0.02, 0.02, 0.01};
-  s.retreat_from = s.aside_at = 0.45;
-  s.share = {0.2, 0.3, 0.4};
-  s.bound = {0.7, 1, 1.4};
-  s.share_slid = 0.97;
-  s.seen = 0.99;
-  return s;
-}
-
-TEST(StrainSlip, IsReadAsItWasWrittenAndNotWhereItIsDamaged) {
-  const StrainSlip s = some_slip();
-  const std::optional<StrainSlip> back = StrainSlip::read(s.bytes());
+TEST(SlipPresses, AreReadAsTheyWereWrittenAndNotWhereTheyAreDamaged) {
+  SlipPresses presses;
+  presses.friction = kFriction;
+  presses.doubt = 0.01;
+  presses.deepest = 0.3;
+  presses.motions = {{-1, 0, {{0.15, 0, 0}, {0.3, 0, 0}}, {{0.98, 0, 0}, {0.97, 0.01, 0}}},
+                     {0, 2, {{0.15, 0, 0}}, {{0.9, 0, 0}}}};
+  const std::optional<SlipPresses> back = SlipPresses::read(presses.bytes());
   ASSERT_TRUE(back);
-  EXPECT_EQ(back->bytes(), s.bytes());
-  EXPECT_EQ(back->share_slid, s.share_slid);
-  EXPECT_EQ(back->seen, s.seen);
-  std::string bytes = s.bytes();
+  EXPECT_EQ(back->bytes(), presses.bytes());
+  EXPECT_EQ(back->motions[1].from, 2);
+  EXPECT_EQ(back->motions[0].force[1], presses.motions[0].force[1]);
+  std::string bytes = presses.bytes();
   bytes[40] ^= 1;
-  EXPECT_FALSE(StrainSlip::read(bytes));
-  EXPECT_FALSE(StrainSlip::read(bytes.substr(1)));
+  EXPECT_FALSE(SlipPresses::read(bytes));
+  EXPECT_FALSE(SlipPresses::read(bytes.substr(1)));
 }
 
-TEST(StrainSlip, ItsTablesAreWhatTheyWereBetweenAndHeldBeyond) {
-  const StrainSlip s = some_slip();
-  EXPECT_DOUBLE_EQ(s.normal(0, 0, 0), 1);
-  EXPECT_NEAR(s.normal(0.225, 0.225, 0), 0.975, 1e-12);
-  EXPECT_NEAR(s.normal(0.3, 0.3, 0.5), 0.955, 1e-12);
-  EXPECT_NEAR(s.normal(2, 2, 1), 0.91, 1e-12);
-  EXPECT_NEAR(s.normal(0.3, 0.45, 0), 0.97 * (1 - 0.02), 1e-12);  // two thirds of the way in
-  EXPECT_NEAR(s.sticks(0.45), 1, 1e-12);
-  EXPECT_GT(s.sticks(0.1), 1);
-  EXPECT_EQ(StrainSlip::slid_at(0), 0);
-  EXPECT_EQ(StrainSlip::slid_at(1), 1);
+// A linear body under rings of which the forces are known, on the ways that places are pressed by.
+SlipPlace place_of(const RimSlip& rim, double far_aside) {
+  SlipPlace place;
+  StrainSample& sample = place.sample;
+  sample.frame.setIdentity();
+  sample.K = Vec3(1, 0.7, 0.7).asDiagonal();
+  sample.c.setZero();
+  place.presses.friction = rim.friction;
+  place.presses.deepest = 0.6;
+  const std::vector<Vec3> corners[] = {
+      {{0.6, 0, 0}, {0.15, 0, 0}},
+      {{0.45, 0, 0}, {0.45, far_aside, 0}, {0.45, -far_aside / 2, 0}},
+      {{0.6, 0.6 * far_aside, 0}, {0.15, 0, 0}},
+      {{0.6, 0.3 * far_aside, 0}, {0.6, 0.3 * far_aside, far_aside}, {0.15, 0, far_aside}}};
+  for (const std::vector<Vec3>& way : corners) {
+    SlipMotion m;
+    RimSlip::State state;
+    Vec3 from = Vec3::Zero();
+    for (const Vec3& to : way) {
+      for (int i = 1; i <= 4; ++i) {
+        const Vec3 v = from + i / 4.0 * (to - from);
+        RimSlip::Force f;
+        for (int k = 1; k <= 5; ++k) {
+          const Vec3 w =
+              m.way.empty() ? Vec3(k / 5.0 * v) : Vec3(m.way.back() + k / 5.0 * (v - m.way.back()));
+          f = rim.step(w[0], w.tail<2>(), state, [&](const Eigen::Vector2d& aside) -> RimHeld {
+            return {w[0], 0.7 * aside, Eigen::Vector2d::Zero(), 0.7 * Eigen::Matrix2d::Identity()};
+          });
+        }
+        m.way.push_back(v);
+        m.force.emplace_back(f.normal / v[0], f.along[0] / v[0], f.along[1] / v[0]);
+      }
+      from = to;
+    }
+    place.presses.motions.push_back(m);
+  }
+  return place;
 }
 
-// Of a friction at which hardly anything slips a retreat has no loss to be scaled by.
-TEST(StrainSlip, ARimThatDoesNotSlipLosesNothingWithoutBound) {
-  StrainSlip s = some_slip();
-  s.straight = {1, 1, 1};
-  EXPECT_NEAR(s.normal(0.3, 0.45, 0), 1, 1e-12);
-  s.straight = {0.9, 0.95, 1.0001};
-  const double out = s.normal(0.1, 0.15, 0);
-  EXPECT_GT(out, 0.7);
-  EXPECT_LE(out, 1);
+RimSlip known_rings(double friction) {
+  RimSlip rim;
+  rim.friction = friction;
+  rim.bound = {1.02, 1.02, 1, 0.96, 0.82};
+  rim.drawn = {0.05, 0.2, 0.3, 0.5, 1.2};
+  rim.drawn_more = {0.1, 0.2, 0.3, 0.4, 0.5};
+  rim.returns.fill(0.8);
+  rim.between.fill(0.15);
+  rim.around = 0.2;
+  return rim;
+}
+
+TEST(StrainSlip, RingsThatAreKnownAreFoundByTheirForces) {
+  const StrainSlip found = fit_strain_slip({place_of(known_rings(0.4), 0.4)}, 2);
+  EXPECT_LT(found.doubt, 0.01);
+  EXPECT_GT(found.seen, 0.97);
+  EXPECT_DOUBLE_EQ(found.deepest, 0.6);
+}
+
+TEST(StrainSlip, AToolThatHardlySlippedWasNotSeenToSlip) {
+  const StrainSlip found = fit_strain_slip({place_of(known_rings(2), 0.1)}, 2);
+  EXPECT_LT(found.seen, 0.5);
 }
 
 // In and aside, aside alone as far as it slips, back, and out.
