@@ -73,5 +73,5 @@ for motion in wander{1..8}; do # rows of 0.1 s, straight between
 done >steps.csv
 for model in slips relaxing; do
   "$bin/hs-simulate" steps.csv --body block.ply --model $model.csv --live --large-strain --accuracy $([[ $model == slips ]] && echo 0.05 || echo 0.1) \
-    --contacts contacts.csv -o steps-out.csv 2>&1 | sed -n "s/.*\([0-9]* samples: median\)/step, $model: \1/p"
+    --contacts contacts.csv -o steps-out.csv 2>&1 | sed -n "s/^hs-simulate: \([0-9]* samples: median\)/step, $model: \1/p"
 done

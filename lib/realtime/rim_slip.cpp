@@ -1,5 +1,7 @@
 #include "realtime/rim_slip.h"
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <algorithm>
 #include <array>
 
 namespace hapsim {

@@ -37,7 +37,8 @@ struct SlipPresses {
 // way; in and aside by half of that, then across as far as it slips, and out; and out from where it
 // had turned. As deep as elements of half a radius at the rim converge; `finer`: and as those of a
 // quarter do, whose forces are within 0.5 % of those of a sixth (Richardson's extrapolation;
-// without, ratios are 1 to 4 % off). Takes a minute of a processor, and two more for finer ones.
+// without, ratios are 1 to 4 % off). Takes some three minutes of a processor with finer ones (a
+// block of 10,000 tetrahedra, nu 0.4; nearly incompressible ones longer).
 // `held`: body and support, static; `slips`: and the effect that slips. Nothing where not even the
 // first depths converge.
 std::optional<SlipPresses> press_slipping(const TetMesh& body, const ContactBase& base,

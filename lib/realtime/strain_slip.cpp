@@ -1,6 +1,7 @@
 #include "realtime/strain_slip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/parallel.h"
@@ -165,22 +166,6 @@ StrainSlip fit_strain_slip(const std::vector<SlipPlace>& places, int threads) {
         slip.seen = std::max(slip.seen, f.tail<2>().norm() / (friction * std::max(f[0], 1e-9)));
   }
   slip.seen = std::min(slip.seen, 1.0);
-  if (std::getenv("DBG")) {
-    std::fprintf(stderr, "x");
-    for (int i = 0; i < kUnknowns; ++i) std::fprintf(stderr, " %.3f", found.x[i]);
-    std::fprintf(stderr, "\nrms %.4f elements %.4f its %d %s\n",
-                 std::sqrt(3.0 / left.size()) * left.norm(), elements, found.iterations,
-                 found.message.c_str());
-    Eigen::Index at = 0;
-    for (auto& p : places)
-      for (auto& m : p.presses.motions) {
-        std::fprintf(stderr, " motion after %d from %d\n", m.after, m.from);
-        for (std::size_t i = 0; i < m.way.size(); ++i, at += 3)
-          std::fprintf(stderr, "   %.2f %.3f %.3f: f %.4f %.4f off %.2f %.2f %.2f\n", m.way[i][0],
-                       m.way[i][1], m.way[i][2], m.force[i][0], m.force[i].tail<2>().norm(),
-                       100 * left[at], 100 * left[at + 1], 100 * left[at + 2]);
-      }
-  }
   slip.doubt = std::hypot(kUnseen * std::sqrt(3.0 / static_cast<double>(left.size())) * left.norm(),
                           elements);
   return slip;

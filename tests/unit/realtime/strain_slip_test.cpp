@@ -184,6 +184,20 @@ TEST(StrainSlip, StepsAreOfNoRateGoOnFromAStateAndAllocateNothing) {
   }
 }
 
+// Where it has slid by more than half its radius the contact is elsewhere than the place.
+TEST(StrainSlip, WhatSlidesFarIsSaidToBeBeyond) {
+  const PreparedBody& body = slipping_body();
+  ForceLoop loop(body);
+  loop.begin({0.052, 0.047, 0.06});
+  for (int i = 0; i <= 100; ++i) {
+    const double aside = 0.01 * std::max(0, i - 20);
+    loop.press(1e-3 * i, test::kStrainedRadius * Vec3(aside, 0, -0.02 * std::min(i, 20)));
+    EXPECT_TRUE(aside >= 0.4 || (loop.beyond() & kBeyondLaw) == 0) << i;
+  }
+  loop.press(0.101, test::kStrainedRadius * Vec3(1.3, 0, -0.4));
+  EXPECT_NE(loop.beyond() & kBeyondLaw, 0);
+}
+
 // Whatever way the tool goes.
 TEST(StrainSlip, BearsNoMoreSidewaysThanCoulombAllows) {
   const PreparedBody& body = slipping_body();
