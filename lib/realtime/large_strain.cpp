@@ -163,7 +163,7 @@ void LargeStrain::add_slip(const Model& model) {
     found[i] = load<SlipPresses>(path);
     if (!found[i]) {
       found[i] = press_slipping(body_, base_, model_, model, sample, options_.tool_radius, friction,
-                                finer);
+                                1 + i, finer);
       if (found[i]) store(path, *found[i]);
     }
     if (options_.sampled) options_.sampled();

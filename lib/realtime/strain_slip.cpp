@@ -103,7 +103,9 @@ void residuals(const RimSlip& rim, const SlipPlace& place, std::vector<double>& 
     std::vector<Vec3> asked;
     double largest = 0;
     for (std::size_t i = 0; i < m.force.size(); ++i) {
-      asked.push_back(m.force[i] * held.at(m.way[i][0], Eigen::Vector2d::Zero()).normal);
+      const RimHeld straight = held.at(m.way[i][0], Eigen::Vector2d::Zero());
+      asked.push_back(m.force[i] * straight.normal);
+      asked.back().tail<2>() += straight.along;
       largest = std::max(largest, asked.back().norm());
     }
     been.emplace_back();
@@ -161,9 +163,7 @@ StrainSlip fit_strain_slip(const std::vector<SlipPlace>& places, int threads) {
   for (const SlipPlace& place : places) {
     elements = std::max(elements, place.presses.doubt);
     slip.deepest = std::min(slip.deepest, place.presses.deepest);
-    for (const SlipMotion& m : place.presses.motions)
-      for (const Vec3& f : m.force)
-        slip.seen = std::max(slip.seen, f.tail<2>().norm() / (friction * std::max(f[0], 1e-9)));
+    slip.seen = std::max(slip.seen, place.presses.seen);
   }
   slip.seen = std::min(slip.seen, 1.0);
   slip.doubt = std::hypot(kUnseen * std::sqrt(3.0 / static_cast<double>(left.size())) * left.norm(),

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -34,6 +35,7 @@ TEST(SlipPresses, AreReadAsTheyWereWrittenAndNotWhereTheyAreDamaged) {
   presses.friction = kFriction;
   presses.doubt = 0.01;
   presses.deepest = 0.3;
+  presses.seen = 0.9;
   presses.motions = {{-1, 0, {{0.15, 0, 0}, {0.3, 0, 0}}, {{0.98, 0, 0}, {0.97, 0.01, 0}}},
                      {0, 2, {{0.15, 0, 0}}, {{0.9, 0, 0}}}};
   const std::optional<SlipPresses> back = SlipPresses::read(presses.bytes());
@@ -78,6 +80,8 @@ SlipPlace place_of(const RimSlip& rim, double far_aside) {
         }
         m.way.push_back(v);
         m.force.emplace_back(f.normal / v[0], f.along[0] / v[0], f.along[1] / v[0]);
+        double& seen = place.presses.seen;
+        seen = std::max(seen, f.along.norm() / (rim.friction * f.normal));
       }
       from = to;
     }
