@@ -3,7 +3,9 @@
 # against --full, whose elements slip (of a quarter of a radius at the rim). A block 80 x 60 x 30 mm that stiffens (s =
 # 0.2), a tool of 4 mm at places that were not pressed beforehand, up to 0.65 radii deep, where --full ends: straight in
 # and out; drawn aside with the depth and out; in, aside as far as it slips, back across and over; in askew, aside
-# another way, and out; and eight ways from corner to corner that were drawn at random, each at its place, out at last.
+# another way, and out; eight ways from corner to corner that were drawn at random, each at its place, out at last, as
+# (others of) those are that places are pressed along; and three of kinds that they are not: around at one depth, in and
+# out while it goes on, and out in a spiral.
 # Of every motion, over its rows: the error of the force over it (floor 5 % of the largest), how many of the rows 1.96
 # times the stated uncertainty covers, and the same error of the law of a held tool; then the same of all rows, and what
 # a step of a millisecond takes along the random ways, also of a body that relaxes. Places stay in OUT/cache. Recorded
@@ -22,12 +24,15 @@ printf '%s\n' effect,region,parameter,value,unit,std_error,lower,upper,state ela
   elastic,0,nu,$nu,1,,0,0.499,fixed hyperelastic,0,s,0.2,1,,0,1.2,fixed hyperelastic,0,finite,1,1,,0,1,fixed >held.csv
 { cat held.csv; echo friction,0,mu,$friction,1,,0.001,1000,fixed; } >slips.csv
 printf '# tool_radius: 0.004\npress,x,y,z,ux,uy,uz\n0,0.04,0.034,0.03,0,0,0\n' >contacts.csv
-for motion in straight drawn aside askew wander{1..8}; do
+for motion in straight drawn aside askew wander{1..8} circle pecks spiral; do
   # Ways aside go with the friction, since a tool slips by so much.
   awk -v motion=$motion -v far="$friction" 'BEGIN {
     far = far > 0.5 ? 1.25 : far / 0.4
     at = motion == "askew" ? "0.0321,0.0287,0.03" : "0.04,0.034,0.03"; n = 0
     if (motion ~ /wander/) { seed = 7919 * substr(motion, 7); at = sprintf("%.4f,%.4f,0.03", 0.032 + 0.014 * draw(), 0.026 + 0.014 * draw()) }
+    if (motion == "circle") at = "0.0387,0.0313,0.03"
+    if (motion == "pecks") at = "0.0356,0.0279,0.03"
+    if (motion == "spiral") at = "0.0431,0.0336,0.03"
     print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"
     row(0, 0, 0)
     if (motion == "straight") { for (i = 1; i <= 6; ++i) row(0.1 * i, 0, 0); for (i = 5; i >= 1; --i) row(0.1 * i, 0, 0) }
@@ -36,6 +41,12 @@ for motion in straight drawn aside askew wander{1..8}; do
       for (i = 3; i >= -3; --i) row(0.5, 0.1 * i, 0) }
     if (motion == "askew") { for (i = 1; i <= 5; ++i) row(0.13 * i, 0.05 * i, 0.02 * i)
       for (i = 1; i <= 5; ++i) row(0.65, 0.25 - 0.02 * i, 0.1 + 0.08 * i); for (i = 4; i >= 1; --i) row(0.13 * i, 0.15, 0.5) }
+    if (motion == "circle") { for (i = 1; i <= 5; ++i) row(0.1 * i, 0.04 * i, 0)
+      for (i = 1; i <= 23; ++i) row(0.5, 0.2 * cos(0.4 * i), 0.2 * sin(0.4 * i)) }
+    if (motion == "pecks") for (i = 0; i < 4; ++i) { peck(0.2, 0.06 * i); peck(0.4, 0.06 * i + 0.01)
+      peck(0.55, 0.06 * i + 0.03); peck(0.35, 0.06 * i + 0.045); peck(0.15, 0.06 * i + 0.055) }
+    if (motion == "spiral") { for (i = 1; i <= 5; ++i) row(0.12 * i, 0, 0)
+      for (i = 1; i <= 22; ++i) row(0.6 - 0.02 * i, 0.016 * i * cos(0.6 * i), 0.016 * i * sin(0.6 * i)) }
     if (motion ~ /wander/) for (leg = 1; leg <= 4; ++leg) {
       r = 0.35 * sqrt(draw()); turn = 6.2832 * draw(); to = leg < 4 ? 0.3 + 0.33 * draw() : 0.12
       dp = r * cos(turn) - p; dq = r * sin(turn) - q; dd = to - deep
@@ -43,6 +54,7 @@ for motion in straight drawn aside askew wander{1..8}; do
       for (i = 1; i <= steps; ++i) row(deep + dd * i / steps, p + dp * i / steps, q + dq * i / steps)
       deep = to; p += dp; q += dq }
   }
+  function peck(d, p) { row(d, p, 0.6 * p) }
   function draw() { seed = (16807 * seed) % 2147483647; return seed / 2147483647 }
   function row(d, p, q) { p *= far; q *= far; printf "0,%.2f,%s,%.7f,%.7f,%.7f\n", 0.1 * n++, at, 0.004 * p, 0.004 * q, -0.004 * d }' >$motion.csv
   "$bin/hs-simulate" -q $motion.csv --body block.ply --model slips.csv --full --rim-edge 0.25 -o $motion-full.csv
