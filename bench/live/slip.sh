@@ -3,9 +3,11 @@
 # against --full, whose elements slip (of a quarter of a radius at the rim). A block 80 x 60 x 30 mm that stiffens (s =
 # 0.2), a tool of 4 mm at places that were not pressed beforehand, up to 0.65 radii deep, where --full ends: straight in
 # and out; drawn aside with the depth and out; in, aside as far as it slips, back across and over; in askew, aside
-# another way, and out; eight ways from corner to corner that were drawn at random, each at its place, out at last, as
-# (others of) those are that places are pressed along; and three of kinds that they are not: around at one depth, in and
-# out while it goes on, and out in a spiral.
+# another way, and out; eight ways from corner to corner that were drawn at random, each at its place, out at last,
+# around at one depth, and in and out while it goes on, as (others of) those are that places are pressed along; and five
+# of kinds that they are not: out in a spiral, an eight, to and fro ever deeper, by stairs, and a star. Then ways to 2.25
+# radii (30 % of the thickness) and back, against --full of half a radius, since no finer elements converge there:
+# straight, askew with a turn, four drawn at random, and (kinds that were not pressed) to and fro ever deeper and a spiral.
 # Of every motion, over its rows: the error of the force over it (floor 5 % of the largest), how many of the rows 1.96
 # times the stated uncertainty covers, and the same error of the law of a held tool; then the same of all rows, and what
 # a step of a millisecond takes along the random ways, also of a body that relaxes. Places stay in OUT/cache. Recorded
@@ -24,15 +26,23 @@ printf '%s\n' effect,region,parameter,value,unit,std_error,lower,upper,state ela
   elastic,0,nu,$nu,1,,0,0.499,fixed hyperelastic,0,s,0.2,1,,0,1.2,fixed hyperelastic,0,finite,1,1,,0,1,fixed >held.csv
 { cat held.csv; echo friction,0,mu,$friction,1,,0.001,1000,fixed; } >slips.csv
 printf '# tool_radius: 0.004\npress,x,y,z,ux,uy,uz\n0,0.04,0.034,0.03,0,0,0\n' >contacts.csv
-for motion in straight drawn aside askew wander{1..8} circle pecks spiral; do
+deep=(deep_straight deep_askew deep_wander{1..4} deep_zigzag deep_spiral)
+for motion in straight drawn aside askew wander{1..8} circle pecks spiral eight zigzag stairs star "${deep[@]}"; do
   # Ways aside go with the friction, since a tool slips by so much.
   awk -v motion=$motion -v far="$friction" 'BEGIN {
     far = far > 0.5 ? 1.25 : far / 0.4
     at = motion == "askew" ? "0.0321,0.0287,0.03" : "0.04,0.034,0.03"; n = 0
-    if (motion ~ /wander/) { seed = 7919 * substr(motion, 7); at = sprintf("%.4f,%.4f,0.03", 0.032 + 0.014 * draw(), 0.026 + 0.014 * draw()) }
+    if (motion ~ /^wander/) { seed = 7919 * substr(motion, 7); at = sprintf("%.4f,%.4f,0.03", 0.032 + 0.014 * draw(), 0.026 + 0.014 * draw()) }
+    if (motion ~ /^deep_w/) { seed = 6007 * substr(motion, 12); at = sprintf("%.4f,%.4f,0.03", 0.032 + 0.014 * draw(), 0.026 + 0.014 * draw()) }
+    if (motion ~ /^deep_[sz]/) at = "0.0387,0.0313,0.03"
+    if (motion == "deep_askew") at = "0.0356,0.0279,0.03"
     if (motion == "circle") at = "0.0387,0.0313,0.03"
     if (motion == "pecks") at = "0.0356,0.0279,0.03"
     if (motion == "spiral") at = "0.0431,0.0336,0.03"
+    if (motion == "eight") at = "0.0371,0.0302,0.03"
+    if (motion == "zigzag") at = "0.0412,0.0291,0.03"
+    if (motion == "stairs") at = "0.0339,0.0331,0.03"
+    if (motion == "star") at = "0.0427,0.0318,0.03"
     print "# tool_radius: 0.004\npress,t,x,y,z,ux,uy,uz"
     row(0, 0, 0)
     if (motion == "straight") { for (i = 1; i <= 6; ++i) row(0.1 * i, 0, 0); for (i = 5; i >= 1; --i) row(0.1 * i, 0, 0) }
@@ -47,7 +57,28 @@ for motion in straight drawn aside askew wander{1..8} circle pecks spiral; do
       peck(0.55, 0.06 * i + 0.03); peck(0.35, 0.06 * i + 0.045); peck(0.15, 0.06 * i + 0.055) }
     if (motion == "spiral") { for (i = 1; i <= 5; ++i) row(0.12 * i, 0, 0)
       for (i = 1; i <= 22; ++i) row(0.6 - 0.02 * i, 0.016 * i * cos(0.6 * i), 0.016 * i * sin(0.6 * i)) }
-    if (motion ~ /wander/) for (leg = 1; leg <= 4; ++leg) {
+    if (motion == "eight") { for (i = 1; i <= 5; ++i) row(0.09 * i, 0, 0)
+      for (i = 1; i <= 21; ++i) row(0.45, 0.25 * sin(0.35 * i), 0.15 * sin(0.7 * i)) }
+    if (motion == "zigzag") for (i = 0; i < 26; ++i) row(0.1 + 0.02 * i, 0.166 * cos(0.8 * i), 0.07 * cos(0.8 * i))
+    if (motion == "stairs") { steps = split("0.2 0.2 0.4 0.4 0.6 0.6 0.4 0.4 0.2 0.2 0.1", depth, " ")
+      split("0 0.1 0.1 0.2 0.2 0.32 0.32 0.12 0.12 0.02 0.02", side, " ")
+      for (i = 1; i <= steps; ++i) for (half = 0.5; half >= 0; half -= 0.5) {
+        s = side[i] - half * (side[i] - side[i - 1]); row(depth[i] - half * (depth[i] - depth[i - 1]), -0.8 * s, 0.6 * s) } }
+    if (motion == "star") { for (i = 1; i <= 5; ++i) row(0.1 * i, 0, 0)
+      for (k = 0; k < 5; ++k) for (i = 1; i <= 4; ++i) { r = 0.12 * (i < 3 ? i : 4 - i); row(0.5, r * cos(0.3 + 2.4 * k), r * sin(0.3 + 2.4 * k)) } }
+    if (motion == "deep_straight") { for (i = 1; i <= 15; ++i) row(0.15 * i, 0, 0); for (i = 14; i >= 1; --i) row(0.15 * i, 0, 0) }
+    if (motion == "deep_askew") { for (i = 1; i <= 10; ++i) row(0.15 * i, 0.05 * i, 0.02 * i)
+      for (i = 1; i <= 8; ++i) row(1.5, 0.5 - 0.1 * i, 0.2); for (i = 9; i >= 2; --i) row(0.15 * i, -0.3, 0.2) }
+    if (motion == "deep_zigzag") { for (i = 1; i <= 20; ++i) row(0.1 * i, 0.25 * sin(0.9 * i), 0.1 * sin(0.9 * i)); for (i = 9; i >= 1; --i) row(0.2 * i, 0.1, 0) }
+    if (motion == "deep_spiral") { for (i = 1; i <= 11; ++i) row(0.15 * i, 0, 0)
+      for (i = 1; i <= 25; ++i) row(1.65 - 0.06 * i, 0.018 * i * cos(0.6 * i), 0.018 * i * sin(0.6 * i)) }
+    if (motion ~ /^deep_w/) for (leg = 1; leg <= 4; ++leg) {
+      r = 0.6 * sqrt(draw()); turn = 6.2832 * draw(); to = leg < 4 ? 0.6 + 1.3 * draw() : 0.2
+      dp = r * cos(turn) - p; dq = r * sin(turn) - q; dd = to - deep
+      steps = int(sqrt(dp ^ 2 + dq ^ 2 + dd ^ 2) / 0.15) + 1
+      for (i = 1; i <= steps; ++i) row(deep + dd * i / steps, p + dp * i / steps, q + dq * i / steps)
+      deep = to; p += dp; q += dq }
+    if (motion ~ /^wander/) for (leg = 1; leg <= 4; ++leg) {
       r = 0.35 * sqrt(draw()); turn = 6.2832 * draw(); to = leg < 4 ? 0.3 + 0.33 * draw() : 0.12
       dp = r * cos(turn) - p; dq = r * sin(turn) - q; dd = to - deep
       steps = int(sqrt(dp ^ 2 + dq ^ 2 + dd ^ 2) / 0.11) + 1
@@ -57,7 +88,9 @@ for motion in straight drawn aside askew wander{1..8} circle pecks spiral; do
   function peck(d, p) { row(d, p, 0.6 * p) }
   function draw() { seed = (16807 * seed) % 2147483647; return seed / 2147483647 }
   function row(d, p, q) { p *= far; q *= far; printf "0,%.2f,%s,%.7f,%.7f,%.7f\n", 0.1 * n++, at, 0.004 * p, 0.004 * q, -0.004 * d }' >$motion.csv
-  "$bin/hs-simulate" -q $motion.csv --body block.ply --model slips.csv --full --rim-edge 0.25 -o $motion-full.csv
+  [[ $motion == deep_* ]] && edge=0.5 || edge=0.25
+  "$bin/hs-simulate" -q $motion.csv --body block.ply --model slips.csv --full --rim-edge $edge -o $motion-full.csv ||
+    { echo "$motion: elements do not converge" >&2; continue; }
   for model in held slips; do
     "$bin/hs-simulate" -q $motion.csv --body block.ply --model $model.csv --live --large-strain --accuracy 0.05 \
       --contacts contacts.csv --uncertainty -o $motion-$model.csv
@@ -70,12 +103,16 @@ for motion in straight drawn aside askew wander{1..8} circle pecks spiral; do
     END { for (r = 2; r <= NR; ++r) { u = f[r] > 0.05 * peak ? f[r] : 0.05 * peak; ++n; covered += e[r] <= s[r]
         x = 100 * e[r] / u; within += x <= 2; sum += x; if (x > worst) worst = x
         x = 100 * h[r] / u; held += x; if (x > held_worst) held_worst = x }
-      printf "%-8s mean %.2f %% worst %.2f %%, within 2 %%: %d of %d, covered %d; a held tool: mean %.2f %% worst %.2f %%\n",
+      printf "%-13s mean %.2f %% worst %.2f %%, within 2 %%: %d of %d, covered %d; a held tool: mean %.2f %% worst %.2f %%\n",
         motion, sum / n, worst, within, n, covered, held / n, held_worst }'
 done | tee told.txt
-sed 's/[,:;]//g' told.txt | awk '{ within += $11; n += $13; covered += $15; held += $20 * $13; sum += $3 * $13 }
-  END { printf "all      mean %.2f %%, within 2 %%: %d of %d (%.0f %%), covered %d (%.0f %%); a held tool: mean %.2f %%\n",
-    sum / n, within, n, 100 * within / n, covered, 100 * covered / n, held / n }'
+total() {
+  sed 's/[,:;]//g' | awk -v of="$1" '{ within += $11; n += $13; covered += $15; held += $20 * $13; sum += $3 * $13 }
+    END { if (n) printf "%-13s mean %.2f %%, within 2 %%: %d of %d (%.0f %%), covered %d (%.0f %%); a held tool: mean %.2f %%\n",
+      of, sum / n, within, n, 100 * within / n, covered, 100 * covered / n, held / n }'
+}
+grep -v ^deep_ told.txt | total all
+grep ^deep_ told.txt | total deep
 
 { cat slips.csv; printf '%s\n' viscoelastic,0,E1,10000,Pa,,0,1e12,fixed viscoelastic,0,tau1,0.5,s,,1e-4,1e5,fixed; } >relaxing.csv
 for motion in wander{1..8}; do # rows of 0.1 s, straight between

@@ -25,7 +25,7 @@ constexpr double kMultipleFrom = 0.01;
 // Numbers that a loop keeps of a state that is remembered, and of each memory.
 constexpr std::size_t kStrainNumbers = kMemoryTerms + kInsideFields * kInsideNow;
 // And of a tool that slips, as slide() has them.
-constexpr std::size_t kSlipNumbers = RimSlip::kNumbers;
+constexpr std::size_t kSlipNumbers = StrainSlip::State::kNumbers;
 
 template <class Steps>
 LawRange law_of(const Steps& steps, double radius) {

@@ -9,9 +9,6 @@
 namespace hapsim {
 namespace {
 
-constexpr double kSlippedFar = 0.5;  // tool radii, from which on the contact is elsewhere
-constexpr double kSeenAll = 0.95;    // of mu N sideways: then it was seen to slip as a whole
-
 // Two ways along the surface, each rows of one: the same for the same normal.
 Eigen::Matrix<double, 2, 3> along_surface(const Vec3& n) noexcept {
   int least = 0;
@@ -31,16 +28,14 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
   const Vec3& n = state_.place.normal;
   const Eigen::Matrix<double, 2, 3> ways = along_surface(n);
   double* const memory = state_.memory.data() + slip_memory_;
-  if (sample.first || sample.in_air) std::fill_n(memory, RimSlip::kNumbers, 0.0);
-  Eigen::Map<Eigen::Matrix<double, 2, RimSlip::kParts>> slip(memory);
-  Eigen::Map<Eigen::Vector2d> held_at(memory + 2 * RimSlip::kParts);
-  RimSlip::State state{slip, held_at};
+  StrainSlip::State state;
+  if (!sample.first && !sample.in_air) state = StrainSlip::State::load(memory);
   const double d = -u.dot(n) / a;
   double* const remembered = state_.memory.data() + strain_memory_;
   std::copy_n(remembered, before_.size(), before_.data());
   LargeStrain::Force held;
   int asked = 0;
-  const RimSlip::Force f = law.rim.step(d, ways * u / a, state, [&](const Eigen::Vector2d& way) {
+  const RimSlip::Force f = law.step(d, ways * u / a, state, [&](const Eigen::Vector2d& way) {
     if (asked++ > 0) std::copy_n(before_.data(), before_.size(), remembered);
     const Vec3 at = a * (ways.transpose() * way) - a * d * n;
     held = strained(sample, at);
@@ -52,15 +47,14 @@ LargeStrain::Force ForceLoop::slide(const StepSample& sample, const Vec3& u) noe
     }
     return RimHeld{-n.dot(held.f), ways * held.f, -ways * (K * n), ways * K * ways.transpose()};
   });
-  slip = state.slip;
-  held_at = state.way;
-  const double size = held.f.norm();
+  state.store(memory);
+  const Vec3 holds = held.f;
   held.f = ways.transpose() * f.along - f.normal * n;
-  if (held.f.norm() > 0) held.doubt = std::hypot(held.doubt * size / held.f.norm(), law.doubt);
-  // Beyond what was seen of this tool.
-  const bool seen =
-      law.seen >= kSeenAll || f.along.norm() <= law.seen * law.rim.friction * f.normal;
-  if (!seen || d > law.deepest || f.slipped.norm() > kSlippedFar) held.within = false;
+  const double size = held.f.norm();
+  if (size > 0)
+    held.doubt = std::hypot(held.doubt * holds.norm() / size,
+                            law.doubt_of(state, (held.f - holds).norm() / size));
+  if (!law.within(state, f)) held.within = false;
   return held;
 }
 

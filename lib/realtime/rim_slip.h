@@ -29,7 +29,7 @@ struct RimHeld {
 // in two directions and drawn by the depth.
 struct RimSlip {
   static constexpr int kRings = 5, kSectors = 6, kParts = kRings * kSectors;
-  static constexpr int kReturns = 5;
+  static constexpr int kReturns = 9;
   static constexpr double kReturnStep = 0.3;                                       // tool radii
   static constexpr std::array<double, kRings> kWeight{0.4, 0.25, 0.2, 0.1, 0.05};  // w, from inside
 

@@ -2,29 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
-#include "base/random.h"
 #include "realtime/stored_numbers.h"
 #include "realtime/strain_mesh.h"
 
 namespace hapsim {
 namespace {
 
-constexpr const char* kSlipKind = "hsslip09";
-constexpr int kDepths = 8, kFinerDepths = 5;  // no deeper do finer elements converge
-constexpr int kOutFrom = 4, kAsideAt = 3;     // steps of the way in
-constexpr int kWays = 5;                      // drawn at random
-constexpr double kWayDepth = 0.68;            // tool radii: finer elements converge there mostly
-// A step of the depth is of so many at which a tool that holds is pressed.
-constexpr int kParts = 3;
-constexpr double kPart = SlipPresses::kStep / kParts;
+constexpr const char* kSlipKind = "hsslip10";
+constexpr int kDepths = 15;  // no deeper do elements converge
 constexpr double kSlipLeast = 1.0 / 8;
-// Standard, of forces: of coarse elements alone, and of what finer ones have, over the difference.
-constexpr double kCoarseDoubt = 0.02, kFinerDoubt = 0.25;
+// Standard, of forces: of coarse elements alone, as far as they were off where finer ones were
+// pressed too (5 to 6.5 % rms of all motions); and of what finer ones have, over the difference.
+constexpr double kCoarseDoubt = 0.06, kFinerDoubt = 0.25;
+// Of coarse elements where finer ones ended before, over that difference: of the correction there,
+// which goes on, half.
+constexpr double kCarriedDoubt = 0.67;
 constexpr double kFinerShare = 1.0 / 3;  // of a difference by halving, second order
-enum Which { kIn, kOutAgain, kAcross, kInDrawn, kOutDrawn, kMotions };
 
 template <class Step>
 void as_far_as_it_converges(const Step& step) {
@@ -44,65 +39,8 @@ Eigen::Vector2d sideways(const StrainSample& sample) {
   return Eigen::Vector2d(-couples[1], couples[0]).normalized();
 }
 
-// From corner to corner, drawn at random up to `deep` and aside by up to `aside`, and nearly out at
-// last.
-SlipMotion wandering(double deep, double aside, Random& random) {
-  constexpr int kLegs = 4;
-  constexpr double kShallow = 0.3, kOut = 0.15;  // of `deep`
-  constexpr double kApart = 0.12;                // tool radii
-  SlipMotion motion;
-  Vec3 from = Vec3::Zero();
-  for (int leg = 1; leg <= kLegs; ++leg) {
-    const double depth = deep * (leg < kLegs ? kShallow + (1 - kShallow) * random.uniform() : kOut);
-    const double far = aside * std::sqrt(random.uniform()),
-                 turn = 2 * std::numbers::pi * random.uniform();
-    const Vec3 to(depth, far * std::cos(turn), far * std::sin(turn));
-    const int steps = 1 + static_cast<int>((to - from).norm() / kApart);
-    for (int i = 1; i <= steps; ++i) {
-      Vec3 v = from + static_cast<double>(i) / steps * (to - from);
-      v[0] = kPart * std::max(1.0, std::round(v[0] / kPart));
-      motion.way.push_back(v);
-    }
-    from = to;
-  }
-  return motion;
-}
-
-// All that is asked of `depths` steps in. A tool that is pushed aside by friction * depth slips
-// hardly, by 1.7 of that as a whole nearly.
-std::vector<SlipMotion> planned(const StrainSample& sample, double friction, int depths,
-                                std::uint64_t seed) {
-  constexpr double kDrawnBy = 1.7;                            // of friction, aside over depth
-  constexpr std::array<double, 8> kSides{0.25, 0.5, 0.75, 1,  // of what slips as a whole
-                                         0.7,  0.3, -0.1, -0.5};
-  const Eigen::Vector2d way = sideways(sample);
-  const auto at = [&](double depth, double side) {
-    return Vec3(depth, side * way[0], side * way[1]);
-  };
-  const double step = SlipPresses::kStep, by = std::clamp(kDrawnBy * friction, 0.05, 2.0);
-  const double aside = std::clamp(friction, 0.016, 0.8);
-  std::vector<SlipMotion> all(kMotions);
-  all[kOutAgain] = {kIn, std::min(kOutFrom, depths), {}, {}};
-  all[kAcross] = {kIn, std::min(kAsideAt, depths), {}, {}};
-  all[kOutDrawn] = {kInDrawn, std::min(kOutFrom, depths), {}, {}};
-  for (int i = 1; i <= depths; ++i) {
-    all[kIn].way.push_back(at(step * i, 0));
-    all[kInDrawn].way.push_back(at(step * i, by * step * i));
-  }
-  for (int i = all[kOutAgain].from - 1; i >= 1; --i) {
-    all[kOutAgain].way.push_back(at(step * i, 0));
-    all[kOutDrawn].way.push_back(at(step * i, by * step * i));
-  }
-  for (const double side : kSides)
-    all[kAcross].way.push_back(at(step * all[kAcross].from, aside * side));
-  Random random(seed);
-  const double deep = std::min(kWayDepth, step * depths);
-  for (int i = 0; i < kWays; ++i) all.push_back(wandering(deep, aside, random));
-  return all;
-}
-
 std::size_t depth_index(const Vec3& v) {
-  return static_cast<std::size_t>(std::lround(v[0] / kPart)) - 1;
+  return static_cast<std::size_t>(std::lround(v[0] / kSlipPart)) - 1;
 }
 
 // As a held tool's; where two meshes are compared twice as large away from the rim, which takes a
@@ -126,11 +64,11 @@ double press(const TetMesh& body, const FullOptions& options, const Model& held,
   std::vector<Vec3> straight;
   {
     FullPress press(body, held, sample.point, radius, options);
-    const std::size_t deepest = depth_index(motions[kIn].way.back()) + 1;
+    const std::size_t deepest = depth_index(motions[kSlipIn].way.back()) + 1;
     as_far_as_it_converges([&] {
       while (straight.size() < deepest)
         straight.push_back(
-            force(press, Vec3(kPart * static_cast<double>(straight.size() + 1), 0, 0)));
+            force(press, Vec3(kSlipPart * static_cast<double>(straight.size() + 1), 0, 0)));
     });
   }
   FullPress press(body, slips, sample.point, radius, options);
@@ -159,10 +97,47 @@ double press(const TetMesh& body, const FullOptions& options, const Model& held,
   return seen;
 }
 
+// Steps of the ways in that both converged.
+int reached_in(const std::vector<SlipMotion>& motions) {
+  return static_cast<int>(
+      std::min(motions[kSlipIn].force.size(), motions[kSlipInDrawn].force.size()));
+}
+
+// What elements half as large have to `coarse` is added to it, and a third more; where those end
+// first, the force is made as much larger or smaller as at their last. Returns the root mean square
+// of what they differ by, relative.
+double extrapolate(const std::vector<SlipMotion>& fine, std::vector<SlipMotion>& coarse) {
+  double sum = 0, count = 0;
+  std::vector<std::vector<double>> grown;
+  for (std::size_t m = 0; m < fine.size(); ++m) {
+    double last = 1;
+    if (coarse[m].after >= 0 && coarse[m].from >= 1) {
+      const std::vector<double>& before = grown[static_cast<std::size_t>(coarse[m].after)];
+      if (coarse[m].from <= static_cast<int>(before.size()))
+        last = before[static_cast<std::size_t>(coarse[m].from - 1)];
+    }
+    grown.emplace_back();
+    for (std::size_t i = 0; i < coarse[m].force.size(); ++i) {
+      Vec3& force = coarse[m].force[i];
+      if (i < fine[m].force.size()) {
+        const Vec3 halving = fine[m].force[i] - force;
+        sum += halving.squaredNorm() / fine[m].force[i].squaredNorm();
+        ++count;
+        last = 1 + (1 + kFinerShare) * halving[0] / force[0];
+        force += (1 + kFinerShare) * halving;
+      } else {
+        force *= last;
+      }
+      grown.back().push_back(last);
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
 }  // namespace
 
 std::string SlipPresses::bytes() const {
-  std::vector<double> numbers{friction, doubt, deepest, seen};
+  std::vector<double> numbers{friction, doubt, deepest, coarse_doubt, coarse_deepest, seen};
   for (const SlipMotion& m : motions) {
     numbers.insert(numbers.end(), {static_cast<double>(m.after), static_cast<double>(m.from),
                                    static_cast<double>(m.force.size())});
@@ -175,14 +150,16 @@ std::string SlipPresses::bytes() const {
 }
 
 std::optional<SlipPresses> SlipPresses::read(const std::string& bytes) {
-  constexpr std::size_t kHead = 4;
+  constexpr std::size_t kHead = 6;
   const auto numbers = read_numbers(kSlipKind, bytes);
   if (!numbers || numbers->size() < kHead) return std::nullopt;
   SlipPresses presses;
   presses.friction = (*numbers)[0];
   presses.doubt = (*numbers)[1];
   presses.deepest = (*numbers)[2];
-  presses.seen = (*numbers)[3];
+  presses.coarse_doubt = (*numbers)[3];
+  presses.coarse_deepest = (*numbers)[4];
+  presses.seen = (*numbers)[5];
   for (std::size_t at = kHead; at + 3 <= numbers->size();) {
     const double* head = numbers->data() + at;
     const auto count = static_cast<std::size_t>(head[2]);
@@ -203,40 +180,33 @@ std::optional<SlipPresses> press_slipping(const TetMesh& body, const ContactBase
                                           const Model& held, const Model& slips,
                                           const StrainSample& sample, double tool_radius,
                                           double friction, std::uint64_t seed, bool finer) {
-  const int depths = std::min(kDepths, static_cast<int>(sample.into / SlipPresses::kStep));
+  const int depths = std::min(kDepths, static_cast<int>(sample.into / kSlipStep));
   if (depths < 1) return std::nullopt;
   const double growth = finer ? 2 : 1;
-  const FullOptions options = slip_elements(base, 1, growth);
   SlipPresses presses;
   presses.friction = friction;
-  presses.motions = planned(sample, friction, depths, seed);
-  presses.seen = press(body, options, held, slips, sample, tool_radius, friction, presses.motions);
-  const std::size_t reached =
-      std::min(presses.motions[kIn].force.size(), presses.motions[kInDrawn].force.size());
-  if (reached == 0 || presses.motions[kAcross].force.size() < 4) return std::nullopt;
-  presses.deepest = SlipPresses::kStep * static_cast<double>(reached);
-  presses.doubt = kCoarseDoubt;
+  presses.motions = planned_slip_ways(sideways(sample), friction, depths, seed);
+  const auto press_all = [&](double rim, std::vector<SlipMotion>& motions) {
+    return press(body, slip_elements(base, rim, growth), held, slips, sample, tool_radius, friction,
+                 motions);
+  };
+  presses.seen = press_all(1, presses.motions);
+  const int reached = reached_in(presses.motions);
+  if (reached == 0 || presses.motions[kSlipAcross].force.size() < 4) return std::nullopt;
+  presses.coarse_deepest = kSlipStep * reached;
+  presses.deepest = kSlipStep * std::min(reached, kSlipNear);
+  presses.doubt = presses.coarse_doubt = kCoarseDoubt;
   if (finer) {
-    const FullOptions fine = slip_elements(base, 0.5, growth);
     std::vector<SlipMotion> by = presses.motions;
-    for (const Which in : {kIn, kInDrawn})
-      by[in].way.resize(std::min<std::size_t>(by[in].way.size(), kFinerDepths));
-    press(body, fine, held, slips, sample, tool_radius, friction, by);
-    double sum = 0, count = 0;
-    for (std::size_t m = 0; m < by.size(); ++m) {
-      std::vector<Vec3>& coarse = presses.motions[m].force;
-      Vec3 rest = Vec3::Zero();  // beyond what finer elements reach, as last
-      for (std::size_t i = 0; i < coarse.size(); ++i) {
-        if (i < by[m].force.size()) {
-          const Vec3 halving = by[m].force[i] - coarse[i];
-          rest = (1 + kFinerShare) * halving;
-          sum += halving.squaredNorm() / by[m].force[i].squaredNorm();
-          ++count;
-        }
-        coarse[i] += rest;
-      }
+    for (const SlipWay in : {kSlipIn, kSlipInDrawn})
+      by[in].way.resize(std::min<std::size_t>(by[in].way.size(), kSlipNear));
+    press_all(0.5, by);
+    if (const int both = reached_in(by); both > 0) {
+      presses.deepest = kSlipStep * std::min(reached, both);
+      const double halving = extrapolate(by, presses.motions);
+      presses.doubt = kFinerDoubt * halving;
+      presses.coarse_doubt = kCarriedDoubt * halving;
     }
-    if (count > 0) presses.doubt = kFinerDoubt * std::sqrt(sum / count);
   }
   for (SlipMotion& m : presses.motions) m.way.resize(m.force.size());
   return presses;

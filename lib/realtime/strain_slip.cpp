@@ -20,7 +20,13 @@ constexpr double kFloor = 0.05;      // of a motion's largest force
 constexpr double kResidual = 0.005;  // standard, of what the rings leave
 constexpr double kSubstep = 0.1;     // tool radii
 constexpr double kDiffer = 1e-3;     // for derivatives
+constexpr double kSlippedFar = 0.5;  // tool radii, from which on the contact is elsewhere
+constexpr double kSeenAll = 0.95;    // of mu N sideways: then it was seen to slip as a whole
 constexpr double kUnseen = 1.3;      // what other motions are off by, over those that were fitted
+constexpr double kHandOver = 0.15;   // tool radii, of depth
+
+using StrainState = StrainSlip::State;
+enum class Rows { kNear, kDeep };
 
 std::vector<Unknown> unknowns() {
   std::vector<Unknown> all(kUnknowns);
@@ -73,32 +79,35 @@ class HeldSample {
   Eigen::Matrix3d K_;
 };
 
-RimSlip::Force go(const RimSlip& rim, const HeldSample& held, const Vec3& from, const Vec3& to,
-                  RimSlip::State& state) {
+RimSlip::Force go(const StrainSlip& slip, const HeldSample& held, const Vec3& from, const Vec3& to,
+                  StrainState& state) {
   const int steps = std::max(1, static_cast<int>(std::ceil((to - from).norm() / kSubstep - 1e-9)));
   RimSlip::Force force;
   for (int i = 1; i <= steps; ++i) {
     const Vec3 v = from + static_cast<double>(i) / steps * (to - from);
-    force = rim.step(v[0], v.tail<2>(), state,
-                     [&](const Eigen::Vector2d& way) { return held.at(v[0], way); });
+    force = slip.step(v[0], v.tail<2>(), state,
+                      [&](const Eigen::Vector2d& way) { return held.at(v[0], way); });
   }
   return force;
 }
 
 // Residuals of a place, in its motions' order: forces over the larger of the force and the floor.
-void residuals(const RimSlip& rim, const SlipPlace& place, std::vector<double>& all) {
+// Near rows are those until a motion is deeper than slip.near, deep ones the others.
+void residuals(const StrainSlip& slip, const SlipPlace& place, Rows rows,
+               std::vector<double>& all) {
   const HeldSample held(place.sample);
   struct At {
-    Vec3 v;
-    RimSlip::State state;
+    Vec3 v = Vec3::Zero();
+    StrainState state;
   };
   std::vector<std::vector<At>> been;
   for (const SlipMotion& m : place.presses.motions) {
-    At at{Vec3::Zero(), {}};
-    if (m.after >= 0 && m.from >= 1) {
+    been.emplace_back();
+    At at;
+    if (m.after >= 0) {
       const auto& before = been[static_cast<std::size_t>(m.after)];
-      if (m.from <= static_cast<int>(before.size()))
-        at = before[static_cast<std::size_t>(m.from - 1)];
+      if (m.from < 1 || m.from > static_cast<int>(before.size())) continue;
+      at = before[static_cast<std::size_t>(m.from - 1)];
     }
     std::vector<Vec3> asked;
     double largest = 0;
@@ -108,11 +117,13 @@ void residuals(const RimSlip& rim, const SlipPlace& place, std::vector<double>& 
       asked.back().tail<2>() += straight.along;
       largest = std::max(largest, asked.back().norm());
     }
-    been.emplace_back();
     for (std::size_t i = 0; i < m.force.size(); ++i) {
-      const RimSlip::Force f = go(rim, held, at.v, m.way[i], at.state);
+      const bool deep = std::max(at.state.deepest, m.way[i][0]) > slip.near.deepest + 1e-9;
+      if (deep && rows == Rows::kNear) break;
+      const RimSlip::Force f = go(slip, held, at.v, m.way[i], at.state);
       at.v = m.way[i];
       been.back().push_back(at);
+      if (deep != (rows == Rows::kDeep)) continue;
       const Vec3 off = (Vec3() << f.normal, f.along).finished() - asked[i];
       const double size = std::max(asked[i].norm(), kFloor * largest);
       for (int c = 0; c < 3; ++c) all.push_back(off[c] / size);
@@ -120,31 +131,37 @@ void residuals(const RimSlip& rim, const SlipPlace& place, std::vector<double>& 
   }
 }
 
-}  // namespace
+struct Fitted {
+  std::vector<Unknown> unknowns;
+  RimSlip rim;
+  double misfit = 0;  // standard, relative, of other motions than those that were fitted
+};
 
-StrainSlip fit_strain_slip(const std::vector<SlipPlace>& places, int threads) {
+// The rings by which the residuals of those rows are least, from `start` on.
+Fitted fit(const StrainSlip& slip, const std::vector<SlipPlace>& places, Rows rows,
+           const std::vector<Unknown>& start, int threads) {
   const double friction = places.front().presses.friction;
-  const std::vector<Unknown> start = unknowns();
-  const auto off = [&](const Eigen::VectorXd& x) {
+  const auto off = [&](const Eigen::VectorXd& at) {
     std::vector<double> all;
-    const RimSlip rim = rings_of(x, friction);
-    for (const SlipPlace& place : places) residuals(rim, place, all);
+    StrainSlip tried = slip;
+    (rows == Rows::kNear ? tried.near : tried.deep).rim = rings_of(at, friction);
+    for (const SlipPlace& place : places) residuals(tried, place, rows, all);
     return Eigen::VectorXd(
         Eigen::Map<const Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size())));
   };
   // What the motions do not tell stays where it began.
-  const auto with_prior = [&](const Eigen::VectorXd& x, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
+  const auto with_prior = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r, Eigen::MatrixXd* J) {
     constexpr double kPrior = 2.5;
-    const Eigen::VectorXd own = off(x) / kResidual;
+    const Eigen::VectorXd own = off(at) / kResidual;
     r.resize(own.size() + kUnknowns);
     r.head(own.size()) = own;
     for (int i = 0; i < kUnknowns; ++i)
-      r[own.size() + i] = (x[i] - start[static_cast<std::size_t>(i)].value) / kPrior;
+      r[own.size() + i] = (at[i] - start[static_cast<std::size_t>(i)].value) / kPrior;
     if (J == nullptr) return;
     J->setZero(r.size(), kUnknowns);
     in_parallel(kUnknowns, threads, [&](std::size_t k) {
       const auto i = static_cast<Eigen::Index>(k);
-      Eigen::VectorXd there = x;
+      Eigen::VectorXd there = at;
       there[i] += kDiffer;
       J->col(i).head(own.size()) = (off(there) / kResidual - own) / kDiffer;
       (*J)(own.size() + i, i) = 1 / kPrior;
@@ -153,21 +170,76 @@ StrainSlip fit_strain_slip(const std::vector<SlipPlace>& places, int threads) {
   LeastSquaresOptions options;
   options.max_iterations = 30;
   options.decrease_tolerance = 0.01;
-  const LeastSquaresResult found = minimise(start, with_prior, options);
+  const Eigen::VectorXd x = minimise(start, with_prior, options).x;
+  Fitted fitted{start, rings_of(x, friction)};
+  for (int i = 0; i < kUnknowns; ++i) fitted.unknowns[static_cast<std::size_t>(i)].value = x[i];
+  const Eigen::VectorXd left = off(x);
+  fitted.misfit = kUnseen * std::sqrt(3.0 / static_cast<double>(left.size())) * left.norm();
+  return fitted;
+}
+
+}  // namespace
+
+void StrainSlip::State::store(double* numbers) const noexcept {
+  for (const RimSlip::State* rings : {&near, &deep}) {
+    numbers = std::copy_n(rings->slip.data(), rings->slip.size(), numbers);
+    numbers = std::copy_n(rings->way.data(), 2, numbers);
+  }
+  *numbers = deepest;
+}
+
+StrainSlip::State StrainSlip::State::load(const double* numbers) noexcept {
+  State state;
+  for (RimSlip::State* rings : {&state.near, &state.deep}) {
+    std::copy_n(numbers, rings->slip.size(), rings->slip.data());
+    std::copy_n(numbers + rings->slip.size(), 2, rings->way.data());
+    numbers += RimSlip::kNumbers;
+  }
+  state.deepest = *numbers;
+  return state;
+}
+
+double StrainSlip::deep_share(double deepest) const noexcept {
+  if (deep.deepest <= near.deepest) return 0;
+  return std::clamp((deepest - near.deepest) / kHandOver, 0.0, 1.0);
+}
+
+bool StrainSlip::within(const State& state, const RimSlip::Force& force) const noexcept {
+  const bool borne =
+      seen >= kSeenAll || force.along.norm() <= seen * near.rim.friction * force.normal;
+  return borne && state.deepest <= deepest() && force.slipped.norm() <= kSlippedFar;
+}
+
+double StrainSlip::doubt_of(const State& state, double lost) const noexcept {
+  const double share = deep_share(state.deepest);
+  const double beyond = state.deepest - deepest();
+  return std::hypot((1 - share) * near.doubt + share * deep.doubt,
+                    std::clamp(beyond, 0.0, 1.0) * lost);
+}
+
+StrainSlip fit_strain_slip(const std::vector<SlipPlace>& places, int threads) {
   StrainSlip slip;
-  slip.rim = rings_of(found.x, friction);
-  const Eigen::VectorXd left = off(found.x);
-  double elements = 0;
+  const SlipPresses& first = places.front().presses;
+  slip.near.deepest = first.deepest;
+  slip.deep.deepest = first.coarse_deepest;
   slip.seen = 0;
-  slip.deepest = places.front().presses.deepest;
+  double elements = 0, coarse = 0;
   for (const SlipPlace& place : places) {
-    elements = std::max(elements, place.presses.doubt);
-    slip.deepest = std::min(slip.deepest, place.presses.deepest);
-    slip.seen = std::max(slip.seen, place.presses.seen);
+    const SlipPresses& presses = place.presses;
+    slip.near.deepest = std::min(slip.near.deepest, presses.deepest);
+    slip.deep.deepest = std::min(slip.deep.deepest, presses.coarse_deepest);
+    slip.seen = std::max(slip.seen, presses.seen);
+    elements = std::max(elements, presses.doubt);
+    coarse = std::max(coarse, presses.coarse_doubt);
   }
   slip.seen = std::min(slip.seen, 1.0);
-  slip.doubt = std::hypot(kUnseen * std::sqrt(3.0 / static_cast<double>(left.size())) * left.norm(),
-                          elements);
+  const Fitted near = fit(slip, places, Rows::kNear, unknowns(), threads);
+  slip.near.rim = near.rim;
+  slip.near.doubt = std::hypot(near.misfit, elements);
+  if (slip.deep.deepest <= slip.near.deepest) return slip;
+  const Fitted deep = fit(slip, places, Rows::kDeep, near.unknowns, threads);
+  slip.deep.rim = deep.rim;
+  slip.deep.doubt = std::hypot(deep.misfit, coarse);
   return slip;
 }
 

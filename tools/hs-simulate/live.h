@@ -190,10 +190,11 @@ inline void tell_large_strain(const Arguments& arguments, const PreparedBody& bo
                   strain->samples(), 100 * strain->left_out_error());
   if (strain->left_out_error() > arguments[flag::accuracy])
     words += fmt::format(", not the {:g} % of --accuracy", 100 * arguments[flag::accuracy]);
-  if (strain->slip())
+  if (const std::optional<StrainSlip>& slip = strain->slip())
     words += fmt::format(
-        "; a tool that slips was pressed to {:.2g} of its radius, deeper rows are flagged 32",
-        strain->slip()->deepest);
+        "; a tool that slips was pressed to {:.3g} of its radius (by coarse elements alone, which "
+        "are more uncertain, from {:.3g} on), deeper rows are flagged 32",
+        slip->deepest(), slip->near.deepest);
   for (const EffectInstance& i : body.effects())
     if (touches_otherwise(i, strain->slip().has_value()))
       words += fmt::format(

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -35,6 +36,8 @@ TEST(SlipPresses, AreReadAsTheyWereWrittenAndNotWhereTheyAreDamaged) {
   presses.friction = kFriction;
   presses.doubt = 0.01;
   presses.deepest = 0.3;
+  presses.coarse_deepest = 0.45;
+  presses.coarse_doubt = 0.03;
   presses.seen = 0.9;
   presses.motions = {{-1, 0, {{0.15, 0, 0}, {0.3, 0, 0}}, {{0.98, 0, 0}, {0.97, 0.01, 0}}},
                      {0, 2, {{0.15, 0, 0}}, {{0.9, 0, 0}}}};
@@ -47,6 +50,10 @@ TEST(SlipPresses, AreReadAsTheyWereWrittenAndNotWhereTheyAreDamaged) {
   bytes[40] ^= 1;
   EXPECT_FALSE(SlipPresses::read(bytes));
   EXPECT_FALSE(SlipPresses::read(bytes.substr(1)));
+}
+
+RimHeld linear_body(double depth, const Eigen::Vector2d& aside) {
+  return {depth, 0.7 * aside, Eigen::Vector2d::Zero(), 0.7 * Eigen::Matrix2d::Identity()};
 }
 
 // A linear body under rings of which the forces are known, on the ways that places are pressed by.
@@ -74,9 +81,8 @@ SlipPlace place_of(const RimSlip& rim, double far_aside) {
         for (int k = 1; k <= 5; ++k) {
           const Vec3 w =
               m.way.empty() ? Vec3(k / 5.0 * v) : Vec3(m.way.back() + k / 5.0 * (v - m.way.back()));
-          f = rim.step(w[0], w.tail<2>(), state, [&](const Eigen::Vector2d& aside) -> RimHeld {
-            return {w[0], 0.7 * aside, Eigen::Vector2d::Zero(), 0.7 * Eigen::Matrix2d::Identity()};
-          });
+          f = rim.step(w[0], w.tail<2>(), state,
+                       [&](const Eigen::Vector2d& aside) { return linear_body(w[0], aside); });
         }
         m.way.push_back(v);
         m.force.emplace_back(f.normal / v[0], f.along[0] / v[0], f.along[1] / v[0]);
@@ -104,14 +110,89 @@ RimSlip known_rings(double friction) {
 
 TEST(StrainSlip, RingsThatAreKnownAreFoundByTheirForces) {
   const StrainSlip found = fit_strain_slip({place_of(known_rings(0.4), 0.4)}, 2);
-  EXPECT_LT(found.doubt, 0.01);
+  EXPECT_LT(found.near.doubt, 0.01);
   EXPECT_GT(found.seen, 0.97);
-  EXPECT_DOUBLE_EQ(found.deepest, 0.6);
+  EXPECT_DOUBLE_EQ(found.near.deepest, 0.6);
 }
 
 TEST(StrainSlip, AToolThatHardlySlippedWasNotSeenToSlip) {
   const StrainSlip found = fit_strain_slip({place_of(known_rings(2), 0.1)}, 2);
   EXPECT_LT(found.seen, 0.5);
+}
+
+TEST(StrainSlip, SaysWhereNothingWasSeenOfTheTool) {
+  StrainSlip slip;
+  slip.near.rim.friction = kFriction;
+  slip.near.deepest = 0.75;
+  StrainSlip::State state, deep;
+  state.deepest = 0.7;
+  deep.deepest = 0.8;
+  RimSlip::Force force;
+  force.normal = 1;
+  force.along = {0, 0.3 * kFriction};
+  slip.seen = 0.5;
+  EXPECT_TRUE(slip.within(state, force));
+  EXPECT_FALSE(slip.within(deep, force));
+  slip.deep.deepest = 0.9;  // coarse elements came there
+  EXPECT_TRUE(slip.within(deep, force));
+  force.along = {0, 0.6 * kFriction};  // more than it was seen to bear
+  EXPECT_FALSE(slip.within(state, force));
+  slip.seen = 0.97;  // it slipped as a whole, and bears no more
+  EXPECT_TRUE(slip.within(state, force));
+  force.slipped = {0.4, 0.4};
+  EXPECT_FALSE(slip.within(state, force));
+}
+
+TEST(StrainSlip, IsTheMoreUncertainTheDeeperTheToolHasBeen) {
+  StrainSlip slip;
+  slip.near.doubt = 0.02;
+  slip.near.deepest = 0.75;
+  slip.deep.doubt = 0.04;
+  slip.deep.deepest = 2.25;
+  StrainSlip::State state;
+  state.deepest = 0.7;
+  EXPECT_DOUBLE_EQ(slip.doubt_of(state, 0.2), 0.02);
+  state.deepest = 1.5;
+  EXPECT_DOUBLE_EQ(slip.doubt_of(state, 0.2), 0.04);
+  state.deepest = 2.55;
+  EXPECT_NEAR(slip.doubt_of(state, 0.2), std::hypot(0.04, 0.06), 1e-12);
+  state.deepest = 5;
+  EXPECT_NEAR(slip.doubt_of(state, 0.2), std::hypot(0.04, 0.2), 1e-12);
+  slip.deep.deepest = 0;  // not pressed deeper
+  state.deepest = 1.05;
+  EXPECT_NEAR(slip.doubt_of(state, 0.2), std::hypot(0.02, 0.06), 1e-12);
+}
+
+// From rings to others the force has no step, and what has slipped is kept when it is stored.
+TEST(StrainSlip, GoesOverToTheRingsOfDeepPressesWithoutAStep) {
+  StrainSlip slip;
+  slip.near.rim = slip.deep.rim = known_rings(kFriction);
+  slip.near.deepest = 0.5;
+  slip.deep.deepest = 2;
+  slip.deep.rim.drawn.fill(0.1);
+  StrainSlip::State state;
+  RimSlip::State near;
+  double before = 0, most = 0;
+  for (int i = 1; i <= 200; ++i) {
+    const double d = 0.005 * i;
+    const Eigen::Vector2d aside(0.1 * d, 0);
+    const auto held = [&](const Eigen::Vector2d& way) { return linear_body(d, way); };
+    const double force = slip.step(d, aside, state, held).normal;
+    const double alone = slip.near.rim.step(d, aside, near, held).normal;
+    if (d <= 0.5) EXPECT_EQ(force, alone);
+    most = std::max(most, std::abs(force - before - 0.005));
+    before = force;
+    std::array<double, StrainSlip::State::kNumbers> numbers;
+    state.store(numbers.data());
+    state = StrainSlip::State::load(numbers.data());
+  }
+  EXPECT_LT(most, 0.005);
+  EXPECT_EQ(state.deepest, 1);
+  const auto held = [&](const Eigen::Vector2d& way) { return linear_body(1, way); };
+  EXPECT_GT(std::abs(before - slip.near.rim.step(1, {0.1, 0}, near, held).normal), 0.005);
+  slip.step(-0.1, {0.1, 0}, state, held);  // it has left, and comes down anew
+  EXPECT_EQ(state.deepest, 0);
+  EXPECT_EQ(state.deep.slip, state.near.slip);
 }
 
 // In and aside, aside alone as far as it slips, back, and out.
@@ -200,6 +281,27 @@ TEST(StrainSlip, WhatSlidesFarIsSaidToBeBeyond) {
   }
   loop.press(0.101, test::kStrainedRadius * Vec3(1.3, 0, -0.4));
   EXPECT_NE(loop.beyond() & kBeyondLaw, 0);
+}
+
+// What slipped deeper than it was pressed acts on the way out too.
+TEST(StrainSlip, AToolThatHasBeenDeeperIsBeyondUntilItLeaves) {
+  const PreparedBody& body = slipping_body();
+  ForceLoop loop(body);
+  loop.begin({0.052, 0.047, 0.06});
+  double t = 0;
+  const auto press = [&](double depth) {
+    loop.press(t += 0.01, test::kStrainedRadius * Vec3(0, 0, -depth));
+    return (loop.beyond() & kBeyondLaw) != 0;
+  };
+  const double deepest = body.large_strain()->slip()->deepest();
+  EXPECT_FALSE(press(0.5 * deepest));
+  const double before = loop.uncertainty();
+  EXPECT_TRUE(press(deepest + 0.3));
+  EXPECT_TRUE(press(0.5 * deepest));
+  EXPECT_GT(loop.uncertainty(), before);
+  press(-0.1);
+  EXPECT_FALSE(press(0.5 * deepest));
+  EXPECT_DOUBLE_EQ(loop.uncertainty(), before);
 }
 
 // Whatever way the tool goes.
