@@ -43,11 +43,11 @@ std::size_t depth_index(const Vec3& v) {
   return static_cast<std::size_t>(std::lround(v[0] / kSlipPart)) - 1;
 }
 
-// As a held tool's; where two meshes are compared twice as large away from the rim, which takes a
-// sixth of the time: forces of these converge as regularly.
-FullOptions slip_elements(const ContactBase& base, double rim, double growth) {
+// As a held tool's, twice as large away from the rim, which takes a sixth of the time: forces over
+// those of a tool that holds converge as regularly.
+FullOptions slip_elements(const ContactBase& base, double rim) {
   FullOptions options = strain_elements(base, rim);
-  options.growth *= growth;
+  options.growth *= 2;
   options.solve.least_step = kSlipLeast;
   return options;
 }
@@ -182,12 +182,11 @@ std::optional<SlipPresses> press_slipping(const TetMesh& body, const ContactBase
                                           double friction, std::uint64_t seed, bool finer) {
   const int depths = std::min(kDepths, static_cast<int>(sample.into / kSlipStep));
   if (depths < 1) return std::nullopt;
-  const double growth = finer ? 2 : 1;
   SlipPresses presses;
   presses.friction = friction;
   presses.motions = planned_slip_ways(sideways(sample), friction, depths, seed);
   const auto press_all = [&](double rim, std::vector<SlipMotion>& motions) {
-    return press(body, slip_elements(base, rim, growth), held, slips, sample, tool_radius, friction,
+    return press(body, slip_elements(base, rim), held, slips, sample, tool_radius, friction,
                  motions);
   };
   presses.seen = press_all(1, presses.motions);

@@ -301,7 +301,7 @@ TEST(StrainSlip, AToolThatHasBeenDeeperIsBeyondUntilItLeaves) {
   EXPECT_GT(loop.uncertainty(), before);
   press(-0.1);
   EXPECT_FALSE(press(0.5 * deepest));
-  EXPECT_DOUBLE_EQ(loop.uncertainty(), before);
+  EXPECT_NEAR(loop.uncertainty(), before, 0.01 * before);
 }
 
 // Whatever way the tool goes.
