@@ -192,8 +192,8 @@ inline void tell_large_strain(const Arguments& arguments, const PreparedBody& bo
     words += fmt::format(", not the {:g} % of --accuracy", 100 * arguments[flag::accuracy]);
   if (const std::optional<StrainSlip>& slip = strain->slip())
     words += fmt::format(
-        "; a tool that slips was pressed to {:.3g} of its radius (by coarse elements alone, which "
-        "are more uncertain, from {:.3g} on), deeper rows are flagged 32",
+        "; a tool that slips was pressed to {:.3g} of its radius (from {:.3g} on with an "
+        "uncertainty of its own), deeper rows are flagged 32",
         slip->deepest(), slip->near.deepest);
   for (const EffectInstance& i : body.effects())
     if (touches_otherwise(i, strain->slip().has_value()))

@@ -8,16 +8,21 @@ namespace hapsim {
 namespace {
 
 TEST(SlipWays, KeepToDepthsAtWhichAToolThatHoldsIsPressed) {
-  const std::vector<SlipMotion> all = planned_slip_ways({0, 1}, 0.4, 5, 1);
-  ASSERT_GT(all.size(), static_cast<std::size_t>(kSlipFixed));
-  for (std::size_t m = 0; m < all.size(); ++m)
-    for (const Vec3& v : all[m].way) {
-      const double parts = v[0] / kSlipPart;
-      EXPECT_NEAR(parts, std::round(parts), 1e-9);
-      EXPECT_GE(parts, 0.99);
-      EXPECT_LE(v[0], (m < kSlipFixed ? 5 * kSlipStep : kSlipWayDepth + 0.5 * kSlipPart) + 1e-9);
-      if (m >= kSlipFixed) EXPECT_LE(v.tail<2>().norm(), 0.4 + 1e-9);
-    }
+  for (const int depths : {5, 15}) {
+    const std::vector<SlipMotion> all = planned_slip_ways({0, 1}, 0.4, depths, 1);
+    ASSERT_GT(all.size(), static_cast<std::size_t>(kSlipFixed));
+    const bool deep = depths > kSlipNear;
+    for (std::size_t m = 0; m < all.size(); ++m)
+      for (const Vec3& v : all[m].way) {
+        const double parts = v[0] / kSlipPart;
+        EXPECT_NEAR(parts, std::round(parts), 1e-9);
+        EXPECT_GE(parts, 0.99);
+        const bool drawn = m >= kSlipFixed;
+        const double most = drawn && !deep ? kSlipWayDepth + kSlipPart / 2 : depths * kSlipStep;
+        EXPECT_LE(v[0], most + 1e-9);
+        if (drawn) EXPECT_LE(v.tail<2>().norm(), (deep ? 0.8 : 0.4) + 1e-9);
+      }
+  }
 }
 
 TEST(SlipWays, GoOnFromStepsThatThereAre) {
